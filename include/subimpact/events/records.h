@@ -1,0 +1,50 @@
+#pragma once
+
+/// What a simulation reports of its events: transitions, and the sub-impacts made of them.
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace subimpact {
+
+/// The instants at which the equations of motion change.
+enum class EventKind {
+  contact_begins,    ///< the gap closes: indentation rises through the residual one
+  contact_yields,    ///< the indentation rises through its largest value so far (or first yield)
+  contact_unloads,   ///< the indentation stops growing while the contact flows
+  contact_ends,      ///< the force falls to zero
+  section_reverses,  ///< a flowing section turns back
+};
+
+/// The name used in transitions.csv.
+std::string_view to_string(EventKind kind);
+
+/// One located event. `value` is the indentation (m) for contact events, the curvature (1/m) for a
+/// section's; `section` is the section's index from the first end, or none.
+struct Transition {
+  double time = 0.0;  ///< s
+  EventKind kind = EventKind::contact_begins;
+  std::optional<std::size_t> section;
+  double value = 0.0;
+};
+
+/// From the instant contact begins to the instant its force returns to zero.
+struct SubImpact {
+  double start = 0.0;                  ///< s
+  std::optional<double> end;           ///< s; none: still in contact when the simulation ended
+  double peak_force = 0.0;             ///< N
+  double impulse = 0.0;                ///< N s
+  double max_indentation = 0.0;        ///< m, largest within this sub-impact
+  double residual_indentation = 0.0;   ///< m, after it
+  double striker_velocity = 0.0;       ///< m/s, at its end
+  int zone = 0;                        ///< numbered from 1
+  int subzone = 0;                     ///< numbered from 1 within the zone
+};
+
+/// Groups sub-impacts: one that begins no later than `zone_gap` (s) after the end of the one before it
+/// belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills zone and subzone.
+void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
+
+}  // namespace subimpact

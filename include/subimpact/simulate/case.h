@@ -1,0 +1,79 @@
+#pragma once
+
+/// A case: the scene, how it is modelled, how it is integrated, and what is kept of it. Each member is
+/// a key of the case file; case_keys() (see case_keys.h) lists them with units, defaults and ranges.
+
+#include <optional>
+#include <string>
+
+#include "subimpact/model/scene.h"
+
+namespace subimpact {
+
+/// Bending law of the sections.
+enum class SectionKind {
+  elastic,  ///< never yields
+  layers,   ///< `layers` elastic-perfectly plastic layers over the thickness
+  exact     ///< infinitely many layers, in closed form
+};
+
+enum class MeshKind { cells };
+
+/// Whether a scene that is symmetric about mid-span is modelled by one half.
+enum class SymmetryUse { automatic, off };
+
+struct ModelOptions {
+  MeshKind mesh = MeshKind::cells;
+  int segments = 501;
+  SectionKind section = SectionKind::exact;
+  int layers = 40;
+  SymmetryUse symmetry = SymmetryUse::automatic;
+};
+
+enum class Method { central_difference, erk };
+
+/// Who solves with the mass matrix.
+enum class MassSolverKind { tridiagonal, klu };
+
+/// What becomes of an event inside a step.
+enum class EventHandling {
+  located,      ///< the step is retaken to end at the event, found on the trajectory itself
+  interpolated  ///< the step stands; the event's time is interpolated within it (the paper's scheme)
+};
+
+enum class ReversalHandling {
+  located,  ///< a flowing section's turn ends the step
+  step_end  ///< history advances at step ends only
+};
+
+enum class VectorOperationsKind { project, library };
+
+struct SolverOptions {
+  Method method = Method::erk;
+  double rtol = 1e-8;               ///< relative to the scene's own scales of displacement and velocity
+  std::optional<double> step;       ///< s; central-difference: 0.9 of critical if empty; erk: adaptive
+  std::optional<double> max_step;   ///< s; adaptive methods
+  std::string table = "dormand-prince";  ///< erk: Butcher table
+  MassSolverKind mass_solver = MassSolverKind::tridiagonal;
+  std::optional<EventHandling> events;   ///< empty: interpolated for central-difference, else located
+  ReversalHandling reversals = ReversalHandling::located;
+  VectorOperationsKind vector_operations = VectorOperationsKind::project;
+  bool beyond_critical = false;     ///< lets a fixed step exceed the stability limit, to see it fail
+};
+
+struct OutputOptions {
+  double interval = 1e-6;     ///< s between history rows; 0: none
+  double zone_gap = 0.1;      ///< in first flexural periods
+  double subzone_gap = 0.02;  ///< in first flexural periods
+};
+
+struct Case {
+  std::string title;
+  Scene scene;
+  ModelOptions model;
+  double end_time = 0.0;  ///< s
+  SolverOptions solver;
+  OutputOptions output;
+};
+
+}  // namespace subimpact

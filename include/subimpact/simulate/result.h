@@ -1,0 +1,101 @@
+#pragma once
+
+/// What a simulation returns.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "subimpact/events/records.h"
+#include "subimpact/simulate/case.h"
+
+namespace subimpact {
+
+/// One row of history.csv; members as its columns, SI units.
+struct HistoryRow {
+  double time;
+  double force;
+  double indentation;
+  double struck_displacement;   ///< w_c
+  double striker_displacement;  ///< w_m
+  double struck_deflection;     ///< f_c = w_c - w(0)
+  double striker_relative;      ///< u_mf = w_m - w(0)
+  double struck_velocity;       ///< v_c
+  double striker_velocity;      ///< v_m
+  double back_stress;           ///< Pa, positive in tension
+  double striker_energy;        ///< U_m
+  double beam_kinetic_energy;   ///< U_k
+  double bending_elastic;       ///< U_e
+  double bending_plastic;       ///< U_p
+  double contact_elastic;       ///< U_c
+  double contact_plastic;       ///< D_c
+  double energy_error;          ///< (sum of the six - initial)/initial
+  double momentum_error;        ///< (momentum - initial)/initial
+};
+
+/// How a simulation ended.
+enum class OutcomeKind {
+  completed,
+  unstable,           ///< energy grew without reason, or a value is not a number
+  solver_failed,      ///< the integrator could not go on
+  left_validity,      ///< the indentation reached the beam's thickness
+};
+
+struct Outcome {
+  OutcomeKind kind = OutcomeKind::completed;
+  double time = 0.0;    ///< s, reached
+  std::string message;  ///< one line; for failures: time, mode, cause, what to do
+  bool completed() const { return kind == OutcomeKind::completed; }
+};
+
+/// What was used where the case left a choice open, or leaves it to be derived.
+struct Used {
+  bool half_model = false;
+  std::size_t n_unknowns = 0;         ///< of the beam
+  std::size_t n_sections = 0;
+  std::string mesh;                   ///< in words
+  double highest_frequency = 0.0;     ///< rad/s, bound
+  double critical_step = 0.0;         ///< s, of central differences
+  std::optional<double> step;         ///< s, of fixed-step methods
+  EventHandling events = EventHandling::located;
+  double position_tolerance = 0.0;    ///< m, adaptive methods
+  double velocity_tolerance = 0.0;    ///< m/s
+  double contact_stiffness = 0.0;     ///< K, N/m^1.5
+  double yield_indentation = 0.0;     ///< lambda_s, m
+  double yield_curvature = 0.0;       ///< 1/m
+  double first_period = 0.0;          ///< T1 of the beam in bending, s
+  double initial_energy = 0.0;        ///< J
+};
+
+struct Work {
+  long steps = 0;
+  long rejected_steps = 0;
+  long partial_steps = 0;
+  long right_hand_sides = 0;
+  long mass_solves = 0;
+  long jacobians = 0;
+  long factorisations = 0;
+  long roots = 0;        ///< events located
+  double setup_seconds = 0.0;
+  double wall_seconds = 0.0;  ///< whole, set-up included
+};
+
+struct Result {
+  Outcome outcome;
+  Used used;
+  std::vector<SubImpact> sub_impacts;
+  std::vector<Transition> transitions;
+  std::vector<HistoryRow> history;
+  std::optional<double> first_section_yield;  ///< s, end of the step in which a section first flowed
+  std::optional<double> first_contact_yield;  ///< s
+  std::size_t n_yielded_sections = 0;         ///< of the sections modelled
+  double max_force = 0.0;        ///< N
+  double max_indentation = 0.0;  ///< m
+  double striker_velocity = 0.0;    ///< m/s, at the end
+  double beam_mean_velocity = 0.0;  ///< m/s, at the end: beam momentum over beam mass
+  double max_energy_error = 0.0;    ///< largest relative error over the rows and at the end
+  double max_momentum_error = 0.0;
+  Work work;
+};
+
+}  // namespace subimpact

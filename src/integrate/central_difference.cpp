@@ -1,0 +1,54 @@
+#include "integrate/central_difference.h"
+
+#include <utility>
+
+namespace subimpact {
+
+CentralDifference::CentralDifference(SecondOrderOde& ode, double step)
+    : ode_(ode),
+      n_(ode.n_positions()),
+      step_(step),
+      a0_(n_),
+      a1_(n_),
+      a_partial_(n_) {}
+
+void CentralDifference::restart(double t, const State& y) {
+  t0_ = t1_ = origin_ = t;
+  steps_from_origin_ = 0;
+  y0_ = y;
+  y1_ = y;
+  ode_.acceleration({y1_.data(), n_}, a1_);
+  ++work_.right_hand_sides;
+}
+
+void CentralDifference::advance(double h, State& y, std::vector<double>& acceleration) {
+  const double half = 0.5 * h;
+  const double* q0 = y0_.data();
+  const double* v0 = q0 + n_;
+  double* q = y.data();
+  double* v = q + n_;
+  for (std::size_t i = 0; i < n_; ++i) {
+    v[i] = v0[i] + half * a0_[i];
+    q[i] = q0[i] + h * v[i];
+  }
+  ode_.acceleration({q, n_}, acceleration);
+  ++work_.right_hand_sides;
+  for (std::size_t i = 0; i < n_; ++i) v[i] += half * acceleration[i];
+}
+
+void CentralDifference::step() {
+  std::swap(y0_, y1_);
+  std::swap(a0_, a1_);
+  t0_ = t1_;
+  advance(step_, y1_, a1_);
+  t1_ = origin_ + static_cast<double>(++steps_from_origin_) * step_;
+  ++work_.steps;
+}
+
+void CentralDifference::state_at(double t, State& y) {
+  y.resize(2 * n_);
+  advance(t - t0_, y, a_partial_);
+  ++work_.partial_steps;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "integrate/integrator.h"
+
+namespace subimpact {
+
+/// Explicit central differences, the struck-beam paper's scheme, second order, fixed step:
+///
+///     (q[n+1] - 2 q[n] + q[n-1])/dt^2 = a(q[n]),
+///
+/// written with the velocity so that it starts by itself and can take a partial step (the same
+/// positions to rounding): v[n+1/2] = v[n] + dt/2 a[n], q[n+1] = q[n] + dt v[n+1/2],
+/// v[n+1] = v[n+1/2] + dt/2 a[n+1]. One acceleration a step. Stable for dt * omega_max < 2.
+class CentralDifference final : public Integrator {
+ public:
+  /// `step` in s; whether it is below the critical one is for the caller to see to.
+  CentralDifference(SecondOrderOde& ode, double step);
+
+  void restart(double t, const State& y) override;
+  void step() override;
+  void state_at(double t, State& y) override;
+  WorkCounts work() const override { return work_; }
+
+ private:
+  // One step of length h from (y0_, a0_) into y; leaves a(q) at its end in `acceleration`.
+  void advance(double h, State& y, std::vector<double>& acceleration);
+
+  SecondOrderOde& ode_;
+  std::size_t n_;
+  double step_;
+  double origin_ = 0.0;  // times are origin + k step, free of accumulated rounding
+  long steps_from_origin_ = 0;
+  std::vector<double> a0_, a1_, a_partial_;
+  WorkCounts work_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,190 @@
+#include "integrate/sundials/vector.h"
+
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace subimpact {
+namespace {
+
+std::size_t size(N_Vector v) { return static_cast<std::size_t>(NV_LENGTH_S(v)); }
+
+// z[i] = f(i); z may alias an operand entry by entry.
+template <class F>
+void fill(N_Vector z, F f) {
+  double* out = NV_DATA_S(z);
+  const std::size_t n = size(z);
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) out[i] = f(i);
+}
+
+// Sum or maximum of f(i) in eight running parts, so that the compiler may vectorise it.
+template <class F, class Join>
+double reduce(std::size_t n, double start, F f, Join join) {
+  constexpr std::size_t lanes = 8;
+  double part[lanes];
+  for (double& value : part) value = start;
+  std::size_t i = 0;
+  for (; i + lanes <= n; i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) part[lane] = join(part[lane], f(i + lane));
+  }
+  for (; i < n; ++i) part[0] = join(part[0], f(i));
+  for (std::size_t lane = 1; lane < lanes; ++lane) part[0] = join(part[0], part[lane]);
+  return part[0];
+}
+constexpr auto plus = [](double a, double b) { return a + b; };
+
+// The operations SUNDIALS' integrators spend their time in.
+void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+  fill(z, [=, u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return a * u[i] + b * v[i]; });
+}
+void constant(realtype c, N_Vector z) {
+  fill(z, [=](std::size_t) { return c; });
+}
+void product(N_Vector x, N_Vector y, N_Vector z) {
+  fill(z, [u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return u[i] * v[i]; });
+}
+void divide(N_Vector x, N_Vector y, N_Vector z) {
+  fill(z, [u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return u[i] / v[i]; });
+}
+void scale(realtype c, N_Vector x, N_Vector z) {
+  if (c == 1.0 && x == z) return;
+  fill(z, [=, u = NV_DATA_S(x)](std::size_t i) { return c * u[i]; });
+}
+void absolute(N_Vector x, N_Vector z) {
+  fill(z, [u = NV_DATA_S(x)](std::size_t i) { return std::abs(u[i]); });
+}
+void inverse(N_Vector x, N_Vector z) {
+  fill(z, [u = NV_DATA_S(x)](std::size_t i) { return 1.0 / u[i]; });
+}
+void add_constant(N_Vector x, realtype b, N_Vector z) {
+  fill(z, [=, u = NV_DATA_S(x)](std::size_t i) { return u[i] + b; });
+}
+realtype max_norm(N_Vector x) {
+  return reduce(
+      size(x), 0.0, [u = NV_DATA_S(x)](std::size_t i) { return std::abs(u[i]); },
+      [](double a, double b) { return std::max(a, b); });
+}
+realtype minimum(N_Vector x) {
+  const double* u = NV_DATA_S(x);
+  return reduce(
+      size(x), u[0], [u](std::size_t i) { return u[i]; },
+      [](double a, double b) { return std::min(a, b); });
+}
+realtype dot(N_Vector x, N_Vector y) {
+  return reduce(
+      size(x), 0.0, [u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return u[i] * v[i]; },
+      plus);
+}
+realtype wrms_norm(N_Vector x, N_Vector w) {
+  const double sum = reduce(
+      size(x), 0.0,
+      [u = NV_DATA_S(x), v = NV_DATA_S(w)](std::size_t i) {
+        const double weighted = u[i] * v[i];
+        return weighted * weighted;
+      },
+      plus);
+  return std::sqrt(sum / static_cast<double>(size(x)));
+}
+
+// z = sum of N scaled vectors in one pass.
+template <int N>
+void combine(const realtype* c, N_Vector* x, double* z, sunindextype length) {
+  const double* column[N];
+  double weight[N];
+  for (int k = 0; k < N; ++k) {
+    column[k] = NV_DATA_S(x[k]);
+    weight[k] = c[k];
+  }
+#pragma GCC ivdep
+  for (sunindextype i = 0; i < length; ++i) {
+    double sum = weight[0] * column[0][i];
+    for (int k = 1; k < N; ++k) sum += weight[k] * column[k][i];
+    z[i] = sum;
+  }
+}
+
+int linear_combination(int n, realtype* c, N_Vector* x, N_Vector z) {
+  constexpr int widest = 8;
+  const sunindextype length = NV_LENGTH_S(z);
+  double* out = NV_DATA_S(z);
+  const auto pass = [&](int count, realtype* weights, N_Vector* vectors) {
+    switch (count) {
+      case 1:
+        return combine<1>(weights, vectors, out, length);
+      case 2:
+        return combine<2>(weights, vectors, out, length);
+      case 3:
+        return combine<3>(weights, vectors, out, length);
+      case 4:
+        return combine<4>(weights, vectors, out, length);
+      case 5:
+        return combine<5>(weights, vectors, out, length);
+      case 6:
+        return combine<6>(weights, vectors, out, length);
+      case 7:
+        return combine<7>(weights, vectors, out, length);
+      default:
+        return combine<widest>(weights, vectors, out, length);
+    }
+  };
+  // The first pass takes as many as fit; further ones carry the sum so far along with weight 1. Only
+  // the first vector may alias z, so nothing is lost in between.
+  int done = std::min(n, widest);
+  pass(done, c, x);
+  while (done < n) {
+    const int more = std::min(n - done, widest - 1);
+    realtype weights[widest] = {1.0};
+    N_Vector vectors[widest] = {z};
+    std::copy_n(c + done, more, weights + 1);
+    std::copy_n(x + done, more, vectors + 1);
+    pass(more + 1, weights, vectors);
+    done += more;
+  }
+  return 0;
+}
+
+}  // namespace
+
+ContextPointer make_context() {
+  SUNContext context = nullptr;
+#if SUNDIALS_VERSION_MAJOR >= 7
+  const int flag = SUNContext_Create(SUN_COMM_NULL, &context);
+#else
+  const int flag = SUNContext_Create(nullptr, &context);
+#endif
+  if (flag != 0) throw std::runtime_error("SUNContext_Create failed");
+  return ContextPointer(context);
+}
+
+VectorPointer make_vector(std::size_t n, SUNContext context, VectorOperations operations) {
+  VectorPointer vector(N_VNew_Serial(static_cast<sunindextype>(n), context));
+  if (!vector) throw std::runtime_error("N_VNew_Serial failed");
+  if (operations == VectorOperations::project) {
+    auto& ops = *vector->ops;
+    ops.nvlinearsum = linear_sum;
+    ops.nvconst = constant;
+    ops.nvprod = product;
+    ops.nvdiv = divide;
+    ops.nvscale = scale;
+    ops.nvabs = absolute;
+    ops.nvinv = inverse;
+    ops.nvaddconst = add_constant;
+    ops.nvmaxnorm = max_norm;
+    ops.nvmin = minimum;
+    ops.nvdotprod = dot;
+    ops.nvwrmsnorm = wrms_norm;
+    ops.nvlinearcombination = linear_combination;
+  } else {
+    N_VEnableFusedOps_Serial(vector.get(), SUNTRUE);
+  }
+  return vector;
+}
+
+std::span<double> entries(N_Vector vector) {
+  return {NV_DATA_S(vector), static_cast<std::size_t>(NV_LENGTH_S(vector))};
+}
+
+}  // namespace subimpact

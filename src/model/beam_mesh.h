@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/banded_matrix.h"
+#include "subimpact/model/scene.h"
+
+namespace subimpact {
+
+/// A few coefficients on the unknowns: a functional of the displacement, or a point load.
+struct SparseFunctional {
+  struct Term {
+    std::size_t unknown;
+    double coefficient;
+  };
+  std::vector<Term> terms;
+
+  double operator()(std::span<const double> unknowns) const {
+    double sum = 0.0;
+    for (const Term& term : terms) sum += term.coefficient * unknowns[term.unknown];
+    return sum;
+  }
+  /// forces += amount * coefficients: the generalised force of a point load `amount`.
+  void add_to(std::span<double> forces, double amount) const {
+    for (const Term& term : terms) forces[term.unknown] += amount * term.coefficient;
+  }
+};
+
+/// A beam cut into finitely many unknowns: everything the rest of the program knows of it.
+///
+/// With unknowns q (displacements, and slopes where a mesh has them), curvatures kappa = B q at the
+/// sections (stress points) and their integration weights W (m), the beam obeys
+///
+///     Mass q'' = -B^T W (-M(kappa)) + S F,
+///
+/// S the struck point's functional, so that bending work is sum W (-M) dkappa and contact work F dS q:
+/// no energy appears or is lost in space. Where symmetry halves the unknowns, the mirrored half is
+/// folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
+class BeamMesh {
+ public:
+  virtual ~BeamMesh() = default;
+
+  std::size_t n_unknowns() const { return mass_.size(); }
+  std::size_t n_sections() const { return weights_.size(); }
+
+  const BandedMatrix& mass() const { return mass_; }                       ///< kg
+  std::span<const double> section_weights() const { return weights_; }     ///< W, m
+  std::span<const double> section_positions() const { return positions_; } ///< x, m
+  const SparseFunctional& struck_point() const { return struck_point_; }   ///< S
+  const SparseFunctional& first_end() const { return first_end_; }         ///< w(0)
+  /// Index of the section at (or nearest to) the struck point.
+  std::size_t struck_section() const { return struck_section_; }
+  /// Unknowns of a rigid translation by 1 m.
+  std::span<const double> translation() const { return translation_; }
+  /// Whether only one half is stored.
+  bool symmetric() const { return symmetric_; }
+
+  /// kappa = B q, 1/m.
+  virtual void curvatures(std::span<const double> unknowns, std::span<double> kappa) const = 0;
+  /// forces = -B^T W moments, N; `moments` = -M, N m.
+  virtual void bending_forces(std::span<const double> moments, std::span<double> forces) const = 0;
+  /// An upper bound, close to it, of the highest natural frequency for a bending stiffness (N m2),
+  /// rad/s.
+  virtual double highest_frequency(double bending_stiffness) const = 0;
+  /// "501 cells, half of them by symmetry", for people.
+  virtual std::string description() const = 0;
+
+ protected:
+  BeamMesh(std::size_t n_unknowns, std::size_t half_bandwidth, bool symmetric)
+      : mass_(n_unknowns, half_bandwidth), translation_(n_unknowns, 0.0), symmetric_(symmetric) {}
+
+  BandedMatrix mass_;
+  std::vector<double> weights_;
+  std::vector<double> positions_;
+  SparseFunctional struck_point_;
+  SparseFunctional first_end_;
+  std::size_t struck_section_ = 0;
+  std::vector<double> translation_;
+  bool symmetric_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,86 @@
+#include "model/contact_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace subimpact {
+
+ContactLaw::ContactLaw(double stiffness, double exponent, double yield_indentation)
+    : stiffness_(stiffness), exponent_(exponent), yield_indentation_(yield_indentation) {
+  if (!(stiffness > 0.0) || !std::isfinite(stiffness) || !(exponent >= 1.0) ||
+      !(yield_indentation > 0.0)) {
+    throw std::invalid_argument(
+        "contact law: stiffness and yield indentation must be positive, the exponent at least 1");
+  }
+}
+
+ContactLaw ContactLaw::of(const Scene& scene) {
+  const Beam& beam = scene.beam;
+  const double stiffness = 4.0 * std::sqrt(2.0 * scene.striker.nose_radius) * beam.youngs_modulus *
+                           beam.width / (3.0 * beam.thickness);
+  return ContactLaw(stiffness, 1.5, beam.yield_stress * beam.thickness / beam.youngs_modulus);
+}
+
+// Powers are odd functions, so that a branch goes on smoothly where a trial step leaves its range.
+double ContactLaw::power(double x) const {
+  if (exponent_ == 1.5) return x * std::sqrt(std::abs(x));
+  return std::copysign(std::pow(std::abs(x), exponent_), x);
+}
+
+double ContactLaw::power_slope(double x) const {
+  if (exponent_ == 1.5) return 1.5 * std::sqrt(std::abs(x));
+  return exponent_ * std::pow(std::abs(x), exponent_ - 1.0);
+}
+
+double ContactLaw::power_integral(double x) const {
+  return std::abs(x) * std::abs(power(x)) / (exponent_ + 1.0);
+}
+
+ContactBranch ContactLaw::branch(ContactHistory history, double indentation) const {
+  if (indentation <= residual_indentation(history)) return ContactBranch::separated;
+  if (indentation <= yield_threshold(history)) return ContactBranch::elastic;
+  return ContactBranch::plastic;
+}
+
+double ContactLaw::branch_force(ContactBranch branch, ContactHistory history,
+                                double indentation) const {
+  switch (branch) {
+    case ContactBranch::separated:
+      return 0.0;
+    case ContactBranch::elastic:
+      return stiffness_ * (power(indentation) - power(residual_indentation(history)));
+    case ContactBranch::plastic:
+      return stiffness_ * (power(indentation) - power(indentation - yield_indentation_));
+  }
+  return 0.0;
+}
+
+double ContactLaw::branch_slope(ContactBranch branch, ContactHistory /*history*/,
+                                double indentation) const {
+  switch (branch) {
+    case ContactBranch::separated:
+      return 0.0;
+    case ContactBranch::elastic:
+      return stiffness_ * power_slope(indentation);
+    case ContactBranch::plastic:
+      return stiffness_ * (power_slope(indentation) - power_slope(indentation - yield_indentation_));
+  }
+  return 0.0;
+}
+
+double ContactLaw::recoverable_energy(ContactHistory history, double indentation) const {
+  const ContactHistory now = commit(history, indentation);
+  const double residual = residual_indentation(now);
+  if (indentation <= residual) return 0.0;
+  return stiffness_ * (power_integral(indentation) - power_integral(residual) -
+                       power(residual) * (indentation - residual));
+}
+
+double ContactLaw::dissipated_energy(ContactHistory history) const {
+  const double residual = residual_indentation(history);
+  if (residual == 0.0) return 0.0;
+  return stiffness_ * power(residual) * yield_indentation_;
+}
+
+}  // namespace subimpact

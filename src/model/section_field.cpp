@@ -1,0 +1,141 @@
+#include "model/section_field.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace subimpact {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const SectionHistory virgin{};
+
+// Calls visit(i) for every section outside its window. Sections are scanned in blocks, which the
+// compiler turns into a few vector comparisons; almost all blocks have nothing to visit.
+template <class Visit>
+void for_each_outside(std::span<const double> curvatures, const std::vector<double>& low,
+                      const std::vector<double>& high, Visit visit) {
+  constexpr std::size_t block = 16;
+  const std::size_t n = curvatures.size();
+  const double* k = curvatures.data();
+  std::size_t start = 0;
+  for (; start + block <= n; start += block) {
+    double excess = 0.0;
+    for (std::size_t i = start; i < start + block; ++i) {
+      const double beyond = std::max(k[i] - high[i], low[i] - k[i]);
+      excess = std::max(excess, beyond);
+    }
+    if (excess > 0.0) {
+      for (std::size_t i = start; i < start + block; ++i) {
+        if (k[i] > high[i] || k[i] < low[i]) visit(i);
+      }
+    }
+  }
+  for (std::size_t i = start; i < n; ++i) {
+    if (k[i] > high[i] || k[i] < low[i]) visit(i);
+  }
+}
+
+}  // namespace
+
+SectionField::SectionField(std::size_t n_sections, double stiffness)
+    : storage_(Storage::when_yielded),
+      stiffness_(stiffness),
+      low_(n_sections, -infinity),
+      high_(n_sections, infinity),
+      offset_(n_sections, 0.0) {}
+
+SectionField::SectionField(std::size_t n_sections, const SectionLaw& law, Storage storage)
+    : law_(law),
+      storage_(storage),
+      stiffness_(law.stiffness()),
+      low_(n_sections),
+      high_(n_sections),
+      offset_(n_sections),
+      slot_(n_sections, -1) {
+  const ElasticWindow window = law.window(virgin);
+  std::fill(low_.begin(), low_.end(), window.low);
+  std::fill(high_.begin(), high_.end(), window.high);
+  std::fill(offset_.begin(), offset_.end(), window.offset);
+  if (storage == Storage::always) {
+    for (std::size_t i = 0; i < n_sections; ++i) stored_history(i);
+  }
+}
+
+const SectionHistory& SectionField::history(std::size_t section) const {
+  const int slot = slot_[section];
+  return slot < 0 ? virgin : memory_[static_cast<std::size_t>(slot)];
+}
+
+SectionHistory& SectionField::stored_history(std::size_t section) {
+  int& slot = slot_[section];
+  if (slot < 0) {
+    slot = static_cast<int>(memory_.size());
+    memory_.emplace_back();
+    memory_.back().reversals.reserve(8);
+  }
+  return memory_[static_cast<std::size_t>(slot)];
+}
+
+bool SectionField::has_yielded(std::size_t section) const {
+  return can_yield() && history(section).direction != 0;
+}
+
+void SectionField::moments(std::span<const double> curvatures, std::span<double> moments) const {
+  const std::size_t n = curvatures.size();
+  const double* k = curvatures.data();
+  const double* offset = offset_.data();
+  double* m = moments.data();
+  if (storage_ == Storage::always) {
+    for (std::size_t i = 0; i < n; ++i) m[i] = law_->moment(history(i), k[i]);
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) m[i] = stiffness_ * k[i] - offset[i];
+  if (!law_) return;
+  for_each_outside(curvatures, low_, high_,
+                   [&](std::size_t i) { m[i] = law_->moment(history(i), k[i]); });
+}
+
+double SectionField::tangent(std::size_t section, double curvature) const {
+  if (curvature >= low_[section] && curvature <= high_[section]) return stiffness_;
+  return law_->tangent(history(section), curvature);
+}
+
+std::size_t SectionField::commit(std::span<const double> curvatures) {
+  if (!law_) return 0;
+  std::size_t n_flowed = 0;
+  for_each_outside(curvatures, low_, high_, [&](std::size_t i) {
+    SectionHistory& history = stored_history(i);
+    if (history.direction == 0) ++n_yielded_;
+    law_->commit(history, curvatures[i]);
+    const ElasticWindow window = law_->window(history);
+    low_[i] = window.low;
+    high_[i] = window.high;
+    offset_[i] = window.offset;
+    ++n_flowed;
+  });
+  return n_flowed;
+}
+
+SectionField::Energies SectionField::energies(std::span<const double> curvatures,
+                                              std::span<const double> weights) const {
+  Energies sum;
+  for (std::size_t i = 0; i < curvatures.size(); ++i) {
+    const double k = curvatures[i];
+    if (!has_yielded(i) && k >= low_[i] && k <= high_[i]) {
+      sum.elastic += weights[i] * 0.5 * stiffness_ * k * k;
+      continue;
+    }
+    const double elastic = law_->elastic_energy(history(i), k);
+    sum.elastic += weights[i] * elastic;
+    sum.plastic += weights[i] * (law_->work(history(i), k) - elastic);
+  }
+  return sum;
+}
+
+double SectionField::outer_stress(std::size_t section, double curvature,
+                                  double modulus_reach) const {
+  if (!law_) return -modulus_reach * curvature;
+  return law_->outer_stress(history(section), curvature);
+}
+
+}  // namespace subimpact

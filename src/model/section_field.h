@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/section_law.h"
+
+namespace subimpact {
+
+/// The bending law of every section of a beam, with the memory of those that have yielded.
+///
+/// A section costs memory only once it has yielded, and the law is asked only for a section whose
+/// curvature has left the window in which none of its fibres flows; inside it -M is linear in kappa.
+/// Curvatures and moments are arrays of size() entries, one a section, in 1/m and N m.
+class SectionField {
+ public:
+  enum class Storage {
+    when_yielded,  ///< memory and law calls only where needed
+    always         ///< every section stored and asked every time: the same numbers, for comparison
+  };
+
+  /// A field that never yields, -M = stiffness kappa.
+  SectionField(std::size_t n_sections, double stiffness);
+  /// A field of one law.
+  SectionField(std::size_t n_sections, const SectionLaw& law, Storage storage = Storage::when_yielded);
+
+  std::size_t size() const { return low_.size(); }
+  bool can_yield() const { return law_.has_value(); }
+  /// Largest slope d(-M)/dkappa of any section in any state, N m2.
+  double stiffness() const { return stiffness_; }
+
+  /// -M for the given curvatures, history unchanged.
+  void moments(std::span<const double> curvatures, std::span<double> moments) const;
+  /// -dM/dkappa of one section, N m2.
+  double tangent(std::size_t section, double curvature) const;
+
+  /// Takes the curvatures as reached (an accepted state). Returns how many sections flowed.
+  std::size_t commit(std::span<const double> curvatures);
+
+  /// Bounds of the windows within which nothing flows, 1/m.
+  std::span<const double> window_low() const { return low_; }
+  std::span<const double> window_high() const { return high_; }
+
+  bool has_yielded(std::size_t section) const;
+  std::size_t n_yielded() const { return n_yielded_; }
+
+  struct Energies {
+    double elastic = 0.0;  ///< J
+    double plastic = 0.0;  ///< J
+  };
+  /// Energies with integration weights (m) of the sections.
+  Energies energies(std::span<const double> curvatures, std::span<const double> weights) const;
+
+  /// Stress of the outermost fibre away from the striker, Pa; `modulus_reach` = E h/2 for sections
+  /// that never yield.
+  double outer_stress(std::size_t section, double curvature, double modulus_reach) const;
+
+ private:
+  const SectionHistory& history(std::size_t section) const;
+  SectionHistory& stored_history(std::size_t section);
+
+  std::optional<SectionLaw> law_;
+  Storage storage_;
+  double stiffness_;
+  std::vector<double> low_, high_, offset_;  // windows
+  std::vector<int> slot_;                    // index into memory_, -1: never yielded
+  std::vector<SectionHistory> memory_;
+  std::size_t n_yielded_ = 0;
+};
+
+}  // namespace subimpact

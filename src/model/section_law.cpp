@@ -1,0 +1,197 @@
+#include "model/section_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace subimpact {
+namespace {
+
+using Point = SectionHistory::Point;
+
+// The reversal points in force for motion in one sense: those stored and, when the motion turns back
+// from the edge, the edge itself on top.
+class ReversalsInForce {
+ public:
+  ReversalsInForce(const SectionHistory& history, bool turned)
+      : history_(history), size_(history.reversals.size() + (turned ? 1 : 0)) {}
+  std::size_t size() const { return size_; }
+  const Point& operator[](std::size_t i) const {
+    return i < history_.reversals.size() ? history_.reversals[i] : history_.edge;
+  }
+
+ private:
+  const SectionHistory& history_;
+  std::size_t size_;
+};
+
+bool turns_back(const SectionHistory& history, double x) {
+  return history.direction * (x - history.edge.x) < 0.0;
+}
+
+}  // namespace
+
+SectionLaw::SectionLaw(const Beam& beam, Fibres fibres)
+    : fibres_(fibres),
+      yield_curvature_(beam.yield_curvature()),
+      yield_moment_(beam.yield_moment()),
+      yield_stress_(beam.yield_stress),
+      stiffness_(fibres.slope() * beam.bending_stiffness()) {
+  if (!std::isfinite(beam.yield_stress) || !(beam.yield_stress > 0.0)) {
+    throw std::invalid_argument("section law: the yield stress must be positive and finite");
+  }
+}
+
+bool SectionLaw::inside_window(const SectionHistory& history, double x) const {
+  const double reach = fibres_.first_yield();
+  if (history.direction == 0) return std::abs(x) <= reach;
+  const double behind = history.direction * (history.edge.x - x);
+  return behind >= 0.0 && behind <= 2.0 * reach;
+}
+
+ElasticWindow SectionLaw::window(const SectionHistory& history) const {
+  const double reach = fibres_.first_yield() * yield_curvature_;
+  if (history.direction == 0) return {-reach, reach, 0.0};
+  const double edge = history.edge.x * yield_curvature_;
+  const double offset = stiffness_ * edge - history.edge.m * yield_moment_;
+  return history.direction > 0 ? ElasticWindow{edge - 2.0 * reach, edge, offset}
+                               : ElasticWindow{edge, edge + 2.0 * reach, offset};
+}
+
+SectionLaw::Branch SectionLaw::branch_at(const SectionHistory& history, double x) const {
+  const bool turned = turns_back(history, x);
+  const double sense = turned ? -history.direction : history.direction;
+  const ReversalsInForce points(history, turned);
+  std::size_t n = points.size();
+  while (n > 0) {
+    const Point& origin = points[n - 1];
+    const double limit = n >= 2 ? points[n - 2].x : -origin.x;
+    if (sense * (x - limit) <= 0.0) return {origin, sense, false};
+    n -= n >= 2 ? 2 : 1;
+  }
+  return {{0.0, 0.0}, sense, true};
+}
+
+double SectionLaw::branch_moment(const Branch& branch, double x) const {
+  if (branch.virgin) return fibres_.moment(x);
+  return branch.origin.m + 2.0 * fibres_.moment(0.5 * (x - branch.origin.x));
+}
+
+double SectionLaw::branch_work(const Branch& branch, double from, double to) const {
+  if (branch.virgin) return fibres_.work(to) - fibres_.work(from);
+  return branch.origin.m * (to - from) + 4.0 * (fibres_.work(0.5 * (to - branch.origin.x)) -
+                                                fibres_.work(0.5 * (from - branch.origin.x)));
+}
+
+double SectionLaw::moment(const SectionHistory& history, double curvature) const {
+  const ElasticWindow elastic = window(history);
+  if (curvature >= elastic.low && curvature <= elastic.high) {
+    return stiffness_ * curvature - elastic.offset;
+  }
+  const double x = curvature / yield_curvature_;
+  return yield_moment_ * branch_moment(branch_at(history, x), x);
+}
+
+double SectionLaw::tangent(const SectionHistory& history, double curvature) const {
+  const double x = curvature / yield_curvature_;
+  if (inside_window(history, x)) return stiffness_;
+  const Branch branch = branch_at(history, x);
+  const double scale = yield_moment_ / yield_curvature_;
+  return scale * fibres_.tangent(branch.virgin ? x : 0.5 * (x - branch.origin.x));
+}
+
+void SectionLaw::commit(SectionHistory& history, double curvature) const {
+  const double x = curvature / yield_curvature_;
+  if (inside_window(history, x)) return;
+  if (history.direction == 0) {
+    history.direction = x > 0.0 ? 1 : -1;
+  } else if (turns_back(history, x)) {
+    history.reversals.push_back(history.edge);
+    history.direction = -history.direction;
+  }
+  // Along the branches to x; a branch that passes the previous reversal point closes a loop, which is
+  // forgotten.
+  double from = history.edge.x;
+  for (;;) {
+    const std::size_t n = history.reversals.size();
+    Branch branch{{0.0, 0.0}, static_cast<double>(history.direction), true};
+    double to = x;
+    if (n > 0) {
+      branch.origin = history.reversals[n - 1];
+      branch.virgin = false;
+      const double limit = n >= 2 ? history.reversals[n - 2].x : -branch.origin.x;
+      if (branch.sense * (x - limit) > 0.0) to = limit;
+    }
+    history.work += branch_work(branch, from, to);
+    if (to == x) {
+      history.edge = {x, branch_moment(branch, x)};
+      return;
+    }
+    history.reversals.resize(n - (n >= 2 ? 2 : 1));
+    from = to;
+  }
+}
+
+double SectionLaw::work(const SectionHistory& history, double curvature) const {
+  const double unit = yield_moment_ * yield_curvature_;
+  const double x = curvature / yield_curvature_;
+  if (inside_window(history, x)) {
+    const double step = x - history.edge.x;
+    return unit * (history.work + step * (history.edge.m + 0.5 * fibres_.slope() * step));
+  }
+  SectionHistory reached = history;
+  commit(reached, curvature);
+  return unit * reached.work;
+}
+
+template <class Visit>
+void SectionLaw::for_each_zone(const SectionHistory& history, double x, Visit visit) const {
+  // Fibres beyond 2/|b - a| flowed on the branch from a to b (beyond 1/|b| on the virgin one) and have
+  // been elastic since its end b. Later branches are shorter, so their fibres lie further out.
+  const ReversalsInForce points(history, turns_back(history, x));
+  double outer = 1.0;
+  double end = x;
+  for (std::size_t i = points.size() + 1; i-- > 0;) {
+    const double start = i > 0 ? points[i - 1].x : 0.0;
+    const double length = std::abs(end - start);
+    const double inner = (i > 0 ? 2.0 : 1.0) / std::max(length, 1e-300);
+    if (inner < outer) {
+      if (!visit(inner, outer, end > start ? 1.0 : -1.0, x - end)) return;
+      outer = inner;
+    }
+    end = start;
+  }
+  visit(0.0, outer, 0.0, x);
+}
+
+double SectionLaw::elastic_energy(const SectionHistory& history, double curvature) const {
+  SectionHistory reached;
+  const SectionHistory* now = &history;
+  const double x = curvature / yield_curvature_;
+  if (!inside_window(history, x)) {
+    reached = history;
+    commit(reached, curvature);
+    now = &reached;
+  }
+  double energy = 0.0;
+  for_each_zone(*now, x, [&](double a, double b, double constant, double slope) {
+    energy += fibres_.energy(a, b, constant, slope);
+    return true;
+  });
+  return yield_moment_ * yield_curvature_ * energy;
+}
+
+double SectionLaw::outer_stress(const SectionHistory& history, double curvature) const {
+  const double x = curvature / yield_curvature_;
+  SectionHistory reached = history;
+  commit(reached, curvature);
+  const double outermost = fibres_.outermost();
+  double stress = 0.0;
+  for_each_zone(reached, x, [&](double inner, double, double constant, double slope) {
+    stress = constant + slope * outermost;
+    return inner >= outermost;  // go on to the zone that holds the outermost fibre
+  });
+  return -yield_stress_ * stress;  // eps = -z kappa: a positive curvature compresses z > 0
+}
+
+}  // namespace subimpact

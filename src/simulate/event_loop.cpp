@@ -1,0 +1,182 @@
+#include "simulate/event_loop.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "events/hermite.h"
+#include "events/root.h"
+
+namespace subimpact {
+namespace {
+
+// Roots of values are found to rounding. A turn needs less: what is lost by a time error d is of order
+// d^2, so a hundredth of the step leaves 1e-4 of the error of not locating it.
+constexpr double root_tolerance = 8.0 * std::numeric_limits<double>::epsilon();
+constexpr double turn_tolerance = 1e-2;
+
+// How often the energy is looked at, in steps, and by which part of the initial energy it may be off
+// before the run is called unstable.
+constexpr long energy_check_interval = 512;
+constexpr double tolerated_energy_gain = 0.5;
+
+}  // namespace
+
+EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer,
+                     LoopOptions options)
+    : beam_(beam), integrator_(integrator), observer_(observer), options_(options) {
+  beam_.set_contact_evaluation(options.events == EventHandling::located
+                                   ? StruckBeam::ContactEvaluation::smooth
+                                   : StruckBeam::ContactEvaluation::switching);
+}
+
+void EventLoop::start() {
+  time_ = 0.0;
+  end_state_ = beam_.initial_state();
+  initial_energy_ = beam_.energies(end_state_).total();
+  beam_.commit(end_state_);
+  report({EventKind::contact_begins}, 0.0, end_state_, true);
+  integrator_.restart(0.0, end_state_);
+  state_ = &integrator_.state();
+}
+
+void EventLoop::advance() {
+  integrator_.step();
+  ++n_steps_;
+  check_state(integrator_.state());
+  if (options_.events == EventHandling::located) {
+    locate_events();
+  } else {
+    interpolate_events();
+  }
+}
+
+void EventLoop::check_state(const State& y) {
+  const double indentation = beam_.indentation(y);
+  const bool looked_at = n_steps_ % energy_check_interval == 0;
+  const double energy = looked_at ? beam_.energies(y).total() : initial_energy_;
+  if (!std::isfinite(indentation) || !std::isfinite(energy) ||
+      energy > (1.0 + tolerated_energy_gain) * initial_energy_) {
+    throw RunStopped(RunStopped::Reason::unstable,
+                     "the solution grows without bound: total energy is no longer near its initial "
+                     "value; use a smaller solver.step or another method");
+  }
+  if (indentation >= options_.largest_indentation) {
+    throw RunStopped(RunStopped::Reason::left_validity,
+                     "the indentation reached the beam's thickness, where the contact law ends; reduce "
+                     "striker.velocity or striker.mass, or enlarge striker.nose_radius");
+  }
+}
+
+void EventLoop::locate_events() {
+  const State& y0 = integrator_.start_state();
+  const double t0 = integrator_.start_time();
+  double t1 = integrator_.time();
+  const State* y1 = &integrator_.state();
+  if (t1 > options_.end_time) {
+    t1 = options_.end_time;
+    integrator_.state_at(t1, end_state_);
+    y1 = &end_state_;
+  }
+  // The earliest event by estimate is located; the step then ends there, and what remains of it is
+  // looked at again, in case an estimate had the order wrong.
+  std::optional<Guard> event;
+  Crossing crossing;
+  while (beam_.find_crossing({t0, t1, y0, *y1}, options_.reversal_tolerance,
+                             event ? &*event : nullptr, crossing)) {
+    t1 = locate(crossing, {t0, t1, y0, *y1});
+    std::swap(event_state_, trial_state_);
+    y1 = &event_state_;
+    event = crossing.guard;
+  }
+  observer_.on_step({t0, t1, y0, *y1}, beam_, integrator_);
+  time_ = t1;
+  state_ = y1;
+  if (!event) {
+    beam_.commit(*y1);
+    return;
+  }
+  report(*event, t1, *y1, true);
+  integrator_.restart(t1, *y1);
+  state_ = &integrator_.state();
+}
+
+double EventLoop::locate(const Crossing& crossing, const StepEnds& step) {
+  if (!(crossing.before > step.t0)) {  // it happened at the start
+    trial_state_ = step.y0;
+    return step.t0;
+  }
+  const bool is_turn = crossing.guard.kind == EventKind::section_reverses ||
+                       crossing.guard.kind == EventKind::contact_unloads;
+  RootOptions options;
+  options.tolerance = is_turn ? turn_tolerance * step.length() : root_tolerance * step.t1;
+  return find_rise(
+      [&](double t) {
+        integrator_.state_at(t, trial_state_);
+        return beam_.evaluate(crossing.guard, trial_state_);
+      },
+      crossing.after, crossing.before, crossing.guess, options);
+}
+
+void EventLoop::report(const Guard& guard, double time, const State& y, bool switch_branch) {
+  Transition event;
+  event.time = time;
+  event.kind = guard.kind;
+  if (guard.kind == EventKind::section_reverses) event.section = guard.section;
+  event.value = beam_.event_value(guard, y);
+  ++n_events_;
+  observer_.before_event(event, y, beam_);
+  if (switch_branch) {
+    beam_.commit(y);
+    beam_.apply(guard, y);
+  }
+  observer_.after_event(event, y, beam_);
+}
+
+void EventLoop::interpolate_events() {
+  const State& y0 = integrator_.start_state();
+  const double t0 = integrator_.start_time();
+  double t1 = integrator_.time();
+  const State* y1 = &integrator_.state();
+  if (t1 > options_.end_time) {
+    t1 = options_.end_time;
+    integrator_.state_at(t1, end_state_);
+    y1 = &end_state_;
+  }
+  const StepEnds step{t0, t1, y0, *y1};
+  observer_.on_step(step, beam_, integrator_);
+
+  const ContactBranch before = beam_.contact_branch();
+  const double threshold = beam_.contact_law().yield_threshold(beam_.contact_history());
+  const double residual = beam_.residual_indentation();
+  beam_.follow_branch(*y1);
+  const ContactBranch after = beam_.contact_branch();
+  if (before != after) {
+    const double h = t1 - t0;
+    const double lambda0 = beam_.indentation(y0);
+    const double lambda1 = beam_.indentation(*y1);
+    const double rate0 = beam_.indentation_rate(y0);
+    const double rate1 = beam_.indentation_rate(*y1);
+    const auto event_at = [&](EventKind kind, double s) {
+      integrator_.state_at(t0 + s * h, event_state_);
+      report({kind}, t0 + s * h, event_state_, false);
+    };
+    const auto rise = [&](EventKind kind, double level, double sign) {
+      const HermiteCubic path(sign * (lambda0 - level), sign * rate0, sign * (lambda1 - level),
+                              sign * rate1, h);
+      event_at(kind, path.rise(0.0, 1.0));
+    };
+    if (before == ContactBranch::separated) rise(EventKind::contact_begins, residual, 1.0);
+    if (before == ContactBranch::plastic) {
+      const double turn = rate0 > 0.0 && rate1 < 0.0 ? rate0 / (rate0 - rate1) : 0.0;
+      event_at(EventKind::contact_unloads, turn);
+    }
+    if (after == ContactBranch::plastic) rise(EventKind::contact_yields, threshold, 1.0);
+    if (after == ContactBranch::separated) rise(EventKind::contact_ends, residual, -1.0);
+  }
+  beam_.commit(*y1);
+  time_ = t1;
+  state_ = y1;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "integrate/integrator.h"
+#include "subimpact/simulate/case.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// Watches a run. All states handed over are accepted ones.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  /// A step ends at `step.t1`, before its end is committed: the equations are still those of the step,
+  /// so `integrator.state_at` may be asked for any time within it.
+  virtual void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) = 0;
+  /// An event, once with the equations before it and once with those after it.
+  virtual void before_event(const Transition& event, const State& y, StruckBeam& beam) = 0;
+  virtual void after_event(const Transition& event, const State& y, StruckBeam& beam) = 0;
+};
+
+/// The run has to stop where it is: the state is not to be believed any further.
+class RunStopped : public std::runtime_error {
+ public:
+  enum class Reason { unstable, left_validity };
+  RunStopped(Reason reason, const std::string& message)
+      : std::runtime_error(message), reason(reason) {}
+  Reason reason;
+};
+
+struct LoopOptions {
+  double end_time = 0.0;  ///< s
+  EventHandling events = EventHandling::located;
+  /// Overshoot of a section's turning point, 1/m, above which the turn ends its step; infinite: never.
+  double reversal_tolerance = 0.0;
+  double largest_indentation = 0.0;  ///< m; beyond it the contact law means nothing
+};
+
+/// The one loop all methods share: step, find what happened in the step, end it there, switch, go on.
+class EventLoop {
+ public:
+  EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, LoopOptions options);
+
+  /// Puts the beam at t = 0 with the contact just begun.
+  void start();
+  /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure or
+  /// RunStopped.
+  void advance();
+
+  bool finished() const { return time_ >= options_.end_time; }
+  double time() const { return time_; }
+  const State& state() const { return *state_; }
+  long n_events() const { return n_events_; }
+
+ private:
+  void locate_events();
+  void interpolate_events();
+  double locate(const Crossing& crossing, const StepEnds& step);
+  void report(const Guard& guard, double time, const State& y, bool switch_branch);
+  void check_state(const State& y);
+
+  StruckBeam& beam_;
+  Integrator& integrator_;
+  RunObserver& observer_;
+  LoopOptions options_;
+  double time_ = 0.0;
+  const State* state_ = nullptr;
+  State end_state_, event_state_, trial_state_;
+  double initial_energy_ = 0.0;
+  long n_events_ = 0;
+  long n_steps_ = 0;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,122 @@
+#include "simulate/model_factory.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "integrate/arkode_erk.h"
+#include "integrate/central_difference.h"
+#include "integrate/klu_mass_solver.h"
+#include "model/cell_mesh.h"
+#include "model/flexural_frequencies.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double default_part_of_critical = 0.9;
+
+bool is_symmetric(const Scene& scene) {
+  return scene.striker.position == 0.5 && scene.beam.ends[0] == scene.beam.ends[1];
+}
+
+std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
+  const bool half = uses_symmetry(input);
+  const int segments = input.model.segments;
+  if (half && segments % 2 == 0) {
+    throw InvalidCase(
+        "model.segments",
+        fmt::format("is {}, but the half model of a scene struck at mid-span needs an odd number, so "
+                    "that a cell lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
+                    segments, segments - 1, segments + 1));
+  }
+  return std::make_unique<CellMesh>(input.scene.beam, input.scene.striker.position,
+                                    static_cast<std::size_t>(segments),
+                                    half ? CellMesh::Extent::half : CellMesh::Extent::whole);
+}
+
+SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {
+  const Beam& beam = input.scene.beam;
+  if (input.model.section == SectionKind::elastic || std::isinf(beam.yield_stress)) {
+    return SectionField(n, beam.bending_stiffness());
+  }
+  const Fibres fibres = input.model.section == SectionKind::layers
+                            ? Fibres::layered(input.model.layers)
+                            : Fibres::continuous();
+  return SectionField(n, SectionLaw(beam, fibres), storage);
+}
+
+}  // namespace
+
+bool uses_symmetry(const Case& input) {
+  return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input.scene);
+}
+
+StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage) {
+  std::unique_ptr<BeamMesh> mesh = make_mesh(input);
+  SectionField sections = make_sections(input, mesh->n_sections(), storage);
+  std::unique_ptr<MassSolver> solver;
+  if (input.solver.mass_solver == MassSolverKind::klu) {
+    solver = make_klu_mass_solver(mesh->mass());
+  } else {
+    solver = std::make_unique<BandedSolver>(mesh->mass());
+  }
+  return StruckBeam(input.scene, std::move(mesh), std::move(sections), std::move(solver));
+}
+
+Used describe(const Case& input, const StruckBeam& beam) {
+  const Scene& scene = input.scene;
+  Used used;
+  used.half_model = beam.mesh().symmetric();
+  used.n_unknowns = beam.mesh().n_unknowns();
+  used.n_sections = beam.mesh().n_sections();
+  used.mesh = beam.mesh().description();
+  used.highest_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
+  used.critical_step = 2.0 / used.highest_frequency;
+  used.contact_stiffness = beam.contact_law().stiffness();
+  used.yield_indentation = beam.contact_law().yield_indentation();
+  used.yield_curvature = scene.beam.yield_curvature();
+  used.first_period = 2.0 * M_PI / free_free_frequencies(scene.beam, 1).front();
+  used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
+  const bool central = input.solver.method == Method::central_difference;
+  used.events = input.solver.events.value_or(central ? EventHandling::interpolated
+                                                     : EventHandling::located);
+  if (central) {
+    used.step = input.solver.step.value_or(default_part_of_critical * used.critical_step);
+    if (*used.step > used.critical_step && !input.solver.beyond_critical) {
+      throw InvalidCase(
+          "solver.step",
+          fmt::format("is {:.6g} us, above the stability limit of central differences on this mesh, "
+                      "{:.6g} us (2/omega_max); use a smaller step, leave it out for {:.6g} us, or set "
+                      "solver.beyond_critical = true to see it fail",
+                      1e6 * *used.step, 1e6 * used.critical_step,
+                      1e6 * default_part_of_critical * used.critical_step));
+    }
+  } else {
+    used.step = input.solver.step;
+    if (!used.step) {
+      const SecondOrderOde::Scales scales = beam.scales();
+      used.position_tolerance = input.solver.rtol * scales.position;
+      used.velocity_tolerance = input.solver.rtol * scales.velocity;
+    }
+  }
+  return used;
+}
+
+std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used,
+                                            StruckBeam& beam) {
+  if (input.solver.method == Method::central_difference) {
+    return std::make_unique<CentralDifference>(beam, *used.step);
+  }
+  ErkOptions options;
+  options.table = input.solver.table;
+  options.relative_tolerance = input.solver.rtol;
+  options.fixed_step = input.solver.step;
+  options.max_step = input.solver.max_step;
+  options.vector_operations = input.solver.vector_operations == VectorOperationsKind::library
+                                  ? VectorOperations::library
+                                  : VectorOperations::project;
+  return make_arkode_erk(beam, options);
+}
+
+}  // namespace subimpact

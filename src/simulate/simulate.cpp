@@ -1,0 +1,85 @@
+#include "subimpact/simulate/simulate.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <limits>
+
+#include "simulate/event_loop.h"
+#include "simulate/model_factory.h"
+#include "simulate/recorder.h"
+
+namespace subimpact {
+namespace {
+
+// A turn that overshoots by less than this part of the yield curvature times rtol is left to the step's
+// end.
+constexpr double negligible_overshoot = 0.1;
+
+constexpr long progress_interval = 512;  // steps
+
+double reversal_tolerance(const Case& input, const Used& used) {
+  if (input.solver.reversals == ReversalHandling::step_end ||
+      used.events == EventHandling::interpolated) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return negligible_overshoot * input.solver.rtol * used.yield_curvature;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Used explain(const Case& input) { return describe(input, make_struck_beam(input)); }
+
+Result simulate(const Case& input, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  StruckBeam beam = make_struck_beam(input);
+  Result result;
+  result.used = describe(input, beam);
+  const auto integrator = make_integrator(input, result.used, beam);
+  Recorder recorder(beam, beam.initial_state(), input.output.interval, result.used.events, result);
+  LoopOptions options;
+  options.end_time = input.end_time;
+  options.events = result.used.events;
+  options.reversal_tolerance = reversal_tolerance(input, result.used);
+  options.largest_indentation = input.scene.beam.thickness;
+  EventLoop loop(beam, *integrator, recorder, options);
+  result.work.setup_seconds = seconds_since(start);
+
+  try {
+    loop.start();
+    for (long n = 1; !loop.finished(); ++n) {
+      loop.advance();
+      if (n % progress_interval == 0 && progress && !progress(loop.time())) break;
+    }
+    result.outcome = {OutcomeKind::completed, loop.time(), "completed"};
+  } catch (const RunStopped& stop) {
+    result.outcome.kind = stop.reason == RunStopped::Reason::unstable ? OutcomeKind::unstable
+                                                                      : OutcomeKind::left_validity;
+    result.outcome.message = stop.what();
+  } catch (const IntegrationFailure& failure) {
+    result.outcome.kind = OutcomeKind::solver_failed;
+    result.outcome.message = failure.what();
+  }
+  result.outcome.time = loop.time();
+  recorder.finish(loop.time(), loop.state(), beam);
+  assign_zones(result.sub_impacts, input.output.zone_gap * result.used.first_period,
+               input.output.subzone_gap * result.used.first_period);
+
+  const WorkCounts counts = integrator->work();
+  result.work.steps = counts.steps;
+  result.work.rejected_steps = counts.rejected_steps;
+  result.work.partial_steps = counts.partial_steps;
+  result.work.right_hand_sides = beam.n_accelerations();
+  result.work.mass_solves = beam.n_accelerations();
+  result.work.jacobians = counts.jacobians;
+  result.work.factorisations = 1 + counts.factorisations;
+  result.work.roots = loop.n_events();
+  result.work.wall_seconds = seconds_since(start);
+  return result;
+}
+
+}  // namespace subimpact

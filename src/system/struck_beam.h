@@ -1,0 +1,166 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "events/root.h"
+#include "model/beam_mesh.h"
+#include "model/contact_law.h"
+#include "model/mass_solver.h"
+#include "model/section_field.h"
+#include "subimpact/events/records.h"
+#include "system/second_order_ode.h"
+
+namespace subimpact {
+
+/// Every joule has a place (J); their sum is the initial energy m v0^2/2.
+struct Energies {
+  double striker = 0.0;          ///< U_m = m v_m^2/2
+  double beam_kinetic = 0.0;     ///< U_k = v^T Mass v/2
+  double bending_elastic = 0.0;  ///< U_e
+  double bending_plastic = 0.0;  ///< U_p
+  double contact_elastic = 0.0;  ///< U_c
+  double contact_plastic = 0.0;  ///< D_c
+
+  double total() const {
+    return striker + beam_kinetic + bending_elastic + bending_plastic + contact_elastic +
+           contact_plastic;
+  }
+};
+
+/// An event that may happen next: what, and at which section.
+struct Guard {
+  EventKind kind;
+  std::size_t section = 0;
+  double sense = 1.0;  ///< of a section's flow
+};
+
+/// A guard found to have been crossed within a step.
+struct Crossing {
+  Guard guard;
+  double after = 0.0;   ///< time at which the guard still holds
+  double before = 0.0;  ///< time by which it has been crossed
+  double guess = 0.0;   ///< estimate of the instant
+};
+
+/// One step as the integrator took it.
+struct StepEnds {
+  double t0, t1;
+  const State& y0;
+  const State& y1;
+  double length() const { return t1 - t0; }
+};
+
+/// The struck beam as a hybrid system: smooth motion within a mode, events between modes, memory
+/// changed only by `commit` and `apply`.
+///
+/// State y = [w_1..w_n, w_m, v_1..v_n, v_m] (m, m/s): the mesh's unknowns, then the striker.
+///
+///     Mass w'' = -B^T W (-M(kappa, history)) + S F,   m w_m'' = -F,   F = F(lambda, history),
+///     lambda = w_m - S.w.
+///
+/// The contact force is evaluated in one of two ways. `smooth`: the branch in force is continued
+/// beyond its range, so that the right-hand side has no kink inside a step, and whoever integrates
+/// locates the end of the branch. `switching`: the branch follows the indentation, as in schemes that
+/// do not locate events.
+class StruckBeam final : public SecondOrderOde {
+ public:
+  enum class ContactEvaluation { smooth, switching };
+
+  StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
+             std::unique_ptr<MassSolver> mass_solver);
+
+  std::size_t n_positions() const override { return n_ + 1; }
+  void acceleration(std::span<const double> positions, std::span<double> result) override;
+  Scales scales() const override { return scales_; }
+
+  const BeamMesh& mesh() const { return *mesh_; }
+  const SectionField& sections() const { return sections_; }
+  const ContactLaw& contact_law() const { return contact_law_; }
+  const MassSolver& mass_solver() const { return *mass_solver_; }
+  long n_accelerations() const { return n_accelerations_; }
+
+  /// At t = 0: beam at rest, nose just touching, contact begun.
+  State initial_state() const;
+
+  // --- contact -----------------------------------------------------------------------------------
+  void set_contact_evaluation(ContactEvaluation how) { contact_evaluation_ = how; }
+  ContactBranch contact_branch() const { return contact_branch_; }
+  ContactHistory contact_history() const { return contact_history_; }
+  bool in_contact() const { return contact_branch_ != ContactBranch::separated; }
+  double indentation(const State& y) const;
+  double indentation_rate(const State& y) const;
+  double residual_indentation() const { return contact_law_.residual_indentation(contact_history_); }
+  double contact_force(const State& y) const;
+
+  // --- events ------------------------------------------------------------------------------------
+  /// The earliest crossing within a step that began at the last committed state, if any: the end of
+  /// the contact's branch (also when it would be left and regained within the step), or a section that
+  /// flowed and turned back by more than `reversal_tolerance` (1/m of curvature; infinite: reversals
+  /// are not looked for). Earliest by estimate; `without` is not considered.
+  bool find_crossing(const StepEnds& step, double reversal_tolerance, const Guard* without,
+                     Crossing& earliest);
+  /// A guard's value and rate at a state; costs an acceleration for the guards on a rate.
+  GuardValue evaluate(const Guard& guard, const State& y);
+  /// Takes an event as having happened at y: switches the contact's branch. Call after commit(y).
+  void apply(const Guard& guard, const State& y);
+  /// The quantity recorded with an event: indentation or curvature.
+  double event_value(const Guard& guard, const State& y);
+
+  /// Takes y as reached: advances the memory of contact and sections. Returns whether any section
+  /// flowed.
+  bool commit(const State& y);
+  /// For schemes that do not locate events: lets the branch follow the indentation at y.
+  void follow_branch(const State& y);
+
+  // --- accounts ----------------------------------------------------------------------------------
+  Energies energies(const State& y);
+  double momentum(const State& y) const;  ///< kg m/s
+  double striker_mass() const { return striker_mass_; }
+  double beam_mass() const;  ///< kg, as modelled
+  struct Displacements {
+    double struck, striker, first_end;  ///< m
+  };
+  Displacements displacements(const State& y) const;
+  /// If a section flows at the step's end: when, within the step, the first of them left its window.
+  std::optional<double> first_flow(const StepEnds& step);
+  double back_stress(const State& y);     ///< outer fibre at the struck section, far side, Pa
+
+ private:
+  std::span<const double> beam_positions(const State& y) const { return {y.data(), n_}; }
+  std::span<const double> beam_velocities(const State& y) const { return {y.data() + n_ + 1, n_}; }
+  double force(double indentation) const;
+  bool find_contact_crossing(const StepEnds& step, const Guard* without, Crossing& earliest);
+  bool find_reversal(const StepEnds& step, double tolerance, const Guard* without,
+                     Crossing& earliest);
+  GuardValue contact_guard(EventKind kind, double indentation, double rate) const;
+  double curvature(const Guard& guard, std::span<const double> unknowns);
+
+  std::unique_ptr<BeamMesh> mesh_;
+  SectionField sections_;
+  ContactLaw contact_law_;
+  std::unique_ptr<MassSolver> mass_solver_;
+  std::size_t n_;
+  double striker_mass_;
+  double striker_velocity_;
+  double stress_reach_;  // E h/2
+  Scales scales_;
+  std::vector<double> momentum_functional_;
+
+  ContactEvaluation contact_evaluation_ = ContactEvaluation::smooth;
+  ContactBranch contact_branch_ = ContactBranch::separated;
+  ContactHistory contact_history_;
+
+  long n_accelerations_ = 0;
+  std::vector<double> curvatures_, moments_;  // of the last evaluation
+  std::vector<double> trial_;                 // accelerations for guards on rates
+  struct Kinematics {
+    std::vector<double> curvatures, rates;
+  };
+  void read_kinematics(const State& y, Kinematics& at) const;
+  Kinematics start_, end_;  // of the step being looked at; start_ is that of the last commit
+};
+
+}  // namespace subimpact
