@@ -24,7 +24,7 @@ class MassSolver {
 /// y_b = D_b^-1 b_b - P_b (last unknowns of y_{b-1}) with D_b^-1 and P_b = D_b^-1 C_b formed once, and
 /// backward substitution likewise. The products are independent of the recurrence and vectorise, so
 /// that the chain of dependent operations is one multiply-add a block instead of one an unknown.
-/// For half bandwidths up to 8. Throws std::invalid_argument if the matrix is not positive definite.
+/// For half bandwidths up to 3. Throws std::invalid_argument if the matrix is not positive definite.
 class BandedSolver final : public MassSolver {
  public:
   explicit BandedSolver(const BandedMatrix& matrix);
@@ -33,13 +33,16 @@ class BandedSolver final : public MassSolver {
 
  private:
   static constexpr std::size_t block = 8;
+  template <std::size_t width>
+  void solve_with(double* x) const;
 
   std::size_t size_;
   std::size_t n_blocks_;
   std::size_t half_bandwidth_;
-  // Per block, column by column: the inverse diagonal block (8 x 8), then the coupling (8 x bandwidth).
-  std::vector<double> forward_, backward_;
-  mutable std::vector<double> work_;  // padded to whole blocks
+  // Per distinct block, column by column: the inverse diagonal block (8 x 8), then the coupling
+  // (8 x bandwidth); and where each block's begin.
+  std::vector<double> coefficients_;
+  std::vector<std::size_t> forward_, backward_;
 };
 
 }  // namespace subimpact
