@@ -26,7 +26,7 @@ const std::vector<ExplicitTable>& explicit_tables();
 enum class VectorOperations { project, library };
 
 struct ErkOptions {
-  std::string table = "dormand-prince";
+  std::string table = "dop853";
   double relative_tolerance = 1e-8;
   std::optional<double> fixed_step;  ///< s; adaptive if empty
   std::optional<double> max_step;    ///< s

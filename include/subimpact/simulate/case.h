@@ -53,7 +53,7 @@ struct SolverOptions {
   double rtol = 1e-8;               ///< relative to the scene's own scales of displacement and velocity
   std::optional<double> step;       ///< s; central-difference: 0.9 of critical if empty; erk: adaptive
   std::optional<double> max_step;   ///< s; adaptive methods
-  std::string table = "dormand-prince";  ///< erk: Butcher table
+  std::string table = "dop853";  ///< erk: Butcher table
   MassSolverKind mass_solver = MassSolverKind::tridiagonal;
   std::optional<EventHandling> events;   ///< empty: interpolated for central-difference, else located
   ReversalHandling reversals = ReversalHandling::located;

@@ -20,8 +20,8 @@ struct Entry {
 // clang-format off
 const std::vector<Entry>& entries_of_tables() {
   static const std::vector<Entry> entries = {
-      {{"dormand-prince", 5, 4, 6, "Dormand and Prince 1980, 5(4): sound at every accuracy"}, ARKODE_DORMAND_PRINCE_7_4_5},
       {{"dop853", 8, 5, 12, "Hairer, Norsett and Wanner, 8(5): fewest evaluations on an elastic beam"}, ARKODE_ERK_NONE},
+      {{"dormand-prince", 5, 4, 6, "Dormand and Prince 1980, 5(4): sound at every accuracy"}, ARKODE_DORMAND_PRINCE_7_4_5},
       {{"bogacki-shampine", 3, 2, 3, "Bogacki and Shampine 1989, 3(2): low accuracy"}, ARKODE_BOGACKI_SHAMPINE_4_2_3},
       {{"zonneveld", 4, 3, 5, "Zonneveld 1963, 4(3)"}, ARKODE_ZONNEVELD_5_3_4},
       {{"cash-karp", 5, 4, 6, "Cash and Karp 1990, 5(4)"}, ARKODE_CASH_KARP_6_4_5},

@@ -106,43 +106,50 @@ void combine(const realtype* c, N_Vector* x, double* z, sunindextype length) {
   }
 }
 
+void combine_up_to_eight(int n, const realtype* c, N_Vector* x, double* z, sunindextype length) {
+  switch (n) {
+    case 1:
+      return combine<1>(c, x, z, length);
+    case 2:
+      return combine<2>(c, x, z, length);
+    case 3:
+      return combine<3>(c, x, z, length);
+    case 4:
+      return combine<4>(c, x, z, length);
+    case 5:
+      return combine<5>(c, x, z, length);
+    case 6:
+      return combine<6>(c, x, z, length);
+    case 7:
+      return combine<7>(c, x, z, length);
+    default:
+      return combine<8>(c, x, z, length);
+  }
+}
+
 int linear_combination(int n, realtype* c, N_Vector* x, N_Vector z) {
   constexpr int widest = 8;
   const sunindextype length = NV_LENGTH_S(z);
   double* out = NV_DATA_S(z);
-  const auto pass = [&](int count, realtype* weights, N_Vector* vectors) {
-    switch (count) {
-      case 1:
-        return combine<1>(weights, vectors, out, length);
-      case 2:
-        return combine<2>(weights, vectors, out, length);
-      case 3:
-        return combine<3>(weights, vectors, out, length);
-      case 4:
-        return combine<4>(weights, vectors, out, length);
-      case 5:
-        return combine<5>(weights, vectors, out, length);
-      case 6:
-        return combine<6>(weights, vectors, out, length);
-      case 7:
-        return combine<7>(weights, vectors, out, length);
-      default:
-        return combine<widest>(weights, vectors, out, length);
+  // Terms with a zero coefficient are left out (high-order tables are full of them). Passes of up to
+  // eight terms; further passes carry the sum so far along with weight 1. Only the first vector may
+  // alias z, so nothing is lost in between.
+  realtype weights[widest];
+  N_Vector vectors[widest];
+  int held = 0;
+  for (int k = 0; k < n; ++k) {
+    if (c[k] == 0.0 && !(k + 1 == n && held == 0)) continue;
+    if (held == widest) {
+      combine_up_to_eight(held, weights, vectors, out, length);
+      weights[0] = 1.0;
+      vectors[0] = z;
+      held = 1;
     }
-  };
-  // The first pass takes as many as fit; further ones carry the sum so far along with weight 1. Only
-  // the first vector may alias z, so nothing is lost in between.
-  int done = std::min(n, widest);
-  pass(done, c, x);
-  while (done < n) {
-    const int more = std::min(n - done, widest - 1);
-    realtype weights[widest] = {1.0};
-    N_Vector vectors[widest] = {z};
-    std::copy_n(c + done, more, weights + 1);
-    std::copy_n(x + done, more, vectors + 1);
-    pass(more + 1, weights, vectors);
-    done += more;
+    weights[held] = c[k];
+    vectors[held] = x[k];
+    ++held;
   }
+  combine_up_to_eight(held, weights, vectors, out, length);
   return 0;
 }
 
