@@ -1,0 +1,96 @@
+# Shell functions shared by the scripts in this directory; to be sourced by them.
+#
+# On Debian (12 and later) and systems like it, what the build needs and the machine lacks is installed
+# with apt. Elsewhere the packages are named and the build goes on with what CMake finds.
+
+project_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+# Debian's names. A package that is there for one command is not asked for if the command exists.
+readonly -A package_of_command=(
+  [cmake]=cmake
+  [ninja]=ninja-build
+  [gnuplot]=gnuplot-nox
+)
+readonly packages=(
+  build-essential
+  libsundials-dev
+  libsuitesparse-dev
+  libeigen3-dev
+  libfmt-dev
+  nlohmann-json3-dev
+  libtomlplusplus-dev
+  libcli11-dev
+  libgtest-dev
+  libbenchmark-dev
+)
+
+say() { printf '%s\n' "$*" >&2; }
+
+has_command() { command -v "$1" >/dev/null 2>&1; }
+
+is_installed() {
+  dpkg-query --show --showformat='${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed
+}
+
+# Runs a command as root, or fails if there is no way to. Asks for a password only at a terminal.
+as_root() {
+  if [[ $(id -u) -eq 0 ]]; then
+    "$@"
+  elif [[ -t 0 ]]; then
+    sudo "$@"
+  else
+    sudo -n "$@"
+  fi
+}
+
+install_with_apt() {
+  local -a apt_get=(env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
+  as_root "${apt_get[@]}" -q update ||
+    say "The package lists could not be refreshed; trying with those that are there."
+  as_root "${apt_get[@]}" -q install -y --no-install-recommends "$@"
+}
+
+# Installs what is missing. Never fatal: CMake has the last word on what it can use.
+install_missing_packages() {
+  local -a missing=()
+  local name
+  for name in "${!package_of_command[@]}"; do
+    has_command "$name" || missing+=("${package_of_command[$name]}")
+  done
+  if ! has_command apt-get || ! has_command dpkg-query; then
+    say "This system has no apt, so nothing is installed. Needed are CMake 3.25, Ninja, gnuplot, a"
+    say "C++20 compiler and the development files of the libraries; Debian calls them"
+    say "  ${package_of_command[*]} ${packages[*]}"
+    say "Going on with what CMake finds."
+    return
+  fi
+  for name in "${packages[@]}"; do
+    is_installed "$name" || missing+=("$name")
+  done
+  [[ ${#missing[@]} -gt 0 ]] || return 0
+  say "Installing ${missing[*]}"
+  if [[ $(id -u) -ne 0 ]] && ! has_command sudo; then
+    say "This needs root and there is no sudo. As root: apt-get install ${missing[*]}"
+  elif install_with_apt "${missing[@]}"; then
+    return
+  else
+    say "They could not be installed. As root: apt-get install ${missing[*]}"
+  fi
+  say "Going on with what CMake finds."
+}
+
+# build PRESET [TARGET...]: installs, configures and builds; everything if no target is named.
+build() {
+  local preset=$1
+  shift
+  install_missing_packages
+  if ! has_command cmake || ! has_command ninja; then
+    say "CMake and Ninja are needed to build, and are not there."
+    return 1
+  fi
+  (
+    cd "$project_root"
+    cmake --preset "$preset"
+    cmake --build --preset "$preset" ${1:+--target "$@"}
+  )
+}
