@@ -43,7 +43,7 @@ struct SubImpact {
   int subzone = 0;                     ///< numbered from 1 within the zone
 };
 
-/// Groups sub-impacts: one that begins no later than `zone_gap` (s) after the end of the one before it
+/// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before it
 /// belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills zone and subzone.
 void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
 

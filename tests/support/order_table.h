@@ -1,0 +1,72 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace subimpact {
+
+/// Errors over a refined resolution, printed as a table of resolution, error, ratio and order, and
+/// held against a band with two sides: an order above the expected one is as wrong as one below it.
+class OrderTable {
+ public:
+  explicit OrderTable(std::string title) : title_(std::move(title)) {}
+
+  /// `resolution` grows with refinement (cells, steps, layers).
+  void add(double resolution, double error) { rows_.push_back({resolution, error}); }
+
+  std::size_t size() const { return rows_.size(); }
+
+  double order(std::size_t row) const {
+    const Row& coarse = rows_[row - 1];
+    const Row& fine = rows_[row];
+    return std::log(coarse.error / fine.error) / std::log(fine.resolution / coarse.resolution);
+  }
+
+  /// Order over all rows at once: from the first to the last.
+  double overall_order() const {
+    return std::log(rows_.front().error / rows_.back().error) /
+           std::log(rows_.back().resolution / rows_.front().resolution);
+  }
+
+  void print() const {
+    std::printf("%s\n%12s %14s %10s %8s\n", title_.c_str(), "resolution", "error", "ratio",
+                "order");
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      std::printf("%12g %14.6e", rows_[i].resolution, rows_[i].error);
+      if (i > 0) std::printf(" %10.4f %8.4f", rows_[i - 1].error / rows_[i].error, order(i));
+      std::printf("\n");
+    }
+  }
+
+  /// Prints, and expects the order of every refinement to lie in [low, high].
+  void expect_every_order_within(double low, double high) const {
+    print();
+    ASSERT_GE(rows_.size(), 3u) << title_;
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      EXPECT_GE(order(i), low) << title_ << ", resolution " << rows_[i].resolution;
+      EXPECT_LE(order(i), high) << title_ << ", resolution " << rows_[i].resolution;
+    }
+  }
+
+  /// Prints, and expects the overall order to lie in [low, high].
+  void expect_overall_order_within(double low, double high) const {
+    print();
+    ASSERT_GE(rows_.size(), 3u) << title_;
+    EXPECT_GE(overall_order(), low) << title_;
+    EXPECT_LE(overall_order(), high) << title_;
+  }
+
+ private:
+  struct Row {
+    double resolution, error;
+  };
+  std::string title_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace subimpact
