@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Shell functions shared by the scripts in this directory; to be sourced by them.
 #
 # On Debian (12 and later) and systems like it, what the build needs and the machine lacks is installed

@@ -1,0 +1,70 @@
+// subimpact_benchmark: side-by-side measurements, printed as tables. Nothing passes or fails here.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "parts.h"
+
+namespace subimpact::benchmarks {
+
+std::span<const Part> all_parts() {
+  static constexpr std::array<Part, 6> parts{{
+      {"naive", "central-difference against the same scheme done naively", measure_naive},
+      {"vectors", "own vector operations against the SUNDIALS library's", measure_vectors},
+      {"evaluation", "cost of a right-hand side of erk against a central-difference step",
+       measure_evaluation},
+      {"mass", "tridiagonal mass solver against KLU", measure_mass},
+      {"reversals", "section turns located against history advanced at step ends",
+       measure_reversals},
+      {"tables", "every explicit table: work, time, error", measure_tables},
+  }};
+  return parts;
+}
+
+}  // namespace subimpact::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace subimpact::benchmarks;
+  Settings settings;
+  std::vector<std::string> names;
+  std::string list = "Parts (all, if none is named):";
+  for (const Part& part : all_parts())
+    list += fmt::format("\n  {:12} {}", part.name, part.question);
+  list +=
+      "\n\nExamples:\n  subimpact_benchmark\n  subimpact_benchmark naive evaluation --repeats 11\n"
+      "  subimpact_benchmark mass --clock wall";
+
+  CLI::App app{"Measures alternatives side by side, alternating, and prints medians and ratios."};
+  app.footer(list);
+  std::vector<std::string> known;
+  for (const Part& part : all_parts()) known.emplace_back(part.name);
+  app.add_option("part", names, "parts to run")->check(CLI::IsMember(known));
+  app.add_option("--repeats", settings.repeats, "rounds of which the median is taken")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  const std::map<std::string, Clock> clocks{{"processor", Clock::processor}, {"wall", Clock::wall}};
+  app.add_option("--clock", settings.clock, "processor (default): time on the processor; wall")
+      ->transform(CLI::CheckedTransformer(clocks));
+  CLI11_PARSE(app, argc, argv);
+
+  fmt::print("Seconds are medians of {} alternating runs, {} time of one thread.\n",
+             settings.repeats, settings.clock == Clock::processor ? "processor" : "wall");
+  for (const Part& part : all_parts()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), part.name) == names.end()) continue;
+    fmt::print("\n== {}: {}\n", part.name, part.question);
+    std::fflush(stdout);
+    try {
+      part.run(settings);
+    } catch (const std::exception& failure) {
+      fmt::print(stderr, "{}: {}\n", part.name, failure.what());
+      return 3;
+    }
+  }
+}
