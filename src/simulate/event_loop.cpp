@@ -10,13 +10,14 @@
 namespace subimpact {
 namespace {
 
-// Roots of values are found to rounding. A turn needs less: what is lost by a time error d is of order
-// d^2, so a hundredth of the step leaves 1e-4 of the error of not locating it.
+// Roots of values are found to rounding. For a turn, what is lost by a time error d is of order
+// d^2; a hundred-thousandth of the step makes that nothing, and costs one partial step more than a
+// hundredth.
 constexpr double root_tolerance = 8.0 * std::numeric_limits<double>::epsilon();
-constexpr double turn_tolerance = 1e-2;
+constexpr double turn_tolerance = 1e-5;
 
-// How often the energy is looked at, in steps, and by which part of the initial energy it may be off
-// before the run is called unstable.
+// How often the energy is looked at, in steps, and by which part of the initial energy it may be
+// off before the run is called unstable.
 constexpr long energy_check_interval = 512;
 constexpr double tolerated_energy_gain = 0.5;
 
@@ -62,9 +63,10 @@ void EventLoop::check_state(const State& y) {
                      "value; use a smaller solver.step or another method");
   }
   if (indentation >= options_.largest_indentation) {
-    throw RunStopped(RunStopped::Reason::left_validity,
-                     "the indentation reached the beam's thickness, where the contact law ends; reduce "
-                     "striker.velocity or striker.mass, or enlarge striker.nose_radius");
+    throw RunStopped(
+        RunStopped::Reason::left_validity,
+        "the indentation reached the beam's thickness, where the contact law ends; reduce "
+        "striker.velocity or striker.mass, or enlarge striker.nose_radius");
   }
 }
 

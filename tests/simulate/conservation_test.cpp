@@ -1,0 +1,123 @@
+// Momentum and energy at every accepted step, and in the rows of history.csv.
+
+#include <algorithm>
+#include <cmath>
+
+#include "paper_case.h"
+#include "simulate/event_loop.h"
+#include "simulate/model_factory.h"
+
+namespace subimpact {
+namespace {
+
+// Audits every accepted step.
+class Audit final : public RunObserver {
+ public:
+  Audit(StruckBeam& beam, const State& initial)
+      : energy_(beam.energies(initial).total()), momentum_(beam.momentum(initial)) {}
+
+  void on_step(const StepEnds& step, StruckBeam& beam, Integrator&) override {
+    look_at(step.y1, beam);
+    ++steps;
+  }
+  void before_event(const Transition&, const State& y, StruckBeam& beam) override {
+    look_at(y, beam);
+  }
+  void after_event(const Transition&, const State& y, StruckBeam& beam) override {
+    look_at(y, beam);
+  }
+
+  double energy_error = 0.0;    // largest, relative
+  double momentum_error = 0.0;  // largest, relative
+  double plastic_loss = 0.0;    // largest decrease of a dissipated energy, J
+  long steps = 0;
+
+ private:
+  void look_at(const State& y, StruckBeam& beam) {
+    const Energies now = beam.energies(y);
+    energy_error = std::max(energy_error, std::abs(now.total() / energy_ - 1.0));
+    momentum_error = std::max(momentum_error, std::abs(beam.momentum(y) / momentum_ - 1.0));
+    plastic_loss = std::max({plastic_loss, dissipated_.bending_plastic - now.bending_plastic,
+                             dissipated_.contact_plastic - now.contact_plastic});
+    dissipated_ = now;
+  }
+  double energy_;
+  double momentum_;
+  Energies dissipated_;
+};
+
+Audit audited(const Case& input) {
+  StruckBeam beam = make_struck_beam(input);
+  const Used used = describe(input, beam);
+  const auto integrator = make_integrator(input, used, beam);
+  Audit audit(beam, beam.initial_state());
+  LoopOptions options;
+  options.end_time = input.end_time;
+  options.events = used.events;
+  options.reversal_tolerance = 0.1 * input.solver.rtol * used.yield_curvature;
+  options.largest_indentation = input.scene.beam.thickness;
+  EventLoop loop(beam, *integrator, audit, options);
+  loop.start();
+  while (!loop.finished()) loop.advance();
+  printf("%ld steps: energy %.1e, momentum %.1e, dissipation falls by %.1e J at most\n",
+         audit.steps, audit.energy_error, audit.momentum_error, audit.plastic_loss);
+  return audit;
+}
+
+class Conservation : public testing::TestWithParam<SectionKind> {};
+
+TEST_P(Conservation, HoldsAtEveryStepOfErkAtOneInABillion) {
+  const Audit audit = audited(paper_case(GetParam(), 8e-3));
+  EXPECT_GT(audit.steps, 1000);
+  EXPECT_LT(audit.energy_error, 1e-8);
+  EXPECT_LT(audit.momentum_error, 1e-12);
+  EXPECT_LT(audit.plastic_loss, 1e-12);
+}
+
+TEST_P(Conservation, OfMomentumHoldsAtEveryCentralDifference) {
+  Case input = paper_case(GetParam(), 2e-3);
+  input.solver.method = Method::central_difference;
+  const Audit audit = audited(input);
+  EXPECT_LT(audit.momentum_error, 1e-12);
+  EXPECT_LT(audit.energy_error, 0.05);  // of second order in the step
+}
+
+TEST_P(Conservation, HoldsForAStrikeAwayFromMidSpanBetweenTwoCells) {
+  Case input = paper_case(GetParam(), 0.5e-3);
+  input.scene.striker.position = 0.31;
+  input.model.segments = 200;
+  const Audit audit = audited(input);
+  EXPECT_LT(audit.energy_error, 1e-8);
+  EXPECT_LT(audit.momentum_error, 1e-12);
+}
+
+TEST_P(Conservation, IsReportedInTheHistoryRows) {
+  Case input = paper_case(GetParam(), 0.5e-3);
+  input.output.interval = 1e-6;
+  const Result result = simulate(input);
+  ASSERT_GT(result.history.size(), 500u);
+  double energy = 0.0;
+  double momentum = 0.0;
+  for (const HistoryRow& row : result.history) {
+    const double sum = row.striker_energy + row.beam_kinetic_energy + row.bending_elastic +
+                       row.bending_plastic + row.contact_elastic + row.contact_plastic;
+    EXPECT_NEAR(sum / result.used.initial_energy - 1.0, row.energy_error, 1e-14);
+    energy = std::max(energy, std::abs(row.energy_error));
+    momentum = std::max(momentum, std::abs(row.momentum_error));
+  }
+  printf("rows: energy %.1e, momentum %.1e\n", energy, momentum);
+  EXPECT_LT(energy, 1e-8);
+  EXPECT_LT(momentum, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Conservation,
+                         testing::Values(SectionKind::elastic, SectionKind::exact,
+                                         SectionKind::layers),
+                         [](const auto& info) {
+                           return std::string(info.param == SectionKind::elastic ? "elastic"
+                                              : info.param == SectionKind::exact ? "exact"
+                                                                                 : "layers");
+                         });
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,71 @@
+// Event times against tables computed by independent programs (tests/data/README.md).
+
+#include <algorithm>
+#include <cmath>
+
+#include "paper_case.h"
+
+namespace subimpact {
+namespace {
+
+struct Table {
+  const char* name;
+  SectionKind section;
+  double time_bound_us;  // before 2 ms
+  std::size_t count;     // over 8 ms
+};
+
+class AgainstTheReference : public testing::TestWithParam<Table> {};
+
+TEST_P(AgainstTheReference, AllSubImpactsBeforeTwoMillisecondsAreFoundAtTheirTimes) {
+  const Table& table = GetParam();
+  const Result result = simulate(paper_case(table.section, 2e-3));
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  std::vector<ReferenceEvent> reference = reference_table(table.name);
+  std::erase_if(reference, [](const ReferenceEvent& row) { return row.start_us > 2000.0; });
+  ASSERT_EQ(result.sub_impacts.size(), reference.size());
+  double worst_time = 0.0;
+  double worst_indentation = 0.0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const SubImpact& here = result.sub_impacts[i];
+    worst_time = std::max({worst_time, std::abs(start_us(here) - reference[i].start_us),
+                           std::abs(end_us(here) - reference[i].end_us)});
+    const double relative = 1e3 * here.max_indentation / reference[i].max_indentation_mm - 1.0;
+    if (table.section == SectionKind::elastic && i == 7) continue;  // see the next test
+    worst_indentation = std::max(worst_indentation, std::abs(relative));
+  }
+  printf("%s: largest time difference %.2e us (bound %.0e), indentation %.1e\n", table.name,
+         worst_time, table.time_bound_us, worst_indentation);
+  EXPECT_LT(worst_time, table.time_bound_us);
+  EXPECT_LT(worst_indentation, 1e-5);
+}
+
+TEST_P(AgainstTheReference, TheWholeStrikeHasAsManySubImpacts) {
+  const Result result = simulate(paper_case(GetParam().section, 8e-3));
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  printf("%s: %zu sub-impacts\n", GetParam().name, result.sub_impacts.size());
+  EXPECT_EQ(result.sub_impacts.size(), GetParam().count);
+}
+
+INSTANTIATE_TEST_SUITE_P(, AgainstTheReference,
+                         testing::Values(Table{"seed_elastic", SectionKind::elastic, 1e-3, 26},
+                                         Table{"seed_exact", SectionKind::exact, 2e-3, 51},
+                                         Table{"seed_layers40", SectionKind::layers, 4e-3, 49}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(TheEighthElasticPeak, IsHigherThanTheTableSampledItAndCentralDifferencesAgree) {
+  Case input = paper_case(SectionKind::elastic, 0.6e-3);
+  const double erk = simulate(input).sub_impacts.at(7).max_indentation;
+  input.solver.method = Method::central_difference;
+  input.solver.step = 5e-9;
+  const double central = simulate(input).sub_impacts.at(7).max_indentation;
+  const double table = 1e-3 * reference_table("seed_elastic").at(7).max_indentation_mm;
+  printf("erk %.9f mm, central differences %.9f mm, table %.9f mm\n", 1e3 * erk, 1e3 * central,
+         1e3 * table);
+  EXPECT_LT(std::abs(erk / central - 1.0), 5e-6);
+  EXPECT_GT(erk, table);
+  EXPECT_LT(erk / table - 1.0, 5e-5);
+}
+
+}  // namespace
+}  // namespace subimpact
