@@ -5,8 +5,8 @@
 
 namespace subimpact {
 
-/// Cubic through a value and a rate at both ends of a step, as a function of s in [0, 1]. It only ever
-/// supplies first guesses: what is reported is found on the trajectory itself.
+/// Cubic through a value and a rate at both ends of a step, as a function of s in [0, 1]. It only
+/// ever supplies first guesses: what is reported is found on the trajectory itself.
 class HermiteCubic {
  public:
   HermiteCubic(double value0, double rate0, double value1, double rate1, double step)
@@ -18,9 +18,11 @@ class HermiteCubic {
   double operator()(double s) const { return c0_ + s * (c1_ + s * (c2_ + s * c3_)); }
   double slope(double s) const { return c1_ + s * (2.0 * c2_ + s * 3.0 * c3_); }
 
-  /// Where the slope changes from positive to negative in [0, 1], given that it is positive at 0 and
-  /// negative at 1.
-  double peak() const { return bisect([this](double s) { return -slope(s); }, 0.0, 1.0); }
+  /// Where the slope changes from positive to negative in [0, 1], given that it is positive at 0
+  /// and negative at 1.
+  double peak() const {
+    return bisect([this](double s) { return -slope(s); }, 0.0, 1.0);
+  }
 
   /// Where the value rises through zero between `a` (not above) and `b` (above).
   double rise(double a, double b) const {

@@ -4,8 +4,8 @@
 
 namespace subimpact {
 
-/// Value of an event function and its rate of change. An event happens where the value rises through
-/// zero: negative before, positive after.
+/// Value of an event function and its rate of change. An event happens where the value rises
+/// through zero: negative before, positive after.
 struct GuardValue {
   double value = 0.0;
   double rate = 0.0;
@@ -16,11 +16,11 @@ struct RootOptions {
   int max_iterations = 60;  ///< bisection alone needs about 50
 };
 
-/// The time in (a, b] at which `guard(t)` rises through zero: Newton's method from `guess`, kept inside
-/// a bracket that shrinks with every evaluation, and bisection where Newton would leave it or stalls.
-/// The caller vouches for a sign change: value <= 0 just after a, > 0 at b. `guard` is evaluated on the
-/// trajectory, so that the root is the trajectory's and not that of an interpolant. Returns the last
-/// time at which `guard` was evaluated.
+/// The time in (a, b] at which `guard(t)` rises through zero: Newton's method from `guess`, kept
+/// inside a bracket that shrinks with every evaluation, and bisection where Newton would leave it
+/// or stalls. The caller vouches for a sign change: value <= 0 just after a, > 0 at b. `guard` is
+/// evaluated on the trajectory, so that the root is the trajectory's and not that of an
+/// interpolant. Returns the last time at which `guard` was evaluated.
 template <class Guard>
 double find_rise(Guard guard, double a, double b, double guess, RootOptions options) {
   double t = guess > a && guess < b ? guess : 0.5 * (a + b);

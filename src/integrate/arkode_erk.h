@@ -14,15 +14,15 @@ struct ExplicitTable {
   std::string name;
   int order;
   int embedded_order;
-  int evaluations;  ///< right-hand sides an accepted step costs
-  std::string note; ///< what it is for, and its source
+  int evaluations;   ///< right-hand sides an accepted step costs
+  std::string note;  ///< what it is for, and its source
 };
 
 /// The tables, in the order in which users see them; the first is the default.
 const std::vector<ExplicitTable>& explicit_tables();
 
-/// Which vector operations SUNDIALS runs on. Debian's library is compiled without optimisation, so the
-/// project brings its own; the library's stay selectable for the comparison.
+/// Which vector operations SUNDIALS runs on. Debian's library is compiled without optimisation, so
+/// the project brings its own; the library's stay selectable for the comparison.
 enum class VectorOperations { project, library };
 
 struct ErkOptions {
@@ -35,11 +35,12 @@ struct ErkOptions {
 
 /// SUNDIALS ARKODE's explicit Runge-Kutta methods on y' = [v, a(q)].
 ///
-/// Weighted root-mean-square error control with the constant weights 1/(rtol * scale), scale being the
-/// problem's position or velocity scale. A state inside the last step is a retaken, shorter step of a
-/// second solver that has the same table (order of the method; ARKODE's dense output stops at five).
-/// Tables whose last stage is not the next step's first are given such a stage, which ERKStep of
-/// SUNDIALS before 6.7 needs to keep their order. Throws std::invalid_argument for an unknown table.
+/// Weighted root-mean-square error control with the constant weights 1/(rtol * scale), scale being
+/// the problem's position or velocity scale. A state inside the last step is a retaken, shorter
+/// step of a second solver that has the same table (order of the method; ARKODE's dense output
+/// stops at five). Tables whose last stage is not the next step's first are given such a stage,
+/// which ERKStep of SUNDIALS before 6.7 needs to keep their order. Throws std::invalid_argument for
+/// an unknown table.
 std::unique_ptr<Integrator> make_arkode_erk(SecondOrderOde& ode, const ErkOptions& options);
 
 }  // namespace subimpact

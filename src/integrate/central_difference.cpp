@@ -5,12 +5,7 @@
 namespace subimpact {
 
 CentralDifference::CentralDifference(SecondOrderOde& ode, double step)
-    : ode_(ode),
-      n_(ode.n_positions()),
-      step_(step),
-      a0_(n_),
-      a1_(n_),
-      a_partial_(n_) {}
+    : ode_(ode), n_(ode.n_positions()), step_(step), a0_(n_), a1_(n_), a_partial_(n_) {}
 
 void CentralDifference::restart(double t, const State& y) {
   t0_ = t1_ = origin_ = t;

@@ -9,10 +9,10 @@ namespace subimpact {
 
 /// What the integration has cost so far.
 struct WorkCounts {
-  long steps = 0;              ///< accepted steps
+  long steps = 0;  ///< accepted steps
   long rejected_steps = 0;
-  long right_hand_sides = 0;   ///< evaluations of the acceleration asked for by the integrator
-  long partial_steps = 0;      ///< steps retaken to a time inside the last one
+  long right_hand_sides = 0;  ///< evaluations of the acceleration asked for by the integrator
+  long partial_steps = 0;     ///< steps retaken to a time inside the last one
   long mass_solves = 0;
   long jacobians = 0;
   long factorisations = 0;
@@ -23,7 +23,8 @@ class IntegrationFailure : public std::runtime_error {
  public:
   IntegrationFailure(double time, const std::string& function, const std::string& flag,
                      const std::string& detail)
-      : std::runtime_error(function + " failed with " + flag + (detail.empty() ? "" : ": " + detail)),
+      : std::runtime_error(function + " failed with " + flag +
+                           (detail.empty() ? "" : ": " + detail)),
         time(time),
         function(function),
         flag(flag) {}
@@ -33,7 +34,8 @@ class IntegrationFailure : public std::runtime_error {
 };
 
 /// One method's way through a smooth stretch of q'' = a(q). It knows neither beams nor events: the
-/// caller looks at each step, may ask for the state anywhere inside it, and restarts after an event.
+/// caller looks at each step, may ask for the state anywhere inside it, and restarts after an
+/// event.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -41,8 +43,8 @@ class Integrator {
   /// Begins, or begins again after an event, at (t, y). The acceleration may have changed.
   virtual void restart(double t, const State& y) = 0;
 
-  /// Takes one accepted step from time() on. May pass any event: the acceleration is then that of the
-  /// branch in force, continued. Throws IntegrationFailure.
+  /// Takes one accepted step from time() on. May pass any event: the acceleration is then that of
+  /// the branch in force, continued. Throws IntegrationFailure.
   virtual void step() = 0;
 
   // The last step's ends; both are the present state before the first step after a restart.
@@ -51,8 +53,8 @@ class Integrator {
   const State& start_state() const { return y0_; }
   const State& state() const { return y1_; }
 
-  /// The state at a time within the last step, with the method's own accuracy (a partial step from the
-  /// start, not an interpolant of lower order).
+  /// The state at a time within the last step, with the method's own accuracy (a partial step from
+  /// the start, not an interpolant of lower order).
   virtual void state_at(double t, State& y) = 0;
 
   virtual WorkCounts work() const = 0;

@@ -36,9 +36,9 @@ struct SparseFunctional {
 ///
 ///     Mass q'' = -B^T W (-M(kappa)) + S F,
 ///
-/// S the struck point's functional, so that bending work is sum W (-M) dkappa and contact work F dS q:
-/// no energy appears or is lost in space. Where symmetry halves the unknowns, the mirrored half is
-/// folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
+/// S the struck point's functional, so that bending work is sum W (-M) dkappa and contact work F dS
+/// q: no energy appears or is lost in space. Where symmetry halves the unknowns, the mirrored half
+/// is folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
 class BeamMesh {
  public:
   virtual ~BeamMesh() = default;
@@ -46,11 +46,11 @@ class BeamMesh {
   std::size_t n_unknowns() const { return mass_.size(); }
   std::size_t n_sections() const { return weights_.size(); }
 
-  const BandedMatrix& mass() const { return mass_; }                       ///< kg
-  std::span<const double> section_weights() const { return weights_; }     ///< W, m
-  std::span<const double> section_positions() const { return positions_; } ///< x, m
-  const SparseFunctional& struck_point() const { return struck_point_; }   ///< S
-  const SparseFunctional& first_end() const { return first_end_; }         ///< w(0)
+  const BandedMatrix& mass() const { return mass_; }                        ///< kg
+  std::span<const double> section_weights() const { return weights_; }      ///< W, m
+  std::span<const double> section_positions() const { return positions_; }  ///< x, m
+  const SparseFunctional& struck_point() const { return struck_point_; }    ///< S
+  const SparseFunctional& first_end() const { return first_end_; }          ///< w(0)
   /// Index of the section at (or nearest to) the struck point.
   std::size_t struck_section() const { return struck_section_; }
   /// Unknowns of a rigid translation by 1 m.

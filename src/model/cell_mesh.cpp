@@ -14,7 +14,8 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
       rotary_inertia_(beam.rotary_inertia()) {
   if (n_cells < 5) throw std::invalid_argument("cell mesh: at least 5 cells are needed");
   if (symmetric() && (n_cells % 2 == 0 || position != 0.5)) {
-    throw std::invalid_argument("cell mesh: a half model needs an odd number of cells, struck at 0.5");
+    throw std::invalid_argument(
+        "cell mesh: a half model needs an odd number of cells, struck at 0.5");
   }
   const std::size_t n = n_unknowns();
   const double copies = symmetric() ? 2.0 : 1.0;  // the mirrored cells are folded in
@@ -87,8 +88,7 @@ void CellMesh::bending_forces(std::span<const double> moments, std::span<double>
 
 double CellMesh::highest_frequency(double bending_stiffness) const {
   const double inverse = 4.0 / (spacing_ * spacing_);
-  return inverse * std::sqrt(bending_stiffness /
-                             (mass_per_length_ + rotary_inertia_ * inverse));
+  return inverse * std::sqrt(bending_stiffness / (mass_per_length_ + rotary_inertia_ * inverse));
 }
 
 std::string CellMesh::description() const {

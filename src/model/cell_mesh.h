@@ -4,14 +4,14 @@
 
 namespace subimpact {
 
-/// The paper's mesh: N equal cells of length dx = l/N with the displacement at their centres, second
-/// order in dx. Free ends.
+/// The paper's mesh: N equal cells of length dx = l/N with the displacement at their centres,
+/// second order in dx. Free ends.
 ///
 ///     kappa_i = (w[i+1] - 2 w[i] + w[i-1])/dx^2 at every inner centre; no moment in the end cells
 ///     Mass = rho A dx I + (J/dx) L,  L the Laplacian of the chain of cells (tridiagonal)
 ///
-/// A strike between two centres is shared between them by linear weights. In the symmetric half model
-/// (strike at mid-span, N odd) the unknowns are w[0..(N-1)/2], the struck cell last.
+/// A strike between two centres is shared between them by linear weights. In the symmetric half
+/// model (strike at mid-span, N odd) the unknowns are w[0..(N-1)/2], the struck cell last.
 class CellMesh final : public BeamMesh {
  public:
   enum class Extent { whole, half };

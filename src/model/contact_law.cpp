@@ -64,7 +64,8 @@ double ContactLaw::branch_slope(ContactBranch branch, ContactHistory /*history*/
     case ContactBranch::elastic:
       return stiffness_ * power_slope(indentation);
     case ContactBranch::plastic:
-      return stiffness_ * (power_slope(indentation) - power_slope(indentation - yield_indentation_));
+      return stiffness_ *
+             (power_slope(indentation) - power_slope(indentation - yield_indentation_));
   }
   return 0.0;
 }

@@ -15,17 +15,18 @@ enum class ContactBranch { separated, elastic, plastic };
 /// Force between the striker's nose and the beam's surface, with memory.
 ///
 /// Model: independent columns of depth h and modulus E/h, elastic-perfectly plastic at the yield
-/// stress Y, pressed by a rigid cylinder of radius R. With the indentation `lambda` (m), its largest
-/// value so far `lambda_m`, the yield indentation `lambda_s = Y h/E` and the residual indentation
-/// `lambda_r = max(lambda_m - lambda_s, 0)`, the force F (N) is
+/// stress Y, pressed by a rigid cylinder of radius R. With the indentation `lambda` (m), its
+/// largest value so far `lambda_m`, the yield indentation `lambda_s = Y h/E` and the residual
+/// indentation `lambda_r = max(lambda_m - lambda_s, 0)`, the force F (N) is
 ///
 ///     separated   lambda <= lambda_r                        F = 0
 ///     elastic     lambda_r < lambda <= max(lambda_m, lambda_s)  F = K [lambda^n - lambda_r^n]
-///     plastic     lambda > max(lambda_m, lambda_s), growing F = K [lambda^n - (lambda - lambda_s)^n]
+///     plastic     lambda > max(lambda_m, lambda_s), growing F = K [lambda^n - (lambda -
+///     lambda_s)^n]
 ///
-/// with n = 3/2 and K = 4 sqrt(2R) E b/(3h) (N/m^n). F is continuous; its slope jumps at lambda_r and
-/// where unloading begins. Any other power law K lambda^n without yielding is the same law with an
-/// infinite lambda_s. Valid while the indentation is small beside R and h.
+/// with n = 3/2 and K = 4 sqrt(2R) E b/(3h) (N/m^n). F is continuous; its slope jumps at lambda_r
+/// and where unloading begins. Any other power law K lambda^n without yielding is the same law with
+/// an infinite lambda_s. Valid while the indentation is small beside R and h.
 ///
 /// The law itself is a value without state: history comes in as an argument and is changed only by
 /// `commit`, which callers apply at accepted steps and events, never inside a right-hand side.
@@ -58,8 +59,8 @@ class ContactLaw {
   /// The branch on which `indentation` lies, given the history.
   ContactBranch branch(ContactHistory history, double indentation) const;
 
-  /// Force of the given branch, continued smoothly beyond its range (negative below lambda_r): what an
-  /// integrator needs inside a step whose end is then moved to the branch's end.
+  /// Force of the given branch, continued smoothly beyond its range (negative below lambda_r): what
+  /// an integrator needs inside a step whose end is then moved to the branch's end.
   double branch_force(ContactBranch branch, ContactHistory history, double indentation) const;
 
   /// dF/dlambda of the given branch, N/m.

@@ -55,9 +55,9 @@ double Fibres::work(double x) const {
 double Fibres::energy(double a, double b, double constant, double slope) const {
   const Moments lower = up_to(a);
   const Moments upper = up_to(b);
-  return 1.5 * (constant * constant * (upper.s0 - lower.s0) +
-                2.0 * constant * slope * (upper.s1 - lower.s1) +
-                slope * slope * (upper.s2 - lower.s2));
+  return 1.5 *
+         (constant * constant * (upper.s0 - lower.s0) +
+          2.0 * constant * slope * (upper.s1 - lower.s1) + slope * slope * (upper.s2 - lower.s2));
 }
 
 }  // namespace subimpact

@@ -5,15 +5,15 @@ namespace subimpact {
 /// How the fibres of one half of a rectangular section are spread over zeta = 2 z/h in (0, 1]:
 /// continuously, or as p equal layers whose stress is taken at mid-layer, zeta_k = (k - 1/2)/p.
 ///
-/// Every fibre is linear elastic-perfectly plastic. All that a bending law needs of the distribution
-/// are its cumulative moments S_i(zeta) = integral (or layer sum / p) of zeta^i from 0 to zeta: with
-/// the curvature x = kappa/kappa_y and the moment m = |M|/M_y, the virgin curve is
+/// Every fibre is linear elastic-perfectly plastic. All that a bending law needs of the
+/// distribution are its cumulative moments S_i(zeta) = integral (or layer sum / p) of zeta^i from 0
+/// to zeta: with the curvature x = kappa/kappa_y and the moment m = |M|/M_y, the virgin curve is
 ///
 ///     m(x) = 3 [x S_2(z_e) + S_1(1) - S_1(z_e)],  z_e = min(1, 1/x)
 ///
-/// (fibres below z_e are elastic, the others carry the yield stress). Continuous fibres give the exact
-/// curve, m = x up to 1 and 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a first yield
-/// at x = 2p/(2p - 1): properties of that law, not errors of this code.
+/// (fibres below z_e are elastic, the others carry the yield stress). Continuous fibres give the
+/// exact curve, m = x up to 1 and 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a
+/// first yield at x = 2p/(2p - 1): properties of that law, not errors of this code.
 class Fibres {
  public:
   struct Moments {

@@ -45,8 +45,8 @@ std::vector<double> free_free_wave_numbers(double slenderness, std::size_t n) {
 std::vector<double> free_free_frequencies(const Beam& beam, std::size_t n) {
   const double slenderness =
       beam.theory == BeamTheory::rayleigh ? beam.radius_of_gyration() / beam.length : 0.0;
-  const double unit = std::sqrt(beam.bending_stiffness() / beam.mass_per_length()) /
-                      (beam.length * beam.length);
+  const double unit =
+      std::sqrt(beam.bending_stiffness() / beam.mass_per_length()) / (beam.length * beam.length);
   std::vector<double> frequencies;
   for (const double beta : free_free_wave_numbers(slenderness, n)) {
     frequencies.push_back(unit * beta * beta);

@@ -7,8 +7,8 @@
 
 namespace subimpact {
 
-/// The first `n` natural bending frequencies (rad/s) of the free-free beam, rigid modes left out, in
-/// the beam's own theory.
+/// The first `n` natural bending frequencies (rad/s) of the free-free beam, rigid modes left out,
+/// in the beam's own theory.
 ///
 /// Rayleigh beam: with B = beta^4 = rho A omega^2 l^4/(E I), r^2 = I/(A l^2),
 /// a^2 = [B r^2 + sqrt(B^2 r^4 + 4 B)]/2 and b = beta^2/a, the frequency equations are

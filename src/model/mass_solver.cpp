@@ -36,12 +36,13 @@ BandedMatrix cholesky_factor(const BandedMatrix& a, std::size_t padded) {
   return factor;
 }
 
-// Eight numbers at once, wherever they stand in memory; the compiler maps them to what the processor
-// has.
-using Lanes = double __attribute__((vector_size(block_size * sizeof(double)), aligned(8), may_alias));
+// Eight numbers at once, wherever they stand in memory; the compiler maps them to what the
+// processor has.
+using Lanes =
+    double __attribute__((vector_size(block_size * sizeof(double)), aligned(8), may_alias));
 
-// D x - P z for one block: D is 8 x 8, P is 8 x width, both column by column; z are the `width` entries
-// of `neighbour` from `first` on.
+// D x - P z for one block: D is 8 x 8, P is 8 x width, both column by column; z are the `width`
+// entries of `neighbour` from `first` on.
 template <std::size_t width>
 inline Lanes apply_block(const double* coefficients, const double* x, const Lanes& neighbour,
                          std::size_t first) {
@@ -61,8 +62,8 @@ inline Lanes apply_block(const double* coefficients, const double* x, const Lane
 
 inline void store(const Lanes& values, double* at) { *reinterpret_cast<Lanes*>(at) = values; }
 
-// The index of `coefficients` among those stored, stored now if new. A uniform mesh's factor settles
-// to a repeating pattern, so few blocks differ and all stay in the nearest cache.
+// The index of `coefficients` among those stored, stored now if new. A uniform mesh's factor
+// settles to a repeating pattern, so few blocks differ and all stay in the nearest cache.
 std::size_t store_once(std::vector<double>& stored, const std::vector<double>& coefficients) {
   const std::size_t size = coefficients.size();
   for (std::size_t at = stored.size(); at > 0; at -= size) {

@@ -11,8 +11,8 @@ namespace subimpact {
 /// The bending law of every section of a beam, with the memory of those that have yielded.
 ///
 /// A section costs memory only once it has yielded, and the law is asked only for a section whose
-/// curvature has left the window in which none of its fibres flows; inside it -M is linear in kappa.
-/// Curvatures and moments are arrays of size() entries, one a section, in 1/m and N m.
+/// curvature has left the window in which none of its fibres flows; inside it -M is linear in
+/// kappa. Curvatures and moments are arrays of size() entries, one a section, in 1/m and N m.
 class SectionField {
  public:
   enum class Storage {
@@ -23,7 +23,8 @@ class SectionField {
   /// A field that never yields, -M = stiffness kappa.
   SectionField(std::size_t n_sections, double stiffness);
   /// A field of one law.
-  SectionField(std::size_t n_sections, const SectionLaw& law, Storage storage = Storage::when_yielded);
+  SectionField(std::size_t n_sections, const SectionLaw& law,
+               Storage storage = Storage::when_yielded);
 
   std::size_t size() const { return low_.size(); }
   bool can_yield() const { return law_.has_value(); }

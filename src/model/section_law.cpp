@@ -9,8 +9,8 @@ namespace {
 
 using Point = SectionHistory::Point;
 
-// The reversal points in force for motion in one sense: those stored and, when the motion turns back
-// from the edge, the edge itself on top.
+// The reversal points in force for motion in one sense: those stored and, when the motion turns
+// back from the edge, the edge itself on top.
 class ReversalsInForce {
  public:
   ReversalsInForce(const SectionHistory& history, bool turned)
@@ -109,8 +109,8 @@ void SectionLaw::commit(SectionHistory& history, double curvature) const {
     history.reversals.push_back(history.edge);
     history.direction = -history.direction;
   }
-  // Along the branches to x; a branch that passes the previous reversal point closes a loop, which is
-  // forgotten.
+  // Along the branches to x; a branch that passes the previous reversal point closes a loop, which
+  // is forgotten.
   double from = history.edge.x;
   for (;;) {
     const std::size_t n = history.reversals.size();
@@ -146,8 +146,8 @@ double SectionLaw::work(const SectionHistory& history, double curvature) const {
 
 template <class Visit>
 void SectionLaw::for_each_zone(const SectionHistory& history, double x, Visit visit) const {
-  // Fibres beyond 2/|b - a| flowed on the branch from a to b (beyond 1/|b| on the virgin one) and have
-  // been elastic since its end b. Later branches are shorter, so their fibres lie further out.
+  // Fibres beyond 2/|b - a| flowed on the branch from a to b (beyond 1/|b| on the virgin one) and
+  // have been elastic since its end b. Later branches are shorter, so their fibres lie further out.
   const ReversalsInForce points(history, turns_back(history, x));
   double outer = 1.0;
   double end = x;

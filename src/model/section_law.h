@@ -13,13 +13,15 @@ struct SectionHistory {
   struct Point {
     double x, m;
   };
-  std::vector<Point> reversals;  ///< turning points still in force, alternating, ever closer together
-  Point edge{0.0, 0.0};          ///< where the last flow ended; the next reversal point if it turned
-  int direction = 0;             ///< sense of the last flow, +1 or -1; 0: has never yielded
-  double work = 0.0;             ///< integral of m dx up to the edge
+  std::vector<Point>
+      reversals;         ///< turning points still in force, alternating, ever closer together
+  Point edge{0.0, 0.0};  ///< where the last flow ended; the next reversal point if it turned
+  int direction = 0;     ///< sense of the last flow, +1 or -1; 0: has never yielded
+  double work = 0.0;     ///< integral of m dx up to the edge
 };
 
-/// Curvatures (1/m) between which none of a section's fibres flows: there -M = stiffness kappa - offset.
+/// Curvatures (1/m) between which none of a section's fibres flows: there -M = stiffness kappa -
+/// offset.
 struct ElasticWindow {
   double low, high;
   double offset;  ///< N m
@@ -29,13 +31,15 @@ struct ElasticWindow {
 ///
 /// The virgin curve is that of the fibres (Fibres). From a reversal point r the branch is
 /// m = m_r +- 2 f(|x - x_r|/2) with f the virgin curve (Masing); a branch that reaches the previous
-/// reversal point continues the older branch, and beyond the largest amplitude the virgin curve holds
-/// again. For fibres that yield at one stress this is no approximation: it is what the sum over the
-/// fibres does (a Prandtl-Ishlinskii operator), for the continuous section and for layers alike.
-/// After flow in one sense ends at `edge`, nothing flows within 2 x_1 behind it (x_1: first yield).
+/// reversal point continues the older branch, and beyond the largest amplitude the virgin curve
+/// holds again. For fibres that yield at one stress this is no approximation: it is what the sum
+/// over the fibres does (a Prandtl-Ishlinskii operator), for the continuous section and for layers
+/// alike. After flow in one sense ends at `edge`, nothing flows within 2 x_1 behind it (x_1: first
+/// yield).
 ///
-/// Bending moment `-M` in N m, curvature in 1/m. All functions are const in the history; `commit` alone
-/// advances it, at accepted states. Curvature is taken to move monotonically between two commits.
+/// Bending moment `-M` in N m, curvature in 1/m. All functions are const in the history; `commit`
+/// alone advances it, at accepted states. Curvature is taken to move monotonically between two
+/// commits.
 class SectionLaw {
  public:
   /// `fibres` of a section of `beam`; the yield stress must be finite.

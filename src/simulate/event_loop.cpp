@@ -54,7 +54,8 @@ void EventLoop::advance() {
 
 void EventLoop::check_state(const State& y) {
   const double indentation = beam_.indentation(y);
-  const bool looked_at = n_steps_ % energy_check_interval == 0;
+  const bool too_deep = indentation >= options_.largest_indentation;
+  const bool looked_at = too_deep || n_steps_ % energy_check_interval == 0;
   const double energy = looked_at ? beam_.energies(y).total() : initial_energy_;
   if (!std::isfinite(indentation) || !std::isfinite(energy) ||
       energy > (1.0 + tolerated_energy_gain) * initial_energy_) {
@@ -62,7 +63,7 @@ void EventLoop::check_state(const State& y) {
                      "the solution grows without bound: total energy is no longer near its initial "
                      "value; use a smaller solver.step or another method");
   }
-  if (indentation >= options_.largest_indentation) {
+  if (too_deep) {
     throw RunStopped(
         RunStopped::Reason::left_validity,
         "the indentation reached the beam's thickness, where the contact law ends; reduce "

@@ -13,8 +13,8 @@ namespace subimpact {
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
-  /// A step ends at `step.t1`, before its end is committed: the equations are still those of the step,
-  /// so `integrator.state_at` may be asked for any time within it.
+  /// A step ends at `step.t1`, before its end is committed: the equations are still those of the
+  /// step, so `integrator.state_at` may be asked for any time within it.
   virtual void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) = 0;
   /// An event, once with the equations before it and once with those after it.
   virtual void before_event(const Transition& event, const State& y, StruckBeam& beam) = 0;
@@ -33,20 +33,22 @@ class RunStopped : public std::runtime_error {
 struct LoopOptions {
   double end_time = 0.0;  ///< s
   EventHandling events = EventHandling::located;
-  /// Overshoot of a section's turning point, 1/m, above which the turn ends its step; infinite: never.
+  /// Overshoot of a section's turning point, 1/m, above which the turn ends its step; infinite:
+  /// never.
   double reversal_tolerance = 0.0;
   double largest_indentation = 0.0;  ///< m; beyond it the contact law means nothing
 };
 
-/// The one loop all methods share: step, find what happened in the step, end it there, switch, go on.
+/// The one loop all methods share: step, find what happened in the step, end it there, switch, go
+/// on.
 class EventLoop {
  public:
   EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, LoopOptions options);
 
   /// Puts the beam at t = 0 with the contact just begun.
   void start();
-  /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure or
-  /// RunStopped.
+  /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure
+  /// or RunStopped.
   void advance();
 
   bool finished() const { return time_ >= options_.end_time; }

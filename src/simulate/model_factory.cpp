@@ -26,9 +26,10 @@ std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
   if (half && segments % 2 == 0) {
     throw InvalidCase(
         "model.segments",
-        fmt::format("is {}, but the half model of a scene struck at mid-span needs an odd number, so "
-                    "that a cell lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
-                    segments, segments - 1, segments + 1));
+        fmt::format(
+            "is {}, but the half model of a scene struck at mid-span needs an odd number, so "
+            "that a cell lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
+            segments, segments - 1, segments + 1));
   }
   return std::make_unique<CellMesh>(input.scene.beam, input.scene.striker.position,
                                     static_cast<std::size_t>(segments),
@@ -79,18 +80,19 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.first_period = 2.0 * M_PI / free_free_frequencies(scene.beam, 1).front();
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
   const bool central = input.solver.method == Method::central_difference;
-  used.events = input.solver.events.value_or(central ? EventHandling::interpolated
-                                                     : EventHandling::located);
+  used.events =
+      input.solver.events.value_or(central ? EventHandling::interpolated : EventHandling::located);
   if (central) {
     used.step = input.solver.step.value_or(default_part_of_critical * used.critical_step);
     if (*used.step > used.critical_step && !input.solver.beyond_critical) {
       throw InvalidCase(
           "solver.step",
-          fmt::format("is {:.6g} us, above the stability limit of central differences on this mesh, "
-                      "{:.6g} us (2/omega_max); use a smaller step, leave it out for {:.6g} us, or set "
-                      "solver.beyond_critical = true to see it fail",
-                      1e6 * *used.step, 1e6 * used.critical_step,
-                      1e6 * default_part_of_critical * used.critical_step));
+          fmt::format(
+              "is {:.6g} us, above the stability limit of central differences on this mesh, "
+              "{:.6g} us (2/omega_max); use a smaller step, leave it out for {:.6g} us, or set "
+              "solver.beyond_critical = true to see it fail",
+              1e6 * *used.step, 1e6 * used.critical_step,
+              1e6 * default_part_of_critical * used.critical_step));
     }
   } else {
     used.step = input.solver.step;
@@ -103,8 +105,7 @@ Used describe(const Case& input, const StruckBeam& beam) {
   return used;
 }
 
-std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used,
-                                            StruckBeam& beam) {
+std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used, StruckBeam& beam) {
   if (input.solver.method == Method::central_difference) {
     return std::make_unique<CentralDifference>(beam, *used.step);
   }

@@ -13,10 +13,10 @@ namespace subimpact {
 /// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
 
-/// The struck beam of a case. Throws InvalidCase where mesh and scene do not go together. `storage` is
-/// for comparisons of lazily and eagerly stored sections.
-StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage =
-                                                   SectionField::Storage::when_yielded);
+/// The struck beam of a case. Throws InvalidCase where mesh and scene do not go together. `storage`
+/// is for comparisons of lazily and eagerly stored sections.
+StruckBeam make_struck_beam(const Case& input,
+                            SectionField::Storage storage = SectionField::Storage::when_yielded);
 
 /// What is derived from the case. Throws InvalidCase for a step beyond the stability limit.
 Used describe(const Case& input, const StruckBeam& beam);

@@ -117,8 +117,7 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam) {
   }
   result_.n_yielded_sections = beam.sections().n_yielded();
   result_.striker_velocity = y.back();
-  result_.beam_mean_velocity =
-      (beam.momentum(y) - striker_mass_ * y.back()) / beam.beam_mass();
+  result_.beam_mean_velocity = (beam.momentum(y) - striker_mass_ * y.back()) / beam.beam_mass();
 }
 
 void Recorder::add_row(double time, const State& y, StruckBeam& beam) {

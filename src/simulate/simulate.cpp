@@ -12,8 +12,8 @@
 namespace subimpact {
 namespace {
 
-// A turn that overshoots by less than this part of the yield curvature times rtol is left to the step's
-// end.
+// A turn that overshoots by less than this part of the yield curvature times rtol is left to the
+// step's end.
 constexpr double negligible_overshoot = 0.1;
 
 constexpr long progress_interval = 512;  // steps

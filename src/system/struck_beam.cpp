@@ -9,8 +9,8 @@
 namespace subimpact {
 namespace {
 
-// A branch that is left and regained by less than this part of the displacement scale within one step
-// is not an event: it is below the rounding of the displacements themselves.
+// A branch that is left and regained by less than this part of the displacement scale within one
+// step is not an event: it is below the rounding of the displacements themselves.
 constexpr double negligible_excursion = 1e-13;
 
 }  // namespace
@@ -30,9 +30,9 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       moments_(mesh_->n_sections()),
       trial_(n_ + 1) {
   const double exponent = contact_law_.exponent();
-  const double contact_time =
-      std::pow(striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),
-               1.0 / (exponent + 1.0));
+  const double contact_time = std::pow(
+      striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),
+      1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
   mesh_->mass().multiply(mesh_->translation(), momentum_functional_);
   for (Kinematics* at : {&start_, &end_}) {
@@ -77,7 +77,8 @@ double StruckBeam::indentation_rate(const State& y) const {
 
 double StruckBeam::contact_force(const State& y) const { return force(indentation(y)); }
 
-// --- events ----------------------------------------------------------------------------------------
+// --- events
+// ----------------------------------------------------------------------------------------
 
 GuardValue StruckBeam::contact_guard(EventKind kind, double indentation, double rate) const {
   switch (kind) {
@@ -274,7 +275,8 @@ void StruckBeam::read_kinematics(const State& y, Kinematics& at) const {
   mesh_->curvatures(beam_velocities(y), at.rates);
 }
 
-// --- accounts --------------------------------------------------------------------------------------
+// --- accounts
+// --------------------------------------------------------------------------------------
 
 Energies StruckBeam::energies(const State& y) {
   Energies sum;

@@ -63,8 +63,8 @@ struct StepEnds {
 ///
 /// The contact force is evaluated in one of two ways. `smooth`: the branch in force is continued
 /// beyond its range, so that the right-hand side has no kink inside a step, and whoever integrates
-/// locates the end of the branch. `switching`: the branch follows the indentation, as in schemes that
-/// do not locate events.
+/// locates the end of the branch. `switching`: the branch follows the indentation, as in schemes
+/// that do not locate events.
 class StruckBeam final : public SecondOrderOde {
  public:
   enum class ContactEvaluation { smooth, switching };
@@ -92,14 +92,16 @@ class StruckBeam final : public SecondOrderOde {
   bool in_contact() const { return contact_branch_ != ContactBranch::separated; }
   double indentation(const State& y) const;
   double indentation_rate(const State& y) const;
-  double residual_indentation() const { return contact_law_.residual_indentation(contact_history_); }
+  double residual_indentation() const {
+    return contact_law_.residual_indentation(contact_history_);
+  }
   double contact_force(const State& y) const;
 
   // --- events ------------------------------------------------------------------------------------
   /// The earliest crossing within a step that began at the last committed state, if any: the end of
-  /// the contact's branch (also when it would be left and regained within the step), or a section that
-  /// flowed and turned back by more than `reversal_tolerance` (1/m of curvature; infinite: reversals
-  /// are not looked for). Earliest by estimate; `without` is not considered.
+  /// the contact's branch (also when it would be left and regained within the step), or a section
+  /// that flowed and turned back by more than `reversal_tolerance` (1/m of curvature; infinite:
+  /// reversals are not looked for). Earliest by estimate; `without` is not considered.
   bool find_crossing(const StepEnds& step, double reversal_tolerance, const Guard* without,
                      Crossing& earliest);
   /// A guard's value and rate at a state; costs an acceleration for the guards on a rate.
@@ -124,9 +126,10 @@ class StruckBeam final : public SecondOrderOde {
     double struck, striker, first_end;  ///< m
   };
   Displacements displacements(const State& y) const;
-  /// If a section flows at the step's end: when, within the step, the first of them left its window.
+  /// If a section flows at the step's end: when, within the step, the first of them left its
+  /// window.
   std::optional<double> first_flow(const StepEnds& step);
-  double back_stress(const State& y);     ///< outer fibre at the struck section, far side, Pa
+  double back_stress(const State& y);  ///< outer fibre at the struck section, far side, Pa
 
  private:
   std::span<const double> beam_positions(const State& y) const { return {y.data(), n_}; }

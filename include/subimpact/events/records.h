@@ -32,19 +32,20 @@ struct Transition {
 
 /// From the instant contact begins to the instant its force returns to zero.
 struct SubImpact {
-  double start = 0.0;                  ///< s
-  std::optional<double> end;           ///< s; none: still in contact when the simulation ended
-  double peak_force = 0.0;             ///< N
-  double impulse = 0.0;                ///< N s
-  double max_indentation = 0.0;        ///< m, largest within this sub-impact
-  double residual_indentation = 0.0;   ///< m, after it
-  double striker_velocity = 0.0;       ///< m/s, at its end
-  int zone = 0;                        ///< numbered from 1
-  int subzone = 0;                     ///< numbered from 1 within the zone
+  double start = 0.0;                 ///< s
+  std::optional<double> end;          ///< s; none: still in contact when the simulation ended
+  double peak_force = 0.0;            ///< N
+  double impulse = 0.0;               ///< N s
+  double max_indentation = 0.0;       ///< m, largest within this sub-impact
+  double residual_indentation = 0.0;  ///< m, after it
+  double striker_velocity = 0.0;      ///< m/s, at its end
+  int zone = 0;                       ///< numbered from 1
+  int subzone = 0;                    ///< numbered from 1 within the zone
 };
 
-/// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before it
-/// belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills zone and subzone.
+/// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before
+/// it belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills zone and
+/// subzone.
 void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
 
 }  // namespace subimpact

@@ -1,7 +1,8 @@
 #pragma once
 
-/// A case: the scene, how it is modelled, how it is integrated, and what is kept of it. Each member is
-/// a key of the case file; case_keys() (see case_keys.h) lists them with units, defaults and ranges.
+/// A case: the scene, how it is modelled, how it is integrated, and what is kept of it. Each member
+/// is a key of the case file; case_keys() (see case_keys.h) lists them with units, defaults and
+/// ranges.
 
 #include <optional>
 #include <string>
@@ -38,7 +39,8 @@ enum class MassSolverKind { tridiagonal, klu };
 /// What becomes of an event inside a step.
 enum class EventHandling {
   located,      ///< the step is retaken to end at the event, found on the trajectory itself
-  interpolated  ///< the step stands; the event's time is interpolated within it (the paper's scheme)
+  interpolated  ///< the step stands; the event's time is interpolated within it (the paper's
+                ///< scheme)
 };
 
 enum class ReversalHandling {
@@ -50,15 +52,16 @@ enum class VectorOperationsKind { project, library };
 
 struct SolverOptions {
   Method method = Method::erk;
-  double rtol = 1e-8;               ///< relative to the scene's own scales of displacement and velocity
-  std::optional<double> step;       ///< s; central-difference: 0.9 of critical if empty; erk: adaptive
-  std::optional<double> max_step;   ///< s; adaptive methods
-  std::string table = "dop853";  ///< erk: Butcher table
+  double rtol = 1e-8;          ///< relative to the scene's own scales of displacement and velocity
+  std::optional<double> step;  ///< s; central-difference: 0.9 of critical if empty; erk: adaptive
+  std::optional<double> max_step;  ///< s; adaptive methods
+  std::string table = "dop853";    ///< erk: Butcher table
   MassSolverKind mass_solver = MassSolverKind::tridiagonal;
-  std::optional<EventHandling> events;   ///< empty: interpolated for central-difference, else located
+  std::optional<EventHandling>
+      events;  ///< empty: interpolated for central-difference, else located
   ReversalHandling reversals = ReversalHandling::located;
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
-  bool beyond_critical = false;     ///< lets a fixed step exceed the stability limit, to see it fail
+  bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
 };
 
 struct OutputOptions {

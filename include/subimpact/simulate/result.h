@@ -36,9 +36,9 @@ struct HistoryRow {
 /// How a simulation ended.
 enum class OutcomeKind {
   completed,
-  unstable,           ///< energy grew without reason, or a value is not a number
-  solver_failed,      ///< the integrator could not go on
-  left_validity,      ///< the indentation reached the beam's thickness
+  unstable,       ///< energy grew without reason, or a value is not a number
+  solver_failed,  ///< the integrator could not go on
+  left_validity,  ///< the indentation reached the beam's thickness
 };
 
 struct Outcome {
@@ -51,20 +51,20 @@ struct Outcome {
 /// What was used where the case left a choice open, or leaves it to be derived.
 struct Used {
   bool half_model = false;
-  std::size_t n_unknowns = 0;         ///< of the beam
+  std::size_t n_unknowns = 0;  ///< of the beam
   std::size_t n_sections = 0;
-  std::string mesh;                   ///< in words
-  double highest_frequency = 0.0;     ///< rad/s, bound
-  double critical_step = 0.0;         ///< s, of central differences
-  std::optional<double> step;         ///< s, of fixed-step methods
+  std::string mesh;                ///< in words
+  double highest_frequency = 0.0;  ///< rad/s, bound
+  double critical_step = 0.0;      ///< s, of central differences
+  std::optional<double> step;      ///< s, of fixed-step methods
   EventHandling events = EventHandling::located;
-  double position_tolerance = 0.0;    ///< m, adaptive methods
-  double velocity_tolerance = 0.0;    ///< m/s
-  double contact_stiffness = 0.0;     ///< K, N/m^1.5
-  double yield_indentation = 0.0;     ///< lambda_s, m
-  double yield_curvature = 0.0;       ///< 1/m
-  double first_period = 0.0;          ///< T1 of the beam in bending, s
-  double initial_energy = 0.0;        ///< J
+  double position_tolerance = 0.0;  ///< m, adaptive methods
+  double velocity_tolerance = 0.0;  ///< m/s
+  double contact_stiffness = 0.0;   ///< K, N/m^1.5
+  double yield_indentation = 0.0;   ///< lambda_s, m
+  double yield_curvature = 0.0;     ///< 1/m
+  double first_period = 0.0;        ///< T1 of the beam in bending, s
+  double initial_energy = 0.0;      ///< J
 };
 
 struct Work {
@@ -75,7 +75,7 @@ struct Work {
   long mass_solves = 0;
   long jacobians = 0;
   long factorisations = 0;
-  long roots = 0;        ///< events located
+  long roots = 0;  ///< events located
   double setup_seconds = 0.0;
   double wall_seconds = 0.0;  ///< whole, set-up included
 };
@@ -86,14 +86,15 @@ struct Result {
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
   std::vector<HistoryRow> history;
-  std::optional<double> first_section_yield;  ///< s, end of the step in which a section first flowed
+  std::optional<double>
+      first_section_yield;  ///< s, end of the step in which a section first flowed
   std::optional<double> first_contact_yield;  ///< s
   std::size_t n_yielded_sections = 0;         ///< of the sections modelled
-  double max_force = 0.0;        ///< N
-  double max_indentation = 0.0;  ///< m
-  double striker_velocity = 0.0;    ///< m/s, at the end
-  double beam_mean_velocity = 0.0;  ///< m/s, at the end: beam momentum over beam mass
-  double max_energy_error = 0.0;    ///< largest relative error over the rows and at the end
+  double max_force = 0.0;                     ///< N
+  double max_indentation = 0.0;               ///< m
+  double striker_velocity = 0.0;              ///< m/s, at the end
+  double beam_mean_velocity = 0.0;            ///< m/s, at the end: beam momentum over beam mass
+  double max_energy_error = 0.0;  ///< largest relative error over the rows and at the end
   double max_momentum_error = 0.0;
   Work work;
 };

@@ -9,8 +9,8 @@
 
 namespace subimpact {
 
-/// A case that cannot be run as asked. `key` is the case file's ("solver.step"); `what()` says what is
-/// wrong, what is allowed and what to do.
+/// A case that cannot be run as asked. `key` is the case file's ("solver.step"); `what()` says what
+/// is wrong, what is allowed and what to do.
 class InvalidCase : public std::runtime_error {
  public:
   InvalidCase(std::string key, const std::string& message)
@@ -25,8 +25,8 @@ using Progress = std::function<bool(double time)>;
 /// What would be modelled: everything derived from the case, nothing run. Throws InvalidCase.
 Used explain(const Case& input);
 
-/// Runs a case. Throws InvalidCase; any other failure is reported in the outcome, with all results up
-/// to it.
+/// Runs a case. Throws InvalidCase; any other failure is reported in the outcome, with all results
+/// up to it.
 Result simulate(const Case& input, const Progress& progress = {});
 
 }  // namespace subimpact

@@ -131,9 +131,9 @@ int linear_combination(int n, realtype* c, N_Vector* x, N_Vector z) {
   constexpr int widest = 8;
   const sunindextype length = NV_LENGTH_S(z);
   double* out = NV_DATA_S(z);
-  // Terms with a zero coefficient are left out (high-order tables are full of them). Passes of up to
-  // eight terms; further passes carry the sum so far along with weight 1. Only the first vector may
-  // alias z, so nothing is lost in between.
+  // Terms with a zero coefficient are left out (high-order tables are full of them). Passes of up
+  // to eight terms; further passes carry the sum so far along with weight 1. Only the first vector
+  // may alias z, so nothing is lost in between.
   realtype weights[widest];
   N_Vector vectors[widest];
   int held = 0;
