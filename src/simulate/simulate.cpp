@@ -8,6 +8,7 @@
 #include "simulate/event_loop.h"
 #include "simulate/model_factory.h"
 #include "simulate/recorder.h"
+#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -32,10 +33,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Used explain(const Case& input) { return describe(input, make_struck_beam(input)); }
+Used explain(const Case& input) {
+  check(input);
+  return describe(input, make_struck_beam(input));
+}
 
 Result simulate(const Case& input, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
+  check(input);
   StruckBeam beam = make_struck_beam(input);
   Result result;
   result.used = describe(input, beam);
@@ -50,12 +55,15 @@ Result simulate(const Case& input, const Progress& progress) {
   result.work.setup_seconds = seconds_since(start);
 
   try {
+    result.outcome.message = "completed";
     loop.start();
     for (long n = 1; !loop.finished(); ++n) {
       loop.advance();
-      if (n % progress_interval == 0 && progress && !progress(loop.time())) break;
+      if (n % progress_interval == 0 && progress && !progress(loop.time())) {
+        result.outcome = {OutcomeKind::stopped, loop.time(), "stopped on request"};
+        break;
+      }
     }
-    result.outcome = {OutcomeKind::completed, loop.time(), "completed"};
   } catch (const RunStopped& stop) {
     result.outcome.kind = stop.reason == RunStopped::Reason::unstable ? OutcomeKind::unstable
                                                                       : OutcomeKind::left_validity;

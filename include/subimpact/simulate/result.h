@@ -36,6 +36,7 @@ struct HistoryRow {
 /// How a simulation ended.
 enum class OutcomeKind {
   completed,
+  stopped,            ///< the caller's progress function asked to stop
   unstable,       ///< energy grew without reason, or a value is not a number
   solver_failed,  ///< the integrator could not go on
   left_validity,  ///< the indentation reached the beam's thickness

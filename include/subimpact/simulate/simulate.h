@@ -19,7 +19,7 @@ class InvalidCase : public std::runtime_error {
 };
 
 /// Called now and then with the simulated time, s; for progress displays. Returning false stops the
-/// run, which then ends as it does at its end time.
+/// run, which then ends as it does at its end time but with the outcome `stopped`.
 using Progress = std::function<bool(double time)>;
 
 /// What would be modelled: everything derived from the case, nothing run. Throws InvalidCase.

@@ -1,0 +1,304 @@
+#include "subimpact/io/case_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "io/toml_value.h"
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+bool is_table(const std::string& name) {
+  return std::any_of(case_keys().begin(), case_keys().end(),
+                     [&](const CaseKey& key) { return !name.empty() && key.table() == name; });
+}
+
+std::vector<std::string> table_names() {
+  std::vector<std::string> names;
+  for (const CaseKey& key : case_keys()) {
+    const std::string table = key.table();
+    if (!table.empty() && (names.empty() || names.back() != table)) names.push_back(table);
+  }
+  return names;
+}
+
+std::vector<std::string> leaves_of(const std::string& table) {
+  std::vector<std::string> names;
+  for (const CaseKey& key : case_keys()) {
+    if (key.table() == table) names.push_back(key.leaf());
+  }
+  return names;
+}
+
+std::string full_name(const std::string& table, const std::string& leaf) {
+  return table.empty() ? leaf : table + "." + leaf;
+}
+
+// For a key that is not known in `table`: the slip meant, else the table in which the name is
+// known.
+std::string suggestion(const std::string& table, const std::string& leaf) {
+  const std::string near = nearest_name(leaf, leaves_of(table));
+  if (!near.empty()) return fmt::format("; did you mean \"{}\"?", full_name(table, near));
+  for (const CaseKey& key : case_keys()) {
+    if (key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
+  }
+  return "; correct or remove it";
+}
+
+std::string unknown_key(const std::string& table, const std::string& leaf) {
+  const std::string where = table.empty() ? "outside all tables" : "in [" + table + "]";
+  return fmt::format("unknown key \"{}\"; allowed {}: {}{}", full_name(table, leaf), where,
+                     fmt::join(leaves_of(table), ", "), suggestion(table, leaf));
+}
+
+std::string unknown_table(const std::string& name) {
+  const std::string near = nearest_name(name, table_names());
+  return fmt::format("unknown table [{}]; allowed: [{}]; {}", name,
+                     fmt::join(table_names(), "], ["),
+                     near.empty() ? "correct or remove it" : "did you mean [" + near + "]?");
+}
+
+/// Gathers the values of a case and everything that is wrong with them.
+class Reader {
+ public:
+  explicit Reader(std::string name) : name_(std::move(name)) {}
+
+  void read(const toml::table& root);
+  void apply(const Override& setting);
+  LoadedCase finish();
+
+ private:
+  struct Given {
+    KeyValue value;
+    std::string place;
+  };
+
+  std::string place(const toml::source_position& at) const {
+    return fmt::format("{}:{}:{}", name_, at.line, at.column);
+  }
+  void complain(const std::string& where, const std::string& message) {
+    problems_.push_back(where + ": " + message);
+  }
+  void read_table(const std::string& table, const toml::table& content);
+  void read_value(const CaseKey& key, const toml::node& node, const std::string& where);
+  void complain_of_missing_keys();
+
+  std::string name_;
+  std::map<std::string, Given> given_;
+  std::map<std::string, std::string> tables_;  // present ones, and their places
+  std::vector<std::string> refused_;           // keys already complained of
+  std::vector<std::string> problems_;
+};
+
+void Reader::read(const toml::table& root) {
+  for (const auto& [key, node] : root) {
+    const std::string name(key.str());
+    const std::string where = place(key.source().begin);
+    if (const CaseKey* known = find_case_key(name)) {
+      read_value(*known, node, where);
+    } else if (is_table(name)) {
+      tables_[name] = where;
+      if (const toml::table* table = node.as_table()) {
+        read_table(name, *table);
+      } else {
+        complain(where,
+                 fmt::format("\"{0}\" is {1}; allowed: a table; write [{0}] on a line of its "
+                             "own, and its keys below it",
+                             name, node.is_array() ? "a list" : describe_type(node)));
+      }
+    } else if (node.is_table()) {
+      complain(where, unknown_table(name));
+    } else {
+      complain(where, unknown_key("", name));
+    }
+  }
+}
+
+void Reader::read_table(const std::string& table, const toml::table& content) {
+  for (const auto& [key, node] : content) {
+    const std::string leaf(key.str());
+    const std::string where = place(key.source().begin);
+    if (const CaseKey* known = find_case_key(full_name(table, leaf))) {
+      read_value(*known, node, where);
+    } else {
+      complain(where, unknown_key(table, leaf));
+    }
+  }
+}
+
+void Reader::read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
+  std::optional<KeyValue> value = to_key_value(node);
+  if (value) {
+    given_[key.name] = {std::move(*value), where};
+  } else {
+    refused_.push_back(key.name);
+    complain(where, key.name + " " + refusal(key, describe_type(node)));
+  }
+}
+
+// On a command line quotes are a nuisance: what is no TOML value is taken as a text where one is
+// wanted.
+std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& text) {
+  const bool wants_text = key.type == KeyType::text || key.type == KeyType::choice;
+  const bool wants_pair = key.type == KeyType::pair && !text.starts_with('[');
+  if (wants_text && !text.starts_with('"') && !text.starts_with('\'')) return KeyValue(text);
+  if (wants_pair) {
+    std::vector<std::string> names;
+    std::istringstream items(text);
+    for (std::string item; std::getline(items, item, ',');) names.push_back(item);
+    return KeyValue(std::move(names));
+  }
+  try {
+    const toml::table parsed = toml::parse("value = " + text);
+    if (parsed.size() != 1) return std::nullopt;
+    return to_key_value(*parsed.get("value"));
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+}
+
+void Reader::apply(const Override& setting) {
+  const CaseKey* key = find_case_key(setting.key);
+  if (key == nullptr) {
+    const auto dot = setting.key.find('.');
+    const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
+    if (!table.empty() && !is_table(table)) {
+      complain(setting.origin, unknown_table(table));
+    } else {
+      complain(setting.origin, unknown_key(table, setting.key.substr(dot + 1)));
+    }
+    return;
+  }
+  std::erase(refused_, key->name);
+  if (std::optional<KeyValue> value = parse_setting(*key, setting.value)) {
+    given_[key->name] = {std::move(*value), setting.origin};
+  } else {
+    refused_.push_back(key->name);
+    complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'"));
+  }
+}
+
+void Reader::complain_of_missing_keys() {
+  std::vector<std::string> missing_tables;
+  for (const CaseKey& key : case_keys()) {
+    const bool refused = std::find(refused_.begin(), refused_.end(), key.name) != refused_.end();
+    if (!key.required || given_.contains(key.name) || refused) continue;
+    const std::string table = key.table();
+    const auto present = tables_.find(table);
+    if (present != tables_.end()) {
+      complain(present->second,
+               fmt::format("{} is missing; allowed: {}; add \"{} = ...\" under [{}]: the {}",
+                           key.name, allowed_values(key), key.leaf(), table, key.meaning));
+    } else if (missing_tables.empty() || missing_tables.back() != table) {
+      missing_tables.push_back(table);
+      std::vector<std::string> needed;
+      for (const CaseKey& other : case_keys()) {
+        if (other.required && other.table() == table) needed.push_back(other.leaf());
+      }
+      complain(name_, fmt::format("table [{0}] is missing; add [{0}] with at least: {1}", table,
+                                  fmt::join(needed, ", ")));
+    }
+  }
+}
+
+LoadedCase Reader::finish() {
+  std::map<std::string, std::string> places;
+  Case read;
+  for (const CaseKey& key : case_keys()) {
+    const auto given = given_.find(key.name);
+    if (given == given_.end()) continue;
+    places[key.name] = given->second.place;
+    if (const auto problem = problem_with(key, given->second.value)) {
+      complain(given->second.place, key.name + " " + *problem);
+    } else {
+      key.set(read, given->second.value);
+    }
+  }
+  complain_of_missing_keys();
+  LoadedCase loaded(name_, std::move(places));
+  loaded.value = std::move(read);
+  if (problems_.empty()) {
+    try {
+      check(loaded.value);
+    } catch (const InvalidCase& error) {
+      problems_.push_back(loaded.message(error));
+    }
+  }
+  if (!problems_.empty()) throw CaseFileError(fmt::format("{}", fmt::join(problems_, "\n")));
+  return loaded;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw CaseFileError(name + ": is a directory; give the case file itself, such as " +
+                        (path / "case.toml").string());
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw CaseFileError(fmt::format("{}: cannot be read ({}); give the path of a case file (TOML)",
+                                    name, std::strerror(errno)));
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (file.bad()) throw CaseFileError(name + ": reading it failed; check the file and its disk");
+  return std::move(text).str();
+}
+
+}  // namespace
+
+Override parse_override(const std::string& setting) {
+  const auto equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw CaseFileError(
+        fmt::format("--set {}: not a setting; allowed: table.key=value; write for "
+                    "example --set solver.rtol=1e-9",
+                    setting));
+  }
+  const auto trimmed = [](const std::string& text) {
+    const auto first = text.find_first_not_of(" \t");
+    if (first == std::string::npos) return std::string();
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  };
+  return {trimmed(setting.substr(0, equals)), trimmed(setting.substr(equals + 1)),
+          "--set " + setting};
+}
+
+std::string LoadedCase::message(const InvalidCase& error) const {
+  const auto at = places_.find(error.key);
+  const std::string place = at == places_.end() ? path_ : at->second;
+  const std::string origin = at == places_.end() ? " (the default)" : "";
+  return fmt::format("{}: {}{} {}", place, error.key, origin, error.what());
+}
+
+LoadedCase read_case_text(const std::string& text, const std::string& name,
+                          const std::vector<Override>& overrides) {
+  Reader reader(name);
+  try {
+    reader.read(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw CaseFileError(
+        fmt::format("{}:{}:{}: not valid TOML: {}; correct this line (a setting is "
+                    "written key = value, a table [name])",
+                    name, at.line, at.column, error.description()));
+  }
+  for (const Override& setting : overrides) reader.apply(setting);
+  return reader.finish();
+}
+
+LoadedCase read_case_file(const std::filesystem::path& path,
+                          const std::vector<Override>& overrides) {
+  return read_case_text(read_text(path), path.string(), overrides);
+}
+
+}  // namespace subimpact

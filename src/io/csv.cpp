@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "subimpact/io/results.h"
+
+namespace subimpact {
+namespace {
+
+/// A row after the other, numbers with the 17 digits that determine a double.
+class CsvText {
+ public:
+  explicit CsvText(std::string_view header) { text_.append(header); }
+
+  CsvText& number(double value) { return put("{:.17g}", value); }
+  CsvText& number(const std::optional<double>& value) { return value ? number(*value) : empty(); }
+  CsvText& whole(std::size_t value) { return put("{}", value); }
+  CsvText& word(std::string_view value) { return put("{}", value); }
+  CsvText& empty() { return word(""); }
+  CsvText& end_row() {
+    text_.push_back('\n');
+    at_start_ = true;
+    return *this;
+  }
+  std::string str() const { return fmt::to_string(text_); }
+
+ private:
+  template <class T>
+  CsvText& put(fmt::format_string<const T&> format, const T& value) {
+    if (!at_start_) text_.push_back(',');
+    at_start_ = false;
+    fmt::format_to(std::back_inserter(text_), format, value);
+    return *this;
+  }
+
+  fmt::memory_buffer text_;
+  bool at_start_ = true;
+};
+
+}  // namespace
+
+std::string events_csv(const std::vector<SubImpact>& sub_impacts) {
+  CsvText csv(
+      "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,max_indentation_m,"
+      "residual_indentation_m,striker_velocity_m_per_s\n");
+  std::size_t index = 0;
+  for (const SubImpact& s : sub_impacts) {
+    const std::optional<double> duration =
+        s.end ? std::optional<double>(*s.end - s.start) : std::nullopt;
+    csv.whole(++index)
+        .whole(static_cast<std::size_t>(s.zone))
+        .whole(static_cast<std::size_t>(s.subzone));
+    csv.number(s.start).number(s.end).number(duration);
+    csv.number(s.peak_force).number(s.impulse).number(s.max_indentation);
+    csv.number(s.residual_indentation).number(s.striker_velocity).end_row();
+  }
+  return csv.str();
+}
+
+std::string transitions_csv(const std::vector<Transition>& transitions) {
+  CsvText csv("time_s,kind,section,value\n");
+  for (const Transition& event : transitions) {
+    csv.number(event.time).word(to_string(event.kind));
+    if (event.section) {
+      csv.whole(*event.section);
+    } else {
+      csv.empty();
+    }
+    csv.number(event.value).end_row();
+  }
+  return csv.str();
+}
+
+std::string history_csv(const std::vector<HistoryRow>& history) {
+  CsvText csv(
+      "time_s,force_N,indentation_m,w_c_m,w_m_m,f_c_m,u_mf_m,v_c_m_per_s,v_m_m_per_s,"
+      "stress_back_Pa,U_m_J,U_k_J,U_e_J,U_p_J,U_c_J,D_c_J,energy_error,momentum_error\n");
+  for (const HistoryRow& row : history) {
+    csv.number(row.time).number(row.force).number(row.indentation);
+    csv.number(row.struck_displacement).number(row.striker_displacement);
+    csv.number(row.struck_deflection).number(row.striker_relative);
+    csv.number(row.struck_velocity).number(row.striker_velocity).number(row.back_stress);
+    csv.number(row.striker_energy).number(row.beam_kinetic_energy);
+    csv.number(row.bending_elastic).number(row.bending_plastic);
+    csv.number(row.contact_elastic).number(row.contact_plastic);
+    csv.number(row.energy_error).number(row.momentum_error).end_row();
+  }
+  return csv.str();
+}
+
+}  // namespace subimpact

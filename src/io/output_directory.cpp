@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "subimpact/io/results.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Writes the whole file or none of it.
+void write_file(const fs::path& path, const std::string& content) {
+  const fs::path partial = path.string() + ".partial";
+  const auto fail = [&](const std::string& cause) {
+    std::error_code ignored;
+    fs::remove(partial, ignored);
+    throw OutputError(
+        fmt::format("{}: cannot be written ({}); free the disk or choose another "
+                    "directory with --out",
+                    path.string(), cause));
+  };
+  errno = 0;
+  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
+  if (!file) fail(std::strerror(errno));
+  file << content;
+  file.close();
+  if (!file) fail(errno != 0 ? std::strerror(errno) : "the disk took only a part of it");
+  std::error_code error;
+  fs::rename(partial, path, error);
+  if (error) fail(error.message());
+}
+
+}  // namespace
+
+void prepare_output_directory(const fs::path& directory) {
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error || !fs::is_directory(directory)) {
+    throw OutputError(
+        fmt::format("{}: this output directory cannot be made ({}); choose another "
+                    "with --out",
+                    directory.string(), error ? error.message() : "something else has that name"));
+  }
+  const fs::path probe = directory / ".subimpact-probe";
+  errno = 0;
+  const bool writable = static_cast<bool>(std::ofstream(probe) << "probe" << std::flush);
+  const int cause = errno;
+  fs::remove(probe, error);
+  if (!writable) {
+    throw OutputError(
+        fmt::format("{}: this output directory cannot be written to ({}); change its "
+                    "permissions or choose another with --out",
+                    directory.string(), std::strerror(cause)));
+  }
+}
+
+void write_results(const fs::path& directory, const Case& input, const Result& result) {
+  write_file(directory / "events.csv", events_csv(result.sub_impacts));
+  write_file(directory / "transitions.csv", transitions_csv(result.transitions));
+  write_file(directory / "history.csv", history_csv(result.history));
+  write_file(directory / "summary.json", summary_json(input, result));
+}
+
+}  // namespace subimpact

@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "subimpact/io/results.h"
+#include "subimpact/io/versions.h"
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+using Json = nlohmann::ordered_json;  // readers see the sections in the order written here
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json setting(const KeyValue& value) {
+  if (const auto* real = std::get_if<double>(&value); real != nullptr && !std::isfinite(*real)) {
+    return to_text(value);
+  }
+  return std::visit([](const auto& x) { return Json(x); }, value);
+}
+
+// One object a table of the case file; a key left open is null.
+Json case_as_asked(const Case& input) {
+  Json json;
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(input);
+    Json& place = key.table().empty() ? json[key.leaf()] : json[key.table()][key.leaf()];
+    place = value ? setting(*value) : Json(nullptr);
+  }
+  return json;
+}
+
+Json case_units() {
+  Json json = Json::object();
+  for (const CaseKey& key : case_keys()) {
+    if (!key.unit.empty()) json[key.name] = key.unit;
+  }
+  return json;
+}
+
+Json versions() {
+  Json json;
+  for (const auto& [name, version] : library_versions()) json[name] = version;
+  return json;
+}
+
+Json what_was_used(const Case& input, const Used& used) {
+  const bool adaptive = !used.step;
+  return {
+      {"method", to_string(input.solver.method)},
+      {"half_model", used.half_model},
+      {"mesh", used.mesh},
+      {"n_unknowns", used.n_unknowns},
+      {"n_sections", used.n_sections},
+      {"highest_frequency_rad_per_s", number(used.highest_frequency)},
+      {"critical_step_s", number(used.critical_step)},
+      {"step_s", number(used.step)},
+      {"position_tolerance_m", adaptive ? number(used.position_tolerance) : Json(nullptr)},
+      {"velocity_tolerance_m_per_s", adaptive ? number(used.velocity_tolerance) : Json(nullptr)},
+      {"events", to_string(used.events)},
+      {"contact_stiffness_N_per_m1.5", number(used.contact_stiffness)},
+      {"yield_indentation_m", number(used.yield_indentation)},
+      {"yield_curvature_per_m", number(used.yield_curvature)},
+      {"first_period_s", number(used.first_period)},
+      {"initial_energy_J", number(used.initial_energy)},
+  };
+}
+
+Json counts(const Result& result, const std::vector<ZoneSummary>& zones) {
+  int n_subzones = 0;
+  for (const ZoneSummary& zone : zones) n_subzones += zone.n_subzones;
+  Json by_kind;
+  for (const EventKind kind :
+       {EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
+        EventKind::contact_ends, EventKind::section_reverses}) {
+    by_kind[std::string(to_string(kind))] =
+        std::count_if(result.transitions.begin(), result.transitions.end(),
+                      [&](const Transition& event) { return event.kind == kind; });
+  }
+  return {
+      {"sub_impacts", result.sub_impacts.size()},
+      {"zones", zones.size()},
+      {"subzones", n_subzones},
+      {"transitions", by_kind},
+      {"yielded_sections", result.n_yielded_sections},
+      {"history_rows", result.history.size()},
+  };
+}
+
+Json zone_list(const std::vector<ZoneSummary>& zones) {
+  Json json = Json::array();
+  for (const ZoneSummary& zone : zones) {
+    json.push_back({{"zone", zone.zone},
+                    {"sub_impacts", zone.n_sub_impacts},
+                    {"subzones", zone.n_subzones},
+                    {"start_s", number(zone.start)},
+                    {"end_s", number(zone.end)},
+                    {"impulse_Ns", number(zone.impulse)},
+                    {"peak_force_N", number(zone.peak_force)}});
+  }
+  return json;
+}
+
+Json work_counts(const Work& work) {
+  return {
+      {"steps", work.steps},
+      {"rejected_steps", work.rejected_steps},
+      {"partial_steps", work.partial_steps},
+      {"right_hand_sides", work.right_hand_sides},
+      {"mass_solves", work.mass_solves},
+      {"jacobians", work.jacobians},
+      {"factorisations", work.factorisations},
+      {"roots", work.roots},
+      {"setup_s", number(work.setup_seconds)},
+      {"wall_s", number(work.wall_seconds)},
+  };
+}
+
+}  // namespace
+
+std::string_view to_string(OutcomeKind kind) {
+  switch (kind) {
+    case OutcomeKind::completed:
+      return "completed";
+    case OutcomeKind::stopped:
+      return "stopped";
+    case OutcomeKind::unstable:
+      return "unstable";
+    case OutcomeKind::solver_failed:
+      return "solver-failed";
+    case OutcomeKind::left_validity:
+      return "left-validity";
+  }
+  return "unknown";
+}
+
+std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
+  std::vector<ZoneSummary> zones;
+  for (const SubImpact& s : sub_impacts) {
+    if (zones.empty() || zones.back().zone != s.zone) {
+      zones.push_back({});
+      zones.back().zone = s.zone;
+      zones.back().start = s.start;
+    }
+    ZoneSummary& zone = zones.back();
+    ++zone.n_sub_impacts;
+    zone.n_subzones = std::max(zone.n_subzones, s.subzone);
+    zone.end = s.end;
+    zone.impulse += s.impulse;
+    zone.peak_force = std::max(zone.peak_force, s.peak_force);
+  }
+  return zones;
+}
+
+std::string summary_json(const Case& input, const Result& result) {
+  const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
+  const Json json = {
+      {"program", {{"name", "subimpact"}, {"version", project_version()}}},
+      {"libraries", versions()},
+      {"case", case_as_asked(input)},
+      {"case_units", case_units()},
+      {"used", what_was_used(input, result.used)},
+      {"outcome",
+       {{"kind", to_string(result.outcome.kind)},
+        {"time_s", number(result.outcome.time)},
+        {"message", result.outcome.message}}},
+      {"counts", counts(result, zones)},
+      {"zones", zone_list(zones)},
+      {"first_yield",
+       {{"section_s", number(result.first_section_yield)},
+        {"contact_s", number(result.first_contact_yield)}}},
+      {"maxima",
+       {{"force_N", number(result.max_force)}, {"indentation_m", number(result.max_indentation)}}},
+      {"final",
+       {{"striker_velocity_m_per_s", number(result.striker_velocity)},
+        {"beam_mean_velocity_m_per_s", number(result.beam_mean_velocity)}}},
+      {"conservation",
+       {{"max_energy_error_relative", number(result.max_energy_error)},
+        {"max_momentum_error_relative", number(result.max_momentum_error)}}},
+      {"work", work_counts(result.work)},
+  };
+  // A title may hold bytes that are no UTF-8; they are replaced rather than the file lost.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace subimpact

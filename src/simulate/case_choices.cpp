@@ -1,0 +1,98 @@
+#include "simulate/case_choices.h"
+
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+
+std::span<const Named<BeamTheory>> names_of(BeamTheory) {
+  static constexpr Named<BeamTheory> names[] = {
+      {BeamTheory::rayleigh, "rayleigh", "with rotary inertia"},
+      {BeamTheory::euler_bernoulli, "euler-bernoulli", "without rotary inertia"},
+  };
+  return names;
+}
+
+std::span<const Named<EndSupport>> names_of(EndSupport) {
+  static constexpr Named<EndSupport> names[] = {
+      {EndSupport::free, "free", "neither moment nor shear"},
+  };
+  return names;
+}
+
+std::span<const Named<ContactKind>> names_of(ContactKind) {
+  static constexpr Named<ContactKind> names[] = {
+      {ContactKind::foundation, "foundation", "elasto-plastic columns under a cylindrical nose"},
+  };
+  return names;
+}
+
+std::span<const Named<MeshKind>> names_of(MeshKind) {
+  static constexpr Named<MeshKind> names[] = {
+      {MeshKind::cells, "cells", "equal cells, second order"},
+  };
+  return names;
+}
+
+std::span<const Named<SectionKind>> names_of(SectionKind) {
+  static constexpr Named<SectionKind> names[] = {
+      {SectionKind::elastic, "elastic", "the beam never yields (the contact still may)"},
+      {SectionKind::layers, "layers", "elastic-perfectly plastic layers, stress at mid-layer"},
+      {SectionKind::exact, "exact", "the limit of infinitely many layers, in closed form"},
+  };
+  return names;
+}
+
+std::span<const Named<SymmetryUse>> names_of(SymmetryUse) {
+  static constexpr Named<SymmetryUse> names[] = {
+      {SymmetryUse::automatic, "auto", "one half is modelled if the scene is symmetric"},
+      {SymmetryUse::off, "off", "the whole beam is modelled"},
+  };
+  return names;
+}
+
+std::span<const Named<Method>> names_of(Method) {
+  static constexpr Named<Method> names[] = {
+      {Method::central_difference, "central-difference",
+       "explicit, second order, fixed step: the scheme to reproduce published runs with"},
+      {Method::erk, "erk",
+       "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event times"},
+  };
+  return names;
+}
+
+std::span<const Named<MassSolverKind>> names_of(MassSolverKind) {
+  static constexpr Named<MassSolverKind> names[] = {
+      {MassSolverKind::tridiagonal, "tridiagonal", "own banded factorisation"},
+      {MassSolverKind::klu, "klu", "SuiteSparse's general sparse factorisation"},
+  };
+  return names;
+}
+
+std::span<const Named<EventHandling>> names_of(EventHandling) {
+  static constexpr Named<EventHandling> names[] = {
+      {EventHandling::located, "located", "steps end at events"},
+      {EventHandling::interpolated, "interpolated", "event times are interpolated within steps"},
+  };
+  return names;
+}
+
+std::span<const Named<ReversalHandling>> names_of(ReversalHandling) {
+  static constexpr Named<ReversalHandling> names[] = {
+      {ReversalHandling::located, "located", "steps end where a flowing section turns back"},
+      {ReversalHandling::step_end, "step-end", "section memory advances at step ends only"},
+  };
+  return names;
+}
+
+std::span<const Named<VectorOperationsKind>> names_of(VectorOperationsKind) {
+  static constexpr Named<VectorOperationsKind> names[] = {
+      {VectorOperationsKind::project, "project", "SUNDIALS on this project's vector operations"},
+      {VectorOperationsKind::library, "library", "SUNDIALS on its own serial vector"},
+  };
+  return names;
+}
+
+std::string_view to_string(Method method) { return name_of(method); }
+std::string_view to_string(EventHandling events) { return name_of(events); }
+
+}  // namespace subimpact

@@ -1,0 +1,185 @@
+// What case keys say of themselves and of values they refuse.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+
+std::vector<std::string> choice_names(const CaseKey& key) {
+  std::vector<std::string> names;
+  for (const Choice& choice : key.choices) names.push_back(choice.name);
+  return names;
+}
+
+std::string choice_list(const CaseKey& key) {
+  std::vector<std::string> names;
+  for (const std::string& name : choice_names(key)) names.push_back(quoted(name));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// A value of another type than the key's is shown together with its type.
+std::string typed(const KeyValue& value) {
+  static constexpr const char* kinds[] = {"a boolean", "a whole number", "a number", "a text",
+                                          "a list"};
+  return fmt::format("{} ({})", kinds[value.index()], to_text(value));
+}
+
+bool has_type(const CaseKey& key, const KeyValue& value) {
+  switch (key.type) {
+    case KeyType::flag:
+      return std::holds_alternative<bool>(value);
+    case KeyType::count:
+      return std::holds_alternative<std::int64_t>(value);
+    case KeyType::number:
+      return std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value);
+    case KeyType::text:
+    case KeyType::choice:
+      return std::holds_alternative<std::string>(value);
+    case KeyType::pair:
+      return std::holds_alternative<std::vector<std::string>>(value);
+  }
+  return false;
+}
+
+bool is_choice(const CaseKey& key, const std::string& name) {
+  return std::any_of(key.choices.begin(), key.choices.end(),
+                     [&](const Choice& choice) { return choice.name == name; });
+}
+
+std::optional<std::string> number_problem(const CaseKey& key, double number,
+                                          const KeyValue& value) {
+  const bool fits = key.type != KeyType::count || std::abs(number) <= 2147483647.0;
+  if (fits && (!key.in_range || key.in_range(number))) return std::nullopt;
+  return refusal(key, to_text(value));
+}
+
+std::optional<std::string> choice_problem(const CaseKey& key, const std::string& name) {
+  if (is_choice(key, name)) return std::nullopt;
+  const std::string near = nearest_name(name, choice_names(key));
+  return refusal(key, quoted(name)) + (near.empty() ? "" : "; did you mean " + quoted(near) + "?");
+}
+
+std::string remedy(const CaseKey& key) {
+  if (key.required) {
+    return fmt::format("give the {}{}", key.meaning, key.unit.empty() ? "" : " in " + key.unit);
+  }
+  const bool as_written = key.default_text.find(':') == std::string::npos;
+  return fmt::format("correct it, or leave it out for the default{}{}", as_written ? ", " : " (",
+                     key.default_text) +
+         (as_written ? "" : ")");
+}
+
+}  // namespace
+
+std::string CaseKey::table() const {
+  const auto dot = name.find('.');
+  return dot == std::string::npos ? std::string() : name.substr(0, dot);
+}
+
+std::string CaseKey::leaf() const {
+  const auto dot = name.find('.');
+  return dot == std::string::npos ? name : name.substr(dot + 1);
+}
+
+std::string to_text(const KeyValue& value) {
+  struct Writer {
+    std::string operator()(bool x) const { return x ? "true" : "false"; }
+    std::string operator()(std::int64_t x) const { return std::to_string(x); }
+    std::string operator()(double x) const { return fmt::format("{}", x); }
+    std::string operator()(const std::string& x) const { return quoted(x); }
+    std::string operator()(const std::vector<std::string>& x) const {
+      std::vector<std::string> items;
+      for (const std::string& item : x) items.push_back(quoted(item));
+      return fmt::format("[{}]", fmt::join(items, ", "));
+    }
+  };
+  return std::visit(Writer{}, value);
+}
+
+std::string allowed_values(const CaseKey& key) {
+  const std::string unit = key.unit.empty() ? "" : fmt::format(" ({})", key.unit);
+  const std::string range = key.range.empty() ? "" : ", " + key.range;
+  switch (key.type) {
+    case KeyType::number:
+      return "a number" + range + unit;
+    case KeyType::count:
+      return "a whole number" + range + unit;
+    case KeyType::flag:
+      return "true or false";
+    case KeyType::text:
+      return "a text in quotes";
+    case KeyType::choice:
+      return (key.choices.size() == 1 ? "" : "one of ") + choice_list(key);
+    case KeyType::pair:
+      return "a list of two out of " + choice_list(key);
+  }
+  return {};
+}
+
+std::string refusal(const CaseKey& key, const std::string& found) {
+  return fmt::format("is {}; allowed: {}; {}", found, allowed_values(key), remedy(key));
+}
+
+std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& value) {
+  if (!has_type(key, value)) return refusal(key, typed(value));
+  switch (key.type) {
+    case KeyType::number:
+      if (const auto* number = std::get_if<double>(&value)) {
+        return number_problem(key, *number, value);
+      }
+      [[fallthrough]];
+    case KeyType::count:
+      return number_problem(key, static_cast<double>(std::get<std::int64_t>(value)), value);
+    case KeyType::choice:
+      return choice_problem(key, std::get<std::string>(value));
+    case KeyType::pair: {
+      const auto& names = std::get<std::vector<std::string>>(value);
+      if (names.size() != 2) return refusal(key, to_text(value));
+      for (const std::string& name : names) {
+        if (!is_choice(key, name)) return choice_problem(key, name);
+      }
+      return std::nullopt;
+    }
+    case KeyType::flag:
+    case KeyType::text:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : candidates) {
+    // Levenshtein's distance, one row of his table at a time.
+    std::vector<std::size_t> row(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t replaced = diagonal + (name[i - 1] == candidate[j - 1] ? 0 : 1);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+      }
+    }
+    if (row.back() < best_distance) {
+      best_distance = row.back();
+      best = candidate;
+    }
+  }
+  // Further away than a third of its letters it is another word, not a slip.
+  return best_distance <= std::max<std::size_t>(1, name.size() / 3) ? best : std::string();
+}
+
+}  // namespace subimpact
