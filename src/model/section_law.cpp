@@ -116,14 +116,16 @@ void SectionLaw::commit(SectionHistory& history, double curvature) const {
     const std::size_t n = history.reversals.size();
     Branch branch{{0.0, 0.0}, static_cast<double>(history.direction), true};
     double to = x;
+    bool closes = false;
     if (n > 0) {
       branch.origin = history.reversals[n - 1];
       branch.virgin = false;
       const double limit = n >= 2 ? history.reversals[n - 2].x : -branch.origin.x;
-      if (branch.sense * (x - limit) > 0.0) to = limit;
+      closes = branch.sense * (x - limit) >= 0.0;
+      if (closes) to = limit;
     }
     history.work += branch_work(branch, from, to);
-    if (to == x) {
+    if (!closes) {
       history.edge = {x, branch_moment(branch, x)};
       return;
     }

@@ -53,9 +53,8 @@ class OrderTable {
     }
   }
 
-  /// Prints, and expects the overall order to lie in [low, high].
+  /// Expects the overall order to lie in [low, high].
   void expect_overall_order_within(double low, double high) const {
-    print();
     ASSERT_GE(rows_.size(), 3u) << title_;
     EXPECT_GE(overall_order(), low) << title_;
     EXPECT_LE(overall_order(), high) << title_;

@@ -1,0 +1,230 @@
+#include "model/contact_law.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "paper_scene.h"
+#include "random_walk.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+ContactLaw paper_law() { return ContactLaw::of(paper_scene()); }
+
+// Histories in units of the yield indentation: never yielded, just yielded, small and deep plastic
+// ones.
+const double maxima[] = {0.0, 0.5, 1.0, 1.2, 2.0, 3.0, 11.0};
+
+TEST(ContactLaw, HasTheNumbersOfThePapersExample) {
+  const ContactLaw law = paper_law();
+  EXPECT_NEAR(law.stiffness(), 2.948976e10, 0.5e4);
+  EXPECT_NEAR(law.yield_indentation(), 1.56337e-5, 0.5e-10);
+  EXPECT_NEAR(law.force({}, law.yield_indentation()), 1822.90, 0.005);
+  EXPECT_EQ(law.exponent(), 1.5);
+}
+
+TEST(ContactLaw, OfABeamThatNeverYieldsIsAnElasticFoundation) {
+  Scene scene = paper_scene();
+  scene.beam.yield_stress = infinity;
+  const ContactLaw law = ContactLaw::of(scene);
+  const ContactHistory deep{1e-3};
+  EXPECT_EQ(law.residual_indentation(deep), 0.0);
+  EXPECT_EQ(law.branch(deep, 2e-3), ContactBranch::elastic);
+  EXPECT_DOUBLE_EQ(law.force(deep, 4e-4), law.stiffness() * 8e-6);
+  EXPECT_EQ(law.dissipated_energy(deep), 0.0);
+}
+
+TEST(ContactLaw, WithAnotherExponentIsThePowerLawOfThatExponent) {
+  for (const double exponent : {1.0, 1.5, 2.0, 2.5}) {
+    const ContactLaw law(3.0, exponent, infinity);
+    for (const double indentation : {0.1, 1.0, 7.0}) {
+      EXPECT_NEAR(law.force({}, indentation), 3.0 * std::pow(indentation, exponent),
+                  1e-12 * law.force({}, indentation));
+      EXPECT_NEAR(law.recoverable_energy({}, indentation),
+                  3.0 * std::pow(indentation, exponent + 1.0) / (exponent + 1.0),
+                  1e-12 * law.recoverable_energy({}, indentation));
+    }
+  }
+}
+
+TEST(ContactLaw, ForceIsContinuousWhereBranchesMeet) {
+  const ContactLaw law = paper_law();
+  const double unit = law.yield_indentation();
+  const double force_unit = law.force({}, unit);
+  for (const double maximum : maxima) {
+    const ContactHistory history{maximum * unit};
+    const double residual = law.residual_indentation(history);
+    const double threshold = law.yield_threshold(history);
+    EXPECT_EQ(law.branch(history, residual), ContactBranch::separated);
+    EXPECT_EQ(law.branch(history, std::nextafter(residual, 1.0)), ContactBranch::elastic);
+    EXPECT_EQ(law.branch(history, threshold), ContactBranch::elastic);
+    EXPECT_EQ(law.branch(history, std::nextafter(threshold, 1.0)), ContactBranch::plastic);
+    EXPECT_NEAR(law.branch_force(ContactBranch::elastic, history, residual), 0.0,
+                1e-13 * force_unit);
+    EXPECT_NEAR(law.branch_force(ContactBranch::elastic, history, threshold),
+                law.branch_force(ContactBranch::plastic, history, threshold), 1e-13 * force_unit);
+  }
+}
+
+TEST(ContactLaw, SlopeJumpsWhereContactBeginsAndWhereUnloadingBegins) {
+  const ContactLaw law = paper_law();
+  const ContactHistory history{3.0 * law.yield_indentation()};
+  const double residual = law.residual_indentation(history);
+  EXPECT_NEAR(law.branch_slope(ContactBranch::elastic, history, residual),
+              1.5 * law.stiffness() * std::sqrt(residual), 1e-12 * law.stiffness());
+  EXPECT_EQ(law.branch_slope(ContactBranch::separated, history, residual), 0.0);
+  EXPECT_GT(law.branch_slope(ContactBranch::elastic, history, history.max_indentation),
+            2.0 * law.branch_slope(ContactBranch::plastic, history, history.max_indentation));
+}
+
+TEST(ContactLaw, SlopeOfEveryBranchEqualsFiniteDifferencesOfItsForce) {
+  for (const double exponent : {1.0, 1.5, 2.2}) {
+    const double yields_at = 1.0;
+    const ContactLaw law(2.0, exponent, yields_at);
+    for (const double maximum : maxima) {
+      const ContactHistory history{maximum};
+      for (double indentation = -0.5; indentation < 12.0; indentation += 0.137) {
+        for (const ContactBranch branch :
+             {ContactBranch::separated, ContactBranch::elastic, ContactBranch::plastic}) {
+          const double h = 1e-5;
+          // Where a power's argument changes sign its curvature is not bounded.
+          const double beyond = indentation - yields_at;
+          if (std::abs(indentation) < 0.05 || std::abs(beyond) < 0.05) continue;
+          const double difference = (law.branch_force(branch, history, indentation + h) -
+                                     law.branch_force(branch, history, indentation - h)) /
+                                    (2.0 * h);
+          EXPECT_NEAR(law.branch_slope(branch, history, indentation), difference, 2e-7);
+        }
+      }
+    }
+  }
+}
+
+TEST(ContactLaw, NeverPulls) {
+  const ContactLaw law = paper_law();
+  const double unit = law.yield_indentation();
+  for (const double maximum : maxima) {
+    for (double x = -5.0; x < 15.0; x += 0.01)
+      EXPECT_GE(law.force({maximum * unit}, x * unit), 0.0);
+  }
+}
+
+TEST(ContactLaw, HistoryKeepsTheLargestIndentationOnly) {
+  const ContactLaw law = paper_law();
+  ContactHistory history;
+  double largest = 0.0;
+  for (const double indentation : nested_walk(5, 2000, -3e-5, 2e-4, 5e-5)) {
+    history = law.commit(history, indentation);
+    largest = std::max(largest, indentation);
+    ASSERT_EQ(history.max_indentation, largest);
+  }
+}
+
+// Work done on the contact along a straight path, by Simpson's rule in parts between which the
+// force is smooth.
+double work_along(const ContactLaw& law, ContactHistory history, double from, double to) {
+  std::vector<double> knots{from, to};
+  for (const double knot : {law.residual_indentation(history), law.yield_threshold(history)}) {
+    if ((knot - from) * (knot - to) < 0.0) knots.push_back(knot);
+  }
+  std::sort(knots.begin(), knots.end(),
+            [&](double a, double b) { return (b - a) * (to - from) > 0.0; });
+  double work = 0.0;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const int n = 200;
+    const double h = (knots[i + 1] - knots[i]) / n;
+    for (int k = 0; k < n; ++k) {
+      const double a = knots[i] + k * h;
+      work += h / 6.0 *
+              (law.force(history, a) + 4.0 * law.force(history, a + 0.5 * h) +
+               law.force(history, a + h));
+    }
+  }
+  return work;
+}
+
+TEST(ContactLaw, RecoverablePlusDissipatedEnergyIsTheWorkDoneOnAnyPath) {
+  const ContactLaw law = paper_law();
+  const double unit = law.yield_indentation();
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    ContactHistory history;
+    double at = 0.0;
+    double work = 0.0;
+    for (const double next : nested_walk(seed, 200, -unit, 15.0 * unit, 6.0 * unit)) {
+      work += work_along(law, history, at, next);
+      at = next;
+      history = law.commit(history, at);
+      const double stored = law.recoverable_energy(history, at) + law.dissipated_energy(history);
+      ASSERT_NEAR(stored, work, 1e-6 * std::max(work, 1e-3)) << "seed " << seed;
+    }
+  }
+}
+
+TEST(ContactLaw, WorkOverAnyClosedPathIsNotNegative) {
+  const ContactLaw law = paper_law();
+  const double unit = law.yield_indentation();
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    ContactHistory history;
+    double at = 0.0;
+    double work = 0.0;
+    std::vector<double> path = nested_walk(seed, 50, -unit, 15.0 * unit, 8.0 * unit);
+    path.push_back(0.0);
+    for (const double next : path) {
+      work += work_along(law, history, at, next);
+      at = next;
+      history = law.commit(history, at);
+    }
+    EXPECT_GE(work, -1e-9);
+    if (history.max_indentation > 1.01 * unit) {
+      EXPECT_GT(work, 0.0);
+    }
+  }
+}
+
+TEST(ContactLaw, DissipatesResidualToThreeHalvesTimesStiffnessAndYieldIndentation) {
+  const ContactLaw law = paper_law();
+  const double unit = law.yield_indentation();
+  for (const double x : {1.0, 1.1, 2.0, 5.0, 20.0}) {
+    const ContactHistory history{x * unit};
+    EXPECT_NEAR(law.dissipated_energy(history),
+                law.stiffness() * std::pow((x - 1.0) * unit, 1.5) * unit,
+                1e-13 * law.stiffness() * std::pow(unit, 2.5));
+  }
+}
+
+TEST(ContactLaw, GivesBackTheRestitutionOfTheElastoPlasticLayer) {
+  const ContactLaw law = paper_law();
+  const double unit = law.yield_indentation();
+  const struct {
+    double x, restitution;
+  } published[] = {{1.1, 0.968271}, {1.5, 0.810718},  {2.0, 0.680556},  {3.0, 0.536678},
+                   {5.0, 0.404029}, {10.0, 0.279676}, {20.0, 0.195686}, {50.0, 0.122987}};
+  for (const auto& [x, restitution] : published) {
+    const ContactHistory history{x * unit};
+    const double recovered = law.recoverable_energy(history, x * unit);
+    const double spent = recovered + law.dissipated_energy(history);
+    EXPECT_NEAR(std::sqrt(recovered / spent), restitution, 0.6e-6) << "x = " << x;
+  }
+}
+
+TEST(ContactLaw, RefusesWhatIsNoContactLaw) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(ContactLaw(0.0, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(ContactLaw(-1.0, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(ContactLaw(infinity, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(ContactLaw(nan, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(ContactLaw(1.0, 0.9, 1.0), std::invalid_argument);
+  EXPECT_THROW(ContactLaw(1.0, nan, 1.0), std::invalid_argument);
+  EXPECT_THROW(ContactLaw(1.0, 1.5, 0.0), std::invalid_argument);
+  EXPECT_THROW(ContactLaw(1.0, 1.5, nan), std::invalid_argument);
+  EXPECT_NO_THROW(ContactLaw(1.0, 1.0, infinity));
+}
+
+}  // namespace
+}  // namespace subimpact

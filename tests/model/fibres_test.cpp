@@ -1,0 +1,131 @@
+#include "model/fibres.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "order_table.h"
+
+namespace subimpact {
+namespace {
+
+// The moment of p layers summed one by one, in units of M_y.
+double summed_moment(int layers, double x) {
+  const int p = layers / 2;
+  double sum = 0.0;
+  for (int k = 1; k <= p; ++k) {
+    const double zeta = (k - 0.5) / p;
+    sum += std::clamp(zeta * x, -1.0, 1.0) * zeta / p;
+  }
+  return 3.0 * sum;
+}
+
+TEST(Fibres, ContinuousOnesHaveTheExactVirginCurve) {
+  const Fibres fibres = Fibres::continuous();
+  for (double x = 0.0; x <= 1.0; x += 0.0625) EXPECT_DOUBLE_EQ(fibres.moment(x), x);
+  for (double x = 1.0; x < 40.0; x *= 1.1) {
+    EXPECT_NEAR(fibres.moment(x), 1.5 - 0.5 / (x * x), 1e-15 * 4.0);
+  }
+  const struct {
+    double x, m;
+  } published[] = {{1.5, 1.277778}, {2.0, 1.375}, {3.0, 1.444444}, {5.0, 1.48}, {10.0, 1.495}};
+  for (const auto& [x, m] : published) EXPECT_NEAR(fibres.moment(x), m, 0.5e-6);
+}
+
+TEST(Fibres, FortyLayersHaveTheirOwnVirginCurve) {
+  const Fibres fibres = Fibres::layered(40);
+  const struct {
+    double x, m;
+  } published[] = {{1.0, 0.999375},  {1.5, 1.2775781}, {2.0, 1.374375},
+                   {3.0, 1.4442187}, {5.0, 1.479375},  {10.0, 1.494375}};
+  for (const auto& [x, m] : published) EXPECT_NEAR(fibres.moment(x), m, 0.6e-7) << "x = " << x;
+}
+
+TEST(Fibres, LayersAreTheSumOverLayers) {
+  for (const int layers : {2, 4, 6, 10, 40, 160}) {
+    const Fibres fibres = Fibres::layered(layers);
+    for (double x = -30.0; x < 30.0; x += 0.0173) {
+      ASSERT_NEAR(fibres.moment(x), summed_moment(layers, x), 1e-14) << layers << ", " << x;
+    }
+  }
+}
+
+TEST(Fibres, LayersAreAsStiffAsTheMidpointRuleMakesThem) {
+  for (const int layers : {2, 4, 10, 40, 160}) {
+    EXPECT_NEAR(Fibres::layered(layers).slope(), 1.0 - 1.0 / (1.0 * layers * layers), 1e-15);
+  }
+  EXPECT_DOUBLE_EQ(Fibres::continuous().slope(), 1.0);
+}
+
+TEST(Fibres, LayersYieldFirstWhereTheOutermostMidLayerDoes) {
+  for (const int layers : {2, 4, 10, 40, 160}) {
+    const Fibres fibres = Fibres::layered(layers);
+    const double first = layers / (layers - 1.0);
+    EXPECT_NEAR(fibres.first_yield(), first, 1e-15 * 4.0);
+    EXPECT_NEAR(fibres.moment(first), fibres.slope() * first, 1e-14);
+    const double zeta = 1.0 / first;
+    EXPECT_DOUBLE_EQ(fibres.tangent(0.999 * first), fibres.slope());
+    EXPECT_NEAR(fibres.tangent(1.001 * first), fibres.slope() - 6.0 * zeta * zeta / layers, 1e-14);
+  }
+  EXPECT_EQ(Fibres::continuous().first_yield(), 1.0);
+}
+
+TEST(Fibres, LayersApproachContinuousFibresAtSecondOrder) {
+  const Fibres exact = Fibres::continuous();
+  OrderTable table("virgin curve of layers against continuous fibres, M_y");
+  for (const int layers : {10, 20, 40, 80, 160, 320}) {
+    const Fibres fibres = Fibres::layered(layers);
+    double largest = 0.0;
+    for (double x = 0.0; x < 12.0; x += 0.001) {
+      largest = std::max(largest, std::abs(fibres.moment(x) - exact.moment(x)));
+    }
+    table.add(layers, largest);
+  }
+  table.expect_every_order_within(1.8, 2.2);
+}
+
+TEST(Fibres, MomentIsOddAndNeverAboveThePlasticMoment) {
+  for (const Fibres& fibres : {Fibres::continuous(), Fibres::layered(2), Fibres::layered(40)}) {
+    for (double x = 0.0; x < 1e4; x = 1.3 * x + 0.1) {
+      EXPECT_EQ(fibres.moment(-x), -fibres.moment(x));
+      EXPECT_LE(fibres.moment(x), 1.5 + 1e-15);
+    }
+    EXPECT_NEAR(fibres.moment(1e6), 1.5, 1e-11);
+  }
+}
+
+TEST(Fibres, TangentAndMomentAreTheDerivativesOfMomentAndWork) {
+  for (const Fibres& fibres : {Fibres::continuous(), Fibres::layered(40)}) {
+    const double h = 1e-6;
+    // Steps that avoid the kinks of the layers, at x = 40/(2k - 1).
+    for (double x = -9.013; x < 9.0; x += 0.1171) {
+      EXPECT_NEAR((fibres.moment(x + h) - fibres.moment(x - h)) / (2.0 * h), fibres.tangent(x),
+                  1e-8);
+      EXPECT_NEAR((fibres.work(x + h) - fibres.work(x - h)) / (2.0 * h), fibres.moment(x), 1e-8);
+    }
+    EXPECT_EQ(fibres.work(0.0), 0.0);
+    EXPECT_DOUBLE_EQ(fibres.work(-3.0), fibres.work(3.0));
+  }
+}
+
+TEST(Fibres, EnergyIsTheIntegralOfTheSquaredStress) {
+  const Fibres exact = Fibres::continuous();
+  // 3/2 integral (1 - 2 z)^2 from 0.25 to 1 = 3/2 [ (2 z - 1)^3/6 ]
+  EXPECT_NEAR(exact.energy(0.25, 1.0, 1.0, -2.0), 1.5 * (1.0 + 0.125) / 6.0, 1e-15);
+  const Fibres layered = Fibres::layered(8);
+  double sum = 0.0;
+  for (const double zeta : {0.375, 0.625, 0.875}) sum += 0.25 * std::pow(1.0 - 2.0 * zeta, 2);
+  EXPECT_NEAR(layered.energy(0.25, 1.0, 1.0, -2.0), 1.5 * sum, 1e-15);
+}
+
+TEST(Fibres, NeedAnEvenNumberOfLayers) {
+  for (const int layers : {-2, 0, 1, 3, 41}) {
+    EXPECT_THROW(Fibres::layered(layers), std::invalid_argument) << layers;
+  }
+  EXPECT_NO_THROW(Fibres::layered(2));
+}
+
+}  // namespace
+}  // namespace subimpact
