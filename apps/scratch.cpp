@@ -7,7 +7,7 @@ int main(int argc,char**argv){
   Case c; auto&b=c.scene.beam; b.length=0.7112;b.width=0.0163;b.thickness=0.0075;b.density=2600;b.youngs_modulus=71.96e9;b.yield_stress=150e6;
   auto&s=c.scene.striker; s.mass=0.201;s.nose_radius=0.01;s.velocity=15.9; c.end_time=2e-3; c.output.interval=0;
   for(int i=1;i<argc;++i){ std::string a=argv[i]; auto v=[&]{return std::string(argv[++i]);};
-   if(a=="-m"){auto m=v(); c.solver.method= m=="cd"?Method::central_difference:Method::erk; if(m!="cd") c.solver.table=m;}
+   if(a=="-m"){auto m=v(); c.solver.method= m=="cd"?Method::central_difference: m.rfind("dprkn",0)==0?Method::nystrom:Method::erk; if(m!="cd") c.solver.table=m;}
    else if(a=="-s"){auto m=v(); c.model.section = m=="elastic"?SectionKind::elastic: m=="exact"?SectionKind::exact:SectionKind::layers;}
    else if(a=="-r") c.solver.rtol=atof(v().c_str());
    else if(a=="-h") c.solver.step=atof(v().c_str());

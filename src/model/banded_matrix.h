@@ -13,6 +13,7 @@ class BandedMatrix {
       : size_(size), half_bandwidth_(half_bandwidth), values_(size * (half_bandwidth + 1), 0.0) {}
 
   std::size_t size() const { return size_; }
+  void set_zero() { values_.assign(values_.size(), 0.0); }
   std::size_t half_bandwidth() const { return half_bandwidth_; }
 
   /// Entry (i, j) with |i - j| <= half_bandwidth; either triangle names the same entry.

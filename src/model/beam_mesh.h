@@ -62,6 +62,17 @@ class BeamMesh {
   virtual void curvatures(std::span<const double> unknowns, std::span<double> kappa) const = 0;
   /// forces = -B^T W moments, N; `moments` = -M, N m.
   virtual void bending_forces(std::span<const double> moments, std::span<double> forces) const = 0;
+  /// One row of B: coefficients (1/m2) of consecutive unknowns, which `first` is the first of.
+  struct SectionStencil {
+    std::size_t first;
+    std::span<const double> coefficients;
+  };
+  virtual SectionStencil section_stencil(std::size_t section) const = 0;
+  /// Half bandwidth of B^T B.
+  std::size_t stiffness_bandwidth() const;
+  /// result += B^T W diag(tangents) B, N/m; `tangents` = -dM/dkappa of the sections, N m2. The half
+  /// bandwidth of `result` must be stiffness_bandwidth() or more.
+  void add_stiffness(std::span<const double> tangents, BandedMatrix& result) const;
   /// An upper bound, close to it, of the highest natural frequency for a bending stiffness (N m2),
   /// rad/s.
   virtual double highest_frequency(double bending_stiffness) const = 0;

@@ -17,6 +17,9 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
     throw std::invalid_argument(
         "cell mesh: a half model needs an odd number of cells, struck at 0.5");
   }
+  const double inverse = 1.0 / (spacing_ * spacing_);
+  stencil_ = {inverse, -2.0 * inverse, inverse};
+  struck_stencil_ = {2.0 * inverse, -2.0 * inverse};
   const std::size_t n = n_unknowns();
   const double copies = symmetric() ? 2.0 : 1.0;  // the mirrored cells are folded in
   const double cell_mass = mass_per_length_ * spacing_;
@@ -84,6 +87,11 @@ void CellMesh::bending_forces(std::span<const double> moments, std::span<double>
     f[n - 2] = scale * (2.0 * m[n - 3] - m[n - 4]);
     f[n - 1] = -scale * m[n - 3];
   }
+}
+
+BeamMesh::SectionStencil CellMesh::section_stencil(std::size_t section) const {
+  if (symmetric() && section + 1 == n_sections()) return {section, struck_stencil_};
+  return {section, stencil_};
 }
 
 double CellMesh::highest_frequency(double bending_stiffness) const {

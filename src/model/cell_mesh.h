@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "model/beam_mesh.h"
 
 namespace subimpact {
@@ -22,6 +24,7 @@ class CellMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
+  SectionStencil section_stencil(std::size_t section) const override;
   /// (4 c/dx^2)/sqrt(1 + 4 r^2/dx^2) with c = sqrt(E I/(rho A)): the infinite grid's.
   double highest_frequency(double bending_stiffness) const override;
   std::string description() const override;
@@ -31,6 +34,8 @@ class CellMesh final : public BeamMesh {
   double spacing_;
   double mass_per_length_;
   double rotary_inertia_;
+  std::array<double, 3> stencil_;         // of an inner cell
+  std::array<double, 2> struck_stencil_;  // of the struck cell under symmetry
 };
 
 }  // namespace subimpact

@@ -1,15 +1,19 @@
 #include "simulate/model_factory.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "integrate/arkode_erk.h"
 #include "integrate/central_difference.h"
 #include "integrate/klu_mass_solver.h"
+#include "integrate/nystrom.h"
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
+#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -18,6 +22,31 @@ constexpr double default_part_of_critical = 0.9;
 
 bool is_symmetric(const Scene& scene) {
   return scene.striker.position == 0.5 && scene.beam.ends[0] == scene.beam.ends[1];
+}
+
+std::vector<std::string> tables_of(Method method) {
+  std::vector<std::string> names;
+  if (method == Method::erk) {
+    for (const ExplicitTable& table : explicit_tables()) names.push_back(table.name);
+  } else if (method == Method::nystrom) {
+    for (const NystromTable& table : nystrom_tables()) names.push_back(table.name);
+  }
+  return names;
+}
+
+// The table asked for, or the method's first; nothing for a method without tables.
+std::optional<std::string> table_used(const Case& input) {
+  const std::vector<std::string> names = tables_of(input.solver.method);
+  const std::optional<std::string>& asked = input.solver.table;
+  if (!asked) return names.empty() ? std::nullopt : std::optional(names.front());
+  if (std::find(names.begin(), names.end(), *asked) == names.end()) {
+    throw InvalidCase(
+        "solver.table",
+        fmt::format("is \"{}\", which {} does not have; {}", *asked, to_string(input.solver.method),
+                    names.empty() ? "leave it out: the method has no tables"
+                                  : fmt::format("allowed: {}", fmt::join(names, ", "))));
+  }
+  return asked;
 }
 
 std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
@@ -79,6 +108,7 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.yield_curvature = scene.beam.yield_curvature();
   used.first_period = 2.0 * M_PI / free_free_frequencies(scene.beam, 1).front();
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
+  used.table = table_used(input);
   const bool central = input.solver.method == Method::central_difference;
   used.events =
       input.solver.events.value_or(central ? EventHandling::interpolated : EventHandling::located);
@@ -109,8 +139,16 @@ std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used,
   if (input.solver.method == Method::central_difference) {
     return std::make_unique<CentralDifference>(beam, *used.step);
   }
+  if (input.solver.method == Method::nystrom) {
+    NystromOptions options;
+    options.table = *used.table;
+    options.relative_tolerance = input.solver.rtol;
+    options.fixed_step = input.solver.step;
+    options.max_step = input.solver.max_step;
+    return std::make_unique<Nystrom>(beam, options);
+  }
   ErkOptions options;
-  options.table = input.solver.table;
+  options.table = *used.table;
   options.relative_tolerance = input.solver.rtol;
   options.fixed_step = input.solver.step;
   options.max_step = input.solver.max_step;

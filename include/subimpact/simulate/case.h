@@ -31,7 +31,7 @@ struct ModelOptions {
   SymmetryUse symmetry = SymmetryUse::automatic;
 };
 
-enum class Method { central_difference, erk };
+enum class Method { central_difference, erk, nystrom };
 
 /// Who solves with the mass matrix.
 enum class MassSolverKind { tridiagonal, klu };
@@ -54,8 +54,8 @@ struct SolverOptions {
   Method method = Method::erk;
   double rtol = 1e-8;          ///< relative to the scene's own scales of displacement and velocity
   std::optional<double> step;  ///< s; central-difference: 0.9 of critical if empty; erk: adaptive
-  std::optional<double> max_step;  ///< s; adaptive methods
-  std::string table = "dop853";    ///< erk: Butcher table
+  std::optional<double> max_step;    ///< s; adaptive methods
+  std::optional<std::string> table;  ///< coefficients of a Runge-Kutta method; its first if empty
   MassSolverKind mass_solver = MassSolverKind::tridiagonal;
   std::optional<EventHandling>
       events;  ///< empty: interpolated for central-difference, else located

@@ -36,7 +36,7 @@ struct HistoryRow {
 /// How a simulation ended.
 enum class OutcomeKind {
   completed,
-  stopped,            ///< the caller's progress function asked to stop
+  stopped,        ///< the caller's progress function asked to stop
   unstable,       ///< energy grew without reason, or a value is not a number
   solver_failed,  ///< the integrator could not go on
   left_validity,  ///< the indentation reached the beam's thickness
@@ -54,10 +54,11 @@ struct Used {
   bool half_model = false;
   std::size_t n_unknowns = 0;  ///< of the beam
   std::size_t n_sections = 0;
-  std::string mesh;                ///< in words
-  double highest_frequency = 0.0;  ///< rad/s, bound
-  double critical_step = 0.0;      ///< s, of central differences
-  std::optional<double> step;      ///< s, of fixed-step methods
+  std::string mesh;                  ///< in words
+  double highest_frequency = 0.0;    ///< rad/s, bound
+  double critical_step = 0.0;        ///< s, of central differences
+  std::optional<double> step;        ///< s, of fixed-step methods
+  std::optional<std::string> table;  ///< coefficients, of Runge-Kutta methods
   EventHandling events = EventHandling::located;
   double position_tolerance = 0.0;  ///< m, adaptive methods
   double velocity_tolerance = 0.0;  ///< m/s

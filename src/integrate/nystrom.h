@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "integrate/integrator.h"
+#include "integrate/nystrom_tables.h"
+
+namespace subimpact {
+
+struct NystromOptions {
+  std::string table = "dprkn8";
+  double relative_tolerance = 1e-8;
+  std::optional<double> fixed_step;  ///< s; adaptive if empty
+  std::optional<double> max_step;    ///< s
+};
+
+/// Explicit Runge-Kutta-Nystroem methods for q'' = a(q): as the acceleration does not depend on the
+/// velocity, stages carry positions only, which halves the vector work and, order for order, needs
+/// about half the evaluations of a Runge-Kutta method.
+///
+/// Error control as in `erk`: weighted root-mean-square norm of the estimate with the constant
+/// weights 1/(rtol * scale), a proportional-integral controller, rejected steps retaken. A state
+/// inside the last step is a retaken, shorter step. Throws std::invalid_argument for an unknown
+/// table.
+class Nystrom final : public Integrator {
+ public:
+  Nystrom(SecondOrderOde& ode, const NystromOptions& options);
+
+  void restart(double t, const State& y) override;
+  void step() override;
+  void state_at(double t, State& y) override;
+  WorkCounts work() const override { return work_; }
+
+ private:
+  using Vector = std::vector<double>;
+  // The stages of a step of length h from (y0_, stages_[0]), and its end.
+  void advance(double h, std::vector<Vector>& stages, State& y);
+  double error_norm(double h) const;
+  void accelerate(const double* positions, Vector& result);
+
+  SecondOrderOde& ode_;
+  const NystromTable& table_;
+  bool first_same_as_last_;
+  std::size_t n_;
+  std::optional<double> fixed_step_;
+  double max_step_;
+  double position_weight_, velocity_weight_;
+  double next_step_ = 0.0;
+  double previous_error_ = 1.0;
+  std::vector<Vector> stages_;          // accelerations of the last step's stages
+  std::vector<Vector> partial_stages_;  // of a partial step; the first is not used
+  Vector end_acceleration_;             // at time(), the next step's first stage
+  Vector trial_;
+  WorkCounts work_;
+};
+
+}  // namespace subimpact
