@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "events/hermite.h"
+#include "model/lanes.h"
 
 namespace subimpact {
 namespace {
@@ -26,6 +27,7 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       striker_velocity_(scene.striker.velocity),
       stress_reach_(0.5 * scene.beam.youngs_modulus * scene.beam.thickness),
       momentum_functional_(n_),
+      jacobian_(*mesh_, striker_mass_),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
       trial_(n_ + 1) {
@@ -65,6 +67,46 @@ void StruckBeam::acceleration(std::span<const double> positions, std::span<doubl
   mesh_->struck_point().add_to(forces, contact);
   mass_solver_->solve(forces);
   result[n_] = -contact / striker_mass_;
+}
+
+void StruckBeam::force(std::span<const double> positions, Part part, std::span<double> result) {
+  const auto unknowns = positions.first(n_);
+  const auto forces = result.first(n_);
+  if (part == Part::rest) {
+    std::fill(forces.begin(), forces.end(), 0.0);
+  } else {
+    ++n_forces_;
+    mesh_->curvatures(unknowns, curvatures_);
+    sections_.moments(curvatures_, moments_);
+    mesh_->bending_forces(moments_, forces);
+  }
+  result[n_] = 0.0;
+  if (part == Part::stiff) return;
+  const double contact = force(positions[n_] - mesh_->struck_point()(unknowns));
+  mesh_->struck_point().add_to(forces, contact);
+  result[n_] = -contact;
+}
+
+double StruckBeam::force_slope(double indentation) const {
+  const ContactBranch branch = contact_evaluation_ == ContactEvaluation::switching
+                                   ? contact_law_.branch(contact_history_, indentation)
+                                   : contact_branch_;
+  return contact_law_.branch_slope(branch, contact_history_, indentation);
+}
+
+void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
+                                   std::span<double> values) {
+  const auto unknowns = positions.first(n_);
+  std::fill(moments_.begin(), moments_.end(), 0.0);
+  if (part != Part::rest) {
+    mesh_->curvatures(unknowns, curvatures_);
+    for (std::size_t i = 0; i < moments_.size(); ++i) {
+      moments_[i] = sections_.tangent(i, curvatures_[i]);
+    }
+  }
+  const double slope =
+      part == Part::stiff ? 0.0 : force_slope(positions[n_] - mesh_->struck_point()(unknowns));
+  jacobian_.stiffness_entries(moments_, slope, values);
 }
 
 double StruckBeam::indentation(const State& y) const {
@@ -211,23 +253,23 @@ bool StruckBeam::find_reversal(const StepEnds& step, double tolerance, const Gua
     }
   };
   // A cubic exceeds its ends by at most 4/27 of the step times each end's rate.
-  constexpr std::size_t block = 16;
-  const std::size_t n = sections_.size();
   const double reach = 4.0 / 27.0 * h;
-  for (std::size_t start = 0; start < n; start += block) {
-    const std::size_t end = std::min(start + block, n);
-    double excess = 0.0;
-    for (std::size_t i = start; i < end; ++i) {
-      const double margin = reach * (std::abs(r0[i]) + std::abs(r1[i]));
-      const double above = std::max(k0[i], k1[i]) + margin - high[i];
-      const double below = low[i] - std::min(k0[i], k1[i]) + margin;
-      excess = std::max(excess, std::max(above, below));
-    }
-    if (!(excess > 0.0)) continue;
-    for (std::size_t i = start; i < end; ++i) {
-      if (r0[i] * r1[i] < 0.0) consider(i);
-    }
-  }
+  for_each_found(
+      sections_.size(),
+      [=](std::size_t i) {
+        const Lanes start = lanes_at(r0 + i);
+        const Lanes end = lanes_at(r1 + i);
+        const Lanes up = start > 0.0 ? start : -start;
+        const Lanes down = end > 0.0 ? end : -end;
+        const Lanes margin = reach * (up + down);
+        const Lanes a = lanes_at(k0 + i);
+        const Lanes b = lanes_at(k1 + i);
+        const Lanes upper = a > b ? a : b;
+        const Lanes lower = a > b ? b : a;
+        return (start * end < 0.0) &
+               ((upper + margin > lanes_at(high + i)) | (lower - margin < lanes_at(low + i)));
+      },
+      [=](std::size_t i) { return r0[i] * r1[i] < 0.0; }, consider);
   return found;
 }
 

@@ -11,6 +11,7 @@
 #include "model/mass_solver.h"
 #include "model/section_field.h"
 #include "subimpact/events/records.h"
+#include "system/beam_jacobian.h"
 #include "system/second_order_ode.h"
 
 namespace subimpact {
@@ -65,7 +66,7 @@ struct StepEnds {
 /// beyond its range, so that the right-hand side has no kink inside a step, and whoever integrates
 /// locates the end of the branch. `switching`: the branch follows the indentation, as in schemes
 /// that do not locate events.
-class StruckBeam final : public SecondOrderOde {
+class StruckBeam final : public MechanicalSystem {
  public:
   enum class ContactEvaluation { smooth, switching };
 
@@ -76,11 +77,21 @@ class StruckBeam final : public SecondOrderOde {
   void acceleration(std::span<const double> positions, std::span<double> result) override;
   Scales scales() const override { return scales_; }
 
+  /// Stiff part: the bending forces; the rest: the contact force.
+  void force(std::span<const double> positions, Part part, std::span<double> result) override;
+  const SparsityPattern& pattern() const override { return jacobian_.pattern(); }
+  void mass_entries(std::span<double> values) const override { jacobian_.mass_entries(values); }
+  void stiffness_entries(std::span<const double> positions, Part part,
+                         std::span<double> values) override;
+
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
   const ContactLaw& contact_law() const { return contact_law_; }
   const MassSolver& mass_solver() const { return *mass_solver_; }
+  /// Evaluations of the acceleration: of the forces, each with a mass solve.
   long n_accelerations() const { return n_accelerations_; }
+  /// Evaluations of the bending forces alone or with the contact force, without a mass solve.
+  long n_forces() const { return n_forces_; }
 
   /// At t = 0: beam at rest, nose just touching, contact begun.
   State initial_state() const;
@@ -135,6 +146,7 @@ class StruckBeam final : public SecondOrderOde {
   std::span<const double> beam_positions(const State& y) const { return {y.data(), n_}; }
   std::span<const double> beam_velocities(const State& y) const { return {y.data() + n_ + 1, n_}; }
   double force(double indentation) const;
+  double force_slope(double indentation) const;
   bool find_contact_crossing(const StepEnds& step, const Guard* without, Crossing& earliest);
   bool find_reversal(const StepEnds& step, double tolerance, const Guard* without,
                      Crossing& earliest);
@@ -156,7 +168,9 @@ class StruckBeam final : public SecondOrderOde {
   ContactBranch contact_branch_ = ContactBranch::separated;
   ContactHistory contact_history_;
 
+  BeamJacobian jacobian_;
   long n_accelerations_ = 0;
+  long n_forces_ = 0;
   std::vector<double> curvatures_, moments_;  // of the last evaluation
   std::vector<double> trial_;                 // accelerations for guards on rates
   struct Kinematics {

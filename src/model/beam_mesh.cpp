@@ -1,0 +1,28 @@
+#include "model/beam_mesh.h"
+
+#include <algorithm>
+
+namespace subimpact {
+
+std::size_t BeamMesh::stiffness_bandwidth() const {
+  std::size_t bandwidth = 0;
+  for (std::size_t i = 0; i < n_sections(); ++i) {
+    bandwidth = std::max(bandwidth, section_stencil(i).coefficients.size() - 1);
+  }
+  return bandwidth;
+}
+
+void BeamMesh::add_stiffness(std::span<const double> tangents, BandedMatrix& result) const {
+  for (std::size_t i = 0; i < n_sections(); ++i) {
+    const SectionStencil row = section_stencil(i);
+    const double factor = weights_[i] * tangents[i];
+    for (std::size_t a = 0; a < row.coefficients.size(); ++a) {
+      for (std::size_t b = a; b < row.coefficients.size(); ++b) {
+        result.at(row.first + a, row.first + b) +=
+            factor * row.coefficients[a] * row.coefficients[b];
+      }
+    }
+  }
+}
+
+}  // namespace subimpact
