@@ -51,6 +51,7 @@ Json what_was_used(const Case& input, const Used& used) {
   const bool adaptive = !used.step;
   return {
       {"method", to_string(input.solver.method)},
+      {"table", used.table ? Json(*used.table) : Json(nullptr)},
       {"half_model", used.half_model},
       {"mesh", used.mesh},
       {"n_unknowns", used.n_unknowns},

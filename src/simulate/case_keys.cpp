@@ -8,9 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "integrate/arkode_erk.h"
-#include "integrate/nystrom_tables.h"
 #include "simulate/case_choices.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {
@@ -150,8 +149,9 @@ CaseKey with_choices(CaseKey key, std::vector<Choice> choices) {
 
 std::vector<Choice> table_choices() {
   std::vector<Choice> choices;
-  for (const ExplicitTable& table : explicit_tables()) choices.push_back({table.name, table.note});
-  for (const NystromTable& table : nystrom_tables()) choices.push_back({table.name, table.note});
+  for (const MethodTable& table : method_tables()) {
+    choices.push_back({table.name, fmt::format("{}: {}", to_string(table.method), table.note)});
+  }
   return choices;
 }
 
@@ -193,9 +193,9 @@ std::vector<CaseKey> make_case_keys() {
 
     row("solver.method", "", any_value, "time integration method", as_in_case, AT(solver.method)),
     row("solver.rtol", "", tolerance, "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),
-    row("solver.step", "s", positive, "fixed step", "central-difference: 0.9 of the critical step; erk: adaptive", AT(solver.step)),
+    row("solver.step", "s", positive, "fixed step", "central-difference: 0.9 of the critical step; others: adaptive", AT(solver.step)),
     row("solver.max_step", "s", positive, "largest step of adaptive methods", "no limit", AT(solver.max_step)),
-    with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "erk: dop853; nystrom: dprkn8", AT(solver.table)), table_choices()),
+    with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),
     row("solver.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(solver.mass_solver)),
     row("solver.events", "", any_value, "treatment of an event inside a step", "central-difference: \"interpolated\"; others: \"located\"", AT(solver.events)),
     row("solver.reversals", "", any_value, "treatment of flowing sections that turn back", as_in_case, AT(solver.reversals)),

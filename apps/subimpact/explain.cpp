@@ -1,0 +1,31 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.h"
+#include "subimpact/io/report.h"
+
+namespace subimpact::app {
+
+void add_explain(CLI::App& program, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "explain", "Say what a case will be modelled as, and what it will cost; run nothing");
+  auto options = std::make_shared<CaseOptions>();
+  options->add_to(*command);
+  command->footer(
+      "Examples:\n"
+      "  subimpact explain case.toml\n"
+      "  subimpact explain case.toml --method central-difference --set model.segments=1001");
+  command->callback([options, &status] {
+    const LoadedCase loaded = options->load();
+    try {
+      const Used used = explain(loaded.value);
+      fmt::print("{}", explanation(loaded.value, used, estimate_cost(loaded.value)));
+    } catch (const InvalidCase& error) {
+      throw CaseFileError(loaded.message(error));
+    }
+    status = done;
+  });
+}
+
+}  // namespace subimpact::app

@@ -1,0 +1,56 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "subimpact/io/report.h"
+
+namespace subimpact::app {
+namespace {
+
+constexpr std::chrono::milliseconds shortest_pause{100};
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+
+void request_interrupt(int) {
+  interrupt_requested = 1;
+  std::signal(SIGINT, SIG_DFL);
+}
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay(double end_time, bool quiet)
+    : end_time_(end_time),
+      shown_(!quiet && isatty(STDERR_FILENO) != 0),
+      last_(std::chrono::steady_clock::now()) {
+  interrupt_requested = 0;
+  std::signal(SIGINT, request_interrupt);
+}
+
+ProgressDisplay::~ProgressDisplay() {
+  std::signal(SIGINT, SIG_DFL);
+  clear_line();
+}
+
+bool ProgressDisplay::operator()(double time) {
+  const auto now = std::chrono::steady_clock::now();
+  if (shown_ && now - last_ >= shortest_pause) {
+    last_ = now;
+    line_is_dirty_ = true;
+    fmt::print(stderr, "\r{} of {} ({:.0f} %)   ", duration_text(time), duration_text(end_time_),
+               100.0 * time / end_time_);
+    std::fflush(stderr);
+  }
+  return interrupt_requested == 0;
+}
+
+void ProgressDisplay::clear_line() {
+  if (!line_is_dirty_) return;
+  fmt::print(stderr, "\r\033[K");
+  line_is_dirty_ = false;
+}
+
+}  // namespace subimpact::app

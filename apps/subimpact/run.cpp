@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "commands.h"
+#include "progress.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+
+namespace subimpact::app {
+namespace {
+
+struct RunOptions {
+  CaseOptions input;
+  std::string directory;
+  bool quiet = false;
+};
+
+std::filesystem::path output_directory(const RunOptions& options) {
+  if (!options.directory.empty()) return options.directory;
+  return std::filesystem::path(options.input.file).stem().string() + "-results";
+}
+
+int exit_status(OutcomeKind kind) {
+  switch (kind) {
+    case OutcomeKind::completed:
+      return done;
+    case OutcomeKind::stopped:
+      return interrupted;
+    case OutcomeKind::left_validity:
+      return refused;
+    case OutcomeKind::unstable:
+    case OutcomeKind::solver_failed:
+      return failed;
+  }
+  return failed;
+}
+
+Result simulate_with_progress(const LoadedCase& loaded, bool quiet) {
+  ProgressDisplay progress(loaded.value.end_time, quiet);
+  try {
+    return simulate(loaded.value, std::ref(progress));
+  } catch (const InvalidCase& error) {
+    throw CaseFileError(loaded.message(error));
+  }
+}
+
+int run(const RunOptions& options) {
+  const LoadedCase loaded = options.input.load();
+  try {
+    explain(loaded.value);  // refuses what cannot be modelled before anything is written
+  } catch (const InvalidCase& error) {
+    throw CaseFileError(loaded.message(error));
+  }
+  const std::filesystem::path directory = output_directory(options);
+  prepare_output_directory(directory);
+  const Result result = simulate_with_progress(loaded, options.quiet);
+  if (!options.quiet) {
+    fmt::print("{}\n{}", run_summary(loaded.value, result), sub_impact_table(result));
+  }
+  const int status = exit_status(result.outcome.kind);
+  if (status != done) {
+    std::fflush(stdout);
+    fmt::print(stderr, "subimpact: {}\n", failure_message(loaded.value, result));
+  }
+  try {
+    write_results(directory, loaded.value, result);
+  } catch (const OutputError& error) {
+    fmt::print(stderr, "subimpact: {}\n", error.what());
+    return failed;
+  }
+  if (!options.quiet) fmt::print("\nfiles in {}\n", directory.string());
+  return status;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& status) {
+  CLI::App* command = program.add_subcommand("run", "Simulate a case");
+  auto options = std::make_shared<RunOptions>();
+  options->input.add_to(*command);
+  command->add_option(
+      "--out", options->directory,
+      "Directory for events.csv, transitions.csv, history.csv and summary.json; made "
+      "if missing. Default: the case file's name without its ending, and -results, "
+      "in the current directory");
+  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->footer(
+      "Examples:\n"
+      "  subimpact run case.toml\n"
+      "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"
+      "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"
+      "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
+      "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "
+      "validity; "
+      "3 the solver failed, or results could not be written; 130 stopped by Ctrl-C. Once the run "
+      "has "
+      "begun, what was computed is written in every case.");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace subimpact::app

@@ -1,0 +1,36 @@
+#pragma once
+
+/// Results as text for people: microseconds, millimetres, newtons.
+
+#include <optional>
+#include <string>
+
+#include "subimpact/simulate/case.h"
+#include "subimpact/simulate/cost.h"
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// One line a sub-impact, under a heading with units; zones and sub-zones set apart.
+std::string sub_impact_table(const Result& result);
+
+/// A dozen lines: how the run ended, what happened, what it cost.
+std::string run_summary(const Case& input, const Result& result);
+
+/// For a run that did not reach its end: one line with time, mode, method, last event, cause.
+std::string failure_message(const Case& input, const Result& result);
+
+/// What a case will be modelled as, and why.
+std::string explanation(const Case& input, const Used& used,
+                        const std::optional<CostEstimate>& cost);
+
+/// All keys of a case file, with units, what they accept and their defaults.
+std::string key_listing();
+
+/// The methods and their Butcher tables, one line each.
+std::string method_listing();
+
+/// A duration in the unit that suits its size: "12.3 us", "8 ms", "3.4 s".
+std::string duration_text(double seconds);
+
+}  // namespace subimpact

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "subimpact/simulate/case.h"
+
+namespace subimpact {
+
+/// What a run will roughly take.
+struct CostEstimate {
+  double steps = 0.0;
+  double right_hand_sides = 0.0;
+  double seconds_per_right_hand_side = 0.0;  ///< measured on this machine, on the beam at rest
+  double seconds = 0.0;
+};
+
+/// Steps follow from the step or, for adaptive methods, from the highest frequency of the mesh and
+/// a fit to the paper's example; time from right-hand sides timed for some milliseconds. How often
+/// the beam will yield and touch is unknown beforehand, so the true cost may be three times less or
+/// more. Throws InvalidCase.
+std::optional<CostEstimate> estimate_cost(const Case& input);
+
+}  // namespace subimpact

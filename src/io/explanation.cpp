@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "subimpact/io/report.h"
+#include "subimpact/simulate/case_keys.h"
+#include "subimpact/simulate/method_tables.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double us = 1e6;  // per second
+
+std::string key_text(const Case& input, const char* name) {
+  const CaseKey* key = find_case_key(name);
+  const std::optional<KeyValue> value = key->get(input);
+  return value ? to_text(*value) : key->default_text;
+}
+
+std::string symmetry_text(const Case& input, const Used& used) {
+  if (used.half_model)
+    return "used: struck at mid-span and both ends alike, so one half is modelled";
+  if (input.model.symmetry == SymmetryUse::off)
+    return "not used, as asked (model.symmetry = \"off\")";
+  return "none to use: the scene is not symmetric about mid-span, so the whole beam is modelled";
+}
+
+std::string section_text(const Case& input, const Used& used) {
+  if (input.model.section == SectionKind::elastic) return "elastic: sections never yield";
+  if (std::isinf(input.scene.beam.yield_stress)) {
+    return fmt::format("elastic, although {} was asked: the yield stress is infinite",
+                       key_text(input, "model.section"));
+  }
+  if (input.model.section == SectionKind::layers) {
+    const double n = input.model.layers;
+    return fmt::format(
+        "{} layers: elastic stiffness {:.6f} of the exact section's, first yield at "
+        "{:.6g} 1/m",
+        input.model.layers, 1.0 - 1.0 / (n * n), used.yield_curvature * n / (n - 1.0));
+  }
+  return fmt::format("exact: first yield at a curvature of {:.6g} 1/m", used.yield_curvature);
+}
+
+std::string method_text(const Case& input, const Used& used) {
+  return fmt::format("{}{}", to_string(input.solver.method),
+                     used.table ? ", table " + *used.table : "");
+}
+
+std::string step_text(const Case& input, const Used& used) {
+  if (!used.step) {
+    return fmt::format("adaptive{}", input.solver.max_step
+                                         ? ", at most " + duration_text(*input.solver.max_step)
+                                         : "");
+  }
+  return fmt::format("fixed, {}{} ({:.3g} of the critical step)", duration_text(*used.step),
+                     input.solver.step ? "" : " by default", *used.step / used.critical_step);
+}
+
+std::string count_text(double count) {
+  return count < 1e4 ? fmt::format("{:.0f}", count) : fmt::format("{:.1e}", count);
+}
+
+}  // namespace
+
+std::string explanation(const Case& input, const Used& used,
+                        const std::optional<CostEstimate>& cost) {
+  const Scene& scene = input.scene;
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  const auto head = [&](const char* title) { fmt::format_to(out, "{}\n", title); };
+  const auto line = [&](const char* label, const std::string& value) {
+    fmt::format_to(out, "  {:<21} {}\n", label, value);
+  };
+  head(input.title.empty() ? "untitled case" : input.title.c_str());
+  head("Scene");
+  line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
+                           key_text(input, "beam.ends"), key_text(input, "beam.theory")));
+  line("striker", fmt::format("{:.6g} kg at {:.6g} m/s, {:.6g} J; struck at {:.6g} of the length",
+                              scene.striker.mass, scene.striker.velocity, used.initial_energy,
+                              scene.striker.position));
+  line("first bending period", duration_text(used.first_period));
+  line("zones", fmt::format("end after {} of separation, sub-zones after {}",
+                            duration_text(input.output.zone_gap * used.first_period),
+                            duration_text(input.output.subzone_gap * used.first_period)));
+  head("Contact");
+  line("law", key_text(input, "contact.law"));
+  line("stiffness", fmt::format("{:.7g} N/m^1.5", used.contact_stiffness));
+  line("yield indentation", std::isinf(used.yield_indentation)
+                                ? "infinite: the contact never yields"
+                                : fmt::format("{:.6g} mm", used.yield_indentation * 1e3));
+  head("Model");
+  line("mesh", fmt::format("{}; cells of {:.6g} mm", used.mesh,
+                           1e3 * scene.beam.length / input.model.segments));
+  line("symmetry", symmetry_text(input, used));
+  line("unknowns", fmt::format("{} of the beam and 1 of the striker; {} sections", used.n_unknowns,
+                               used.n_sections));
+  line("section law", section_text(input, used));
+  line("highest frequency", fmt::format("{:.4g} rad/s", used.highest_frequency));
+  line("critical step", duration_text(used.critical_step) + " (of central differences)");
+  head("Integration");
+  line("method", method_text(input, used));
+  line("step", step_text(input, used));
+  if (!used.step) {
+    line("tolerances",
+         fmt::format("{:.3g} m and {:.3g} m/s (rtol {:g} of the scene's scales)",
+                     used.position_tolerance, used.velocity_tolerance, input.solver.rtol));
+  }
+  line("events", std::string(to_string(used.events)));
+  line("end", duration_text(input.end_time));
+  head("Expected cost (rough: yielding and repeated contact cannot be foreseen)");
+  if (cost) {
+    line("steps", count_text(cost->steps));
+    line("right-hand sides",
+         fmt::format("{}, at {:.3g} us each while elastic, timed just now",
+                     count_text(cost->right_hand_sides), cost->seconds_per_right_hand_side * us));
+    line("time", "about " + duration_text(cost->seconds));
+  } else {
+    line("steps", "not predicted for this method");
+  }
+  return fmt::to_string(text);
+}
+
+std::string key_listing() {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  std::string table;
+  for (const CaseKey& key : case_keys()) {
+    if (key.table() != table) fmt::format_to(out, "\n[{}]\n", table = key.table());
+    fmt::format_to(out, "{:<18} {}\n", key.leaf(), key.meaning);
+    fmt::format_to(out, "{:<18} {}; {}\n", "", allowed_values(key),
+                   key.required ? "required" : "default " + key.default_text);
+    for (const Choice& choice : key.choices) {
+      fmt::format_to(out, "{:<20} {:<18} {}\n", "", choice.name, choice.note);
+    }
+  }
+  return fmt::to_string(text);
+}
+
+std::string method_listing() {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "Methods (solver.method)\n");
+  for (const Choice& method : find_case_key("solver.method")->choices) {
+    fmt::format_to(out, "  {:<20} {}\n", method.name, method.note);
+  }
+  fmt::format_to(out,
+                 "\nTables (solver.table): order(order of the error estimate), right-hand sides a "
+                 "step\n");
+  for (const MethodTable& table : method_tables()) {
+    fmt::format_to(out, "  {:<10} {:<20} {}({}) {:>3}  {}\n", to_string(table.method), table.name,
+                   table.order, table.embedded_order, table.evaluations, table.note);
+  }
+  return fmt::to_string(text);
+}
+
+}  // namespace subimpact

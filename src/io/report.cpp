@@ -1,0 +1,116 @@
+#include "subimpact/io/report.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "subimpact/io/results.h"
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double us = 1e6;  // per second
+constexpr double mm = 1e3;  // per metre
+
+std::string time_or_never(const std::optional<double>& time) {
+  return time ? fmt::format("{:.4f} us", *time * us) : "never";
+}
+
+std::string zone_text(const std::vector<ZoneSummary>& zones) {
+  fmt::memory_buffer text;
+  for (const ZoneSummary& zone : zones) {
+    fmt::format_to(std::back_inserter(text),
+                   "  zone {:<14} {} sub-impacts in {} sub-zone{}, {:.1f} to {} us\n", zone.zone,
+                   zone.n_sub_impacts, zone.n_subzones, zone.n_subzones == 1 ? "" : "s",
+                   zone.start * us, zone.end ? fmt::format("{:.1f}", *zone.end * us) : "(open)");
+  }
+  return fmt::to_string(text);
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.4g} us", seconds * 1e6);
+  if (seconds < 1.0) return fmt::format("{:.4g} ms", seconds * 1e3);
+  return fmt::format("{:.4g} s", seconds);
+}
+
+std::string sub_impact_table(const Result& result) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{:>4} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12} {:>11}\n", "",
+                 "start", "end", "duration", "peak force", "impulse", "indentation", "residual",
+                 "striker");
+  fmt::format_to(out, "{:>4} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12} {:>11}\n", "no.",
+                 "us", "us", "us", "N", "N s", "max, mm", "mm", "m/s");
+  int zone = 0, subzone = 0;
+  std::size_t index = 0;
+  for (const SubImpact& s : result.sub_impacts) {
+    if (s.zone != zone) {
+      fmt::format_to(out, "zone {}\n", s.zone);
+    } else if (s.subzone != subzone) {
+      fmt::format_to(out, "  sub-zone {}\n", s.subzone);
+    }
+    zone = s.zone;
+    subzone = s.subzone;
+    const std::string end = s.end ? fmt::format("{:.4f}", *s.end * us) : "(open)";
+    const std::string duration = s.end ? fmt::format("{:.4f}", (*s.end - s.start) * us) : "";
+    fmt::format_to(
+        out, "{:>4} {:>13.4f} {:>13} {:>11} {:>11.2f} {:>11.6f} {:>12.7f} {:>12.7f} {:>11.6f}\n",
+        ++index, s.start * us, end, duration, s.peak_force, s.impulse, s.max_indentation * mm,
+        s.residual_indentation * mm, s.striker_velocity);
+  }
+  return fmt::to_string(text);
+}
+
+std::string run_summary(const Case& input, const Result& result) {
+  const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
+  const Work& work = result.work;
+  fmt::memory_buffer text;
+  const auto line = [&](const char* label, const std::string& value) {
+    fmt::format_to(std::back_inserter(text), "  {:<19} {}\n", label, value);
+  };
+  fmt::format_to(std::back_inserter(text), "{}\n",
+                 input.title.empty() ? "untitled case" : input.title);
+  line("outcome", fmt::format("{} at {} of {}", to_string(result.outcome.kind),
+                              duration_text(result.outcome.time), duration_text(input.end_time)));
+  line("model",
+       fmt::format("{}; section {}; {} unknowns", result.used.mesh,
+                   to_text(*find_case_key("model.section")->get(input)), result.used.n_unknowns));
+  line("sub-impacts", fmt::format("{} in {} zone{}", result.sub_impacts.size(), zones.size(),
+                                  zones.size() == 1 ? "" : "s"));
+  text.append(zone_text(zones));
+  line("first yield",
+       fmt::format("section {}, contact {}", time_or_never(result.first_section_yield),
+                   time_or_never(result.first_contact_yield)));
+  line("yielded sections",
+       fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
+  line("maxima", fmt::format("force {:.2f} N, indentation {:.6f} mm", result.max_force,
+                             result.max_indentation * mm));
+  line("final velocities", fmt::format("striker {:.6f} m/s, beam (mean) {:.6f} m/s",
+                                       result.striker_velocity, result.beam_mean_velocity));
+  line("conservation", fmt::format("energy to {:.1e}, momentum to {:.1e}, relative",
+                                   result.max_energy_error, result.max_momentum_error));
+  line("work", fmt::format("{}: {} steps, {} rejected, {} right-hand sides, {} events; {}",
+                           to_string(input.solver.method), work.steps, work.rejected_steps,
+                           work.right_hand_sides, work.roots, duration_text(work.wall_seconds)));
+  return fmt::to_string(text);
+}
+
+std::string failure_message(const Case& input, const Result& result) {
+  const bool touching = !result.sub_impacts.empty() && !result.sub_impacts.back().end;
+  const std::string mode =
+      touching ? fmt::format("in contact, sub-impact {}", result.sub_impacts.size())
+               : fmt::format("separated after sub-impact {}", result.sub_impacts.size());
+  std::string last = "none";
+  if (!result.transitions.empty()) {
+    const Transition& event = result.transitions.back();
+    last = fmt::format("{} at {:.6g} us", to_string(event.kind), event.time * us);
+  }
+  return fmt::format("{} at {:.6g} us ({}; method {}; last event {}): {}",
+                     to_string(result.outcome.kind), result.outcome.time * us, mode,
+                     to_string(input.solver.method), last, result.outcome.message);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,25 @@
+#include "subimpact/simulate/method_tables.h"
+
+#include "integrate/arkode_erk.h"
+#include "integrate/nystrom_tables.h"
+
+namespace subimpact {
+
+const std::vector<MethodTable>& method_tables() {
+  static const std::vector<MethodTable> tables = [] {
+    std::vector<MethodTable> list;
+    for (const ExplicitTable& table : explicit_tables()) {
+      list.push_back({Method::erk, table.name, table.order, table.embedded_order, table.evaluations,
+                      table.note});
+    }
+    for (const NystromTable& table : nystrom_tables()) {
+      const int stages = static_cast<int>(table.n_stages());
+      list.push_back({Method::nystrom, table.name, table.order, table.embedded_order,
+                      table.first_same_as_last() ? stages - 1 : stages, table.note});
+    }
+    return list;
+  }();
+  return tables;
+}
+
+}  // namespace subimpact
