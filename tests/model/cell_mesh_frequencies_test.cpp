@@ -1,0 +1,147 @@
+// Natural frequencies of the cell mesh, out of dense eigenvalues, against its bound and the
+// continuum.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dense.h"
+#include "model/cell_mesh.h"
+#include "model/flexural_frequencies.h"
+#include "order_table.h"
+#include "paper_scene.h"
+
+namespace subimpact {
+namespace {
+
+using Extent = CellMesh::Extent;
+
+class CellMeshOfBothTheories : public testing::TestWithParam<BeamTheory> {
+ protected:
+  Beam beam() const {
+    Beam result = paper_beam();
+    result.theory = GetParam();
+    return result;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Theories, CellMeshOfBothTheories,
+                         testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
+                         [](const auto& info) {
+                           return info.param == BeamTheory::rayleigh ? "rayleigh"
+                                                                     : "euler_bernoulli";
+                         });
+
+TEST_P(CellMeshOfBothTheories, HighestFrequencyIsAnUpperBoundForAnyNumberOfCells) {
+  for (const std::size_t n : {5u, 6u, 9u, 20u, 51u}) {
+    const CellMesh mesh(beam(), 0.5, n, Extent::whole);
+    const double stiffness = beam().bending_stiffness();
+    const double highest = std::sqrt(squared_frequencies(mesh, stiffness)(index(n - 1)));
+    EXPECT_GE(mesh.highest_frequency(stiffness), highest * (1.0 - 1e-12)) << n << " cells";
+  }
+}
+
+TEST_P(CellMeshOfBothTheories, HighestFrequencyIsWithinOneThousandthOfTheLargest) {
+  const double stiffness = beam().bending_stiffness();
+  for (const Extent extent : {Extent::whole, Extent::half}) {
+    const CellMesh mesh(beam(), 0.5, 151, extent);
+    const double highest =
+        std::sqrt(squared_frequencies(mesh, stiffness)(index(mesh.n_unknowns() - 1)));
+    EXPECT_LE(mesh.highest_frequency(stiffness), highest * 1.001);
+    EXPECT_GE(mesh.highest_frequency(stiffness), highest * (1.0 - 1e-12));
+  }
+}
+
+TEST(CellMesh, HighestFrequencyOfThePapersGrid) {
+  const CellMesh mesh(paper_beam(), 0.5, 501, Extent::half);
+  EXPECT_NEAR(mesh.highest_frequency(paper_beam().bending_stiffness()), 7.043e6, 0.5e3);
+}
+
+constexpr std::size_t n_modes = 5;
+constexpr std::size_t refinements[] = {40, 80, 160, 240};
+
+std::vector<OrderTable> tables_of_modes(const std::string& what) {
+  std::vector<OrderTable> tables;
+  for (std::size_t mode = 1; mode <= n_modes; ++mode) {
+    tables.emplace_back("mode " + std::to_string(mode) + ": " + what + ", over cells");
+  }
+  return tables;
+}
+
+TEST(CellMesh, EulerBernoulliFrequenciesConvergeAtSecondOrder) {
+  Beam beam = paper_beam();
+  beam.theory = BeamTheory::euler_bernoulli;
+  const std::vector<double> exact = free_free_frequencies(beam, n_modes);
+  std::vector<OrderTable> tables = tables_of_modes("relative error of the frequency");
+  for (const std::size_t n : refinements) {
+    const CellMesh mesh(beam, 0.5, n, Extent::whole);
+    const Eigen::VectorXd squares = squared_frequencies(mesh, beam.bending_stiffness());
+    for (std::size_t mode = 0; mode < n_modes; ++mode) {
+      const double found = std::sqrt(squares(index(mode + 2)));  // after the two rigid modes
+      tables[mode].add(static_cast<double>(n), std::abs(found / exact[mode] - 1.0));
+    }
+  }
+  for (const OrderTable& table : tables) table.expect_every_order_within(1.9, 2.1);
+}
+
+// The chain of n cells has n - 1 links that carry rotary inertia: that of the outer half cells is
+// left out. It is a part dx/l of a small quantity, but of first order. With it, put on the outer
+// links, the mesh is of second order; what it adds is of first order and of the size perturbation
+// theory gives, d omega/omega = -r^2 dx phi'(0)^2/(2 integral (phi^2 + r^2 phi'^2) dx).
+TEST(CellMesh, RayleighFrequenciesAreOfSecondOrderButForTheRotaryInertiaOfTheOuterHalfCells) {
+  const Beam beam = paper_beam();
+  const std::vector<double> exact = free_free_frequencies(beam, n_modes);
+  std::vector<OrderTable> completed =
+      tables_of_modes("relative error, outer half cells' inertia added");
+  std::vector<OrderTable> left_out = tables_of_modes("what leaving it out adds");
+  for (const std::size_t n : refinements) {
+    const CellMesh mesh(beam, 0.5, n, Extent::whole);
+    const double dx = beam.length / static_cast<double>(n);
+    const Eigen::MatrixXd stiffness = stiffness_matrix(mesh, beam.bending_stiffness());
+    Eigen::MatrixXd mass = dense(mesh.mass());
+    const Eigen::VectorXd plain = squared_frequencies(mesh, beam.bending_stiffness());
+    Eigen::Matrix2d half_link;
+    half_link << 1.0, -1.0, -1.0, 1.0;
+    half_link *= 0.5 * beam.rotary_inertia() / dx;
+    mass.topLeftCorner<2, 2>() += half_link;
+    mass.bottomRightCorner<2, 2>() += half_link;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> whole(stiffness, mass);
+    for (std::size_t mode = 0; mode < n_modes; ++mode) {
+      const auto k = index(mode + 2);
+      const double found = std::sqrt(whole.eigenvalues()(k));
+      const double added = (std::sqrt(plain(k)) - found) / exact[mode];
+      completed[mode].add(static_cast<double>(n), std::abs(found / exact[mode] - 1.0));
+      left_out[mode].add(static_cast<double>(n), added);
+      const Eigen::VectorXd shape = whole.eigenvectors().col(k);  // of modal mass 1
+      const double slope = (shape(1) - shape(0)) / dx;
+      EXPECT_NEAR(added, 0.5 * beam.rotary_inertia() * dx * slope * slope, 0.02 * added);
+    }
+  }
+  for (const OrderTable& table : completed) table.expect_every_order_within(1.9, 2.1);
+  for (const OrderTable& table : left_out) table.expect_every_order_within(0.9, 1.1);
+}
+
+TEST_P(CellMeshOfBothTheories, HasTwoRigidModesWholeAndOneInHalf) {
+  for (const Extent extent : {Extent::whole, Extent::half}) {
+    const CellMesh mesh(beam(), 0.5, 41, extent);
+    const Eigen::VectorXd squares = squared_frequencies(mesh, beam().bending_stiffness());
+    const double zero = 1e-12 * squares(squares.size() - 1);
+    EXPECT_EQ((squares.array() < zero).count(), extent == Extent::whole ? 2 : 1);
+    EXPECT_GT(squares.minCoeff(), -zero);
+  }
+}
+
+TEST_P(CellMeshOfBothTheories, HalfModelHasTheSymmetricModesOfTheWhole) {
+  const double stiffness = beam().bending_stiffness();
+  const Eigen::VectorXd whole =
+      squared_frequencies(CellMesh(beam(), 0.5, 41, Extent::whole), stiffness);
+  const Eigen::VectorXd half =
+      squared_frequencies(CellMesh(beam(), 0.5, 41, Extent::half), stiffness);
+  // Of the whole's modes 0 translates, 1 rotates, then symmetric and antisymmetric ones take turns.
+  for (Eigen::Index k = 1; k < half.size(); ++k) {
+    EXPECT_NEAR(half(k), whole(2 * k), 1e-11 * whole(whole.size() - 1)) << k;
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

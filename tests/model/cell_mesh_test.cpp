@@ -1,0 +1,212 @@
+#include "model/cell_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "dense.h"
+#include "paper_scene.h"
+#include "random_walk.h"
+
+namespace subimpact {
+namespace {
+
+using Extent = CellMesh::Extent;
+
+Beam beam_of(BeamTheory theory) {
+  Beam beam = paper_beam();
+  beam.theory = theory;
+  return beam;
+}
+
+// Meshes of every shape: whole and half, few and many cells, strikes on and between centres and at
+// the ends.
+std::vector<CellMesh> meshes() {
+  std::vector<CellMesh> all;
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    const Beam beam = beam_of(theory);
+    for (const std::size_t n : {5u, 7u, 11u, 101u}) {
+      all.emplace_back(beam, 0.5, n, Extent::whole);
+      all.emplace_back(beam, 0.5, n, Extent::half);
+      all.emplace_back(beam, 0.31, n, Extent::whole);
+    }
+    for (const double position : {0.0, 0.013, 0.5, 0.77, 1.0}) {
+      all.emplace_back(beam, position, 20, Extent::whole);
+    }
+  }
+  return all;
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+TEST(CellMesh, BendingForcesAreTheExactTransposeOfCurvatures) {
+  for (const CellMesh& mesh : meshes()) {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const std::vector<double> displacement = random_numbers(seed, mesh.n_unknowns());
+      const std::vector<double> moments = random_numbers(seed + 50, mesh.n_sections());
+      std::vector<double> curvatures(mesh.n_sections());
+      std::vector<double> forces(mesh.n_unknowns());
+      mesh.curvatures(displacement, curvatures);
+      mesh.bending_forces(moments, forces);
+      double internal = 0.0;
+      double size = 0.0;
+      for (std::size_t i = 0; i < curvatures.size(); ++i) {
+        internal += mesh.section_weights()[i] * moments[i] * curvatures[i];
+        size += std::abs(mesh.section_weights()[i] * moments[i] * curvatures[i]);
+      }
+      EXPECT_NEAR(internal + dot(forces, displacement), 0.0, 1e-13 * size) << mesh.description();
+    }
+  }
+}
+
+TEST(CellMesh, BendingHasNoNetForceAndNoNetMoment) {
+  for (const CellMesh& mesh : meshes()) {
+    const std::vector<double> moments = random_numbers(4, mesh.n_sections());
+    std::vector<double> forces(mesh.n_unknowns());
+    mesh.bending_forces(moments, forces);
+    double net_force = 0.0, net_moment = 0.0, force_size = 0.0;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      net_force += forces[i] * mesh.translation()[i];
+      net_moment += forces[i] * static_cast<double>(i);
+      force_size += std::abs(forces[i]);
+    }
+    EXPECT_NEAR(net_force, 0.0, 1e-14 * force_size) << mesh.description();
+    if (mesh.symmetric()) continue;  // the mirrored half's moment cancels this half's
+    EXPECT_NEAR(net_moment, 0.0, 1e-14 * force_size * static_cast<double>(forces.size()));
+  }
+}
+
+TEST(CellMesh, RigidMotionsDoNotBend) {
+  for (const CellMesh& mesh : meshes()) {
+    std::vector<double> motion(mesh.n_unknowns());
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      motion[i] = 3.0 + (mesh.symmetric() ? 0.0 : 0.25 * static_cast<double>(i));
+    }
+    std::vector<double> curvatures(mesh.n_sections());
+    mesh.curvatures(motion, curvatures);
+    for (const double kappa : curvatures) EXPECT_EQ(kappa, 0.0) << mesh.description();
+  }
+}
+
+TEST(CellMesh, ParabolaHasItsCurvatureInEverySection) {
+  const Beam beam = paper_beam();
+  for (const Extent extent : {Extent::whole, Extent::half}) {
+    const CellMesh mesh(beam, 0.5, 41, extent);
+    const double dx = beam.length / 41;
+    std::vector<double> w(mesh.n_unknowns()), curvatures(mesh.n_sections());
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const double x = (static_cast<double>(i) + 0.5) * dx - 0.5 * beam.length;
+      w[i] = 0.35 * x * x;
+    }
+    mesh.curvatures(w, curvatures);
+    for (const double kappa : curvatures) EXPECT_NEAR(kappa, 0.7, 1e-11);
+  }
+}
+
+TEST(CellMesh, HasTheBeamsMassAndTheRotaryInertiaOfAnInnerRotation) {
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    const Beam beam = beam_of(theory);
+    const CellMesh half(beam, 0.5, 41, Extent::half);
+    EXPECT_NEAR(half.mass().quadratic_form(half.translation()), beam.mass(), 1e-13 * beam.mass());
+    const CellMesh mesh(beam, 0.5, 200, Extent::whole);
+    EXPECT_NEAR(mesh.mass().quadratic_form(mesh.translation()), beam.mass(), 1e-13 * beam.mass());
+    std::vector<double> rotation(200);
+    const double dx = beam.length / 200;
+    for (std::size_t i = 0; i < 200; ++i) {
+      rotation[i] = (static_cast<double>(i) + 0.5) * dx - 0.5 * beam.length;
+    }
+    // Cells as points (n^2 - 1 of n^2 parts) and the rotation of the 199 links between them.
+    const double points = beam.mass() * beam.length * beam.length / 12.0 * (1.0 - 1.0 / 40000.0);
+    const double links = beam.rotary_inertia() * dx * 199.0;
+    EXPECT_NEAR(mesh.mass().quadratic_form(rotation), points + links, 1e-12 * points);
+    EXPECT_EQ(links > 0.0, theory == BeamTheory::rayleigh);
+  }
+}
+
+TEST(CellMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    for (const std::size_t n : {5u, 7u, 51u}) {
+      const Beam beam = beam_of(theory);
+      const CellMesh whole(beam, 0.5, n, Extent::whole);
+      const CellMesh half(beam, 0.5, n, Extent::half);
+      const std::vector<double> w = random_numbers(3, half.n_unknowns());
+      std::vector<double> both(n);
+      for (std::size_t i = 0; i < w.size(); ++i) both[i] = both[n - 1 - i] = w[i];
+
+      EXPECT_NEAR(half.mass().quadratic_form(w), whole.mass().quadratic_form(both), 1e-13);
+      EXPECT_EQ(half.struck_point()(w), whole.struck_point()(both));
+      EXPECT_EQ(half.first_end()(w), whole.first_end()(both));
+      EXPECT_DOUBLE_EQ(half.section_positions()[half.struck_section()],
+                       whole.section_positions()[whole.struck_section()]);
+
+      std::vector<double> kappa(half.n_sections()), both_kappa(whole.n_sections());
+      half.curvatures(w, kappa);
+      whole.curvatures(both, both_kappa);
+      double energy = 0.0, both_energy = 0.0;
+      for (std::size_t i = 0; i < kappa.size(); ++i) {
+        EXPECT_NEAR(kappa[i], both_kappa[i], 1e-12 * std::abs(kappa[i]));
+        energy += half.section_weights()[i] * kappa[i] * kappa[i];
+      }
+      for (std::size_t i = 0; i < both_kappa.size(); ++i) {
+        both_energy += whole.section_weights()[i] * both_kappa[i] * both_kappa[i];
+      }
+      EXPECT_NEAR(energy, both_energy, 1e-12 * energy);
+
+      std::vector<double> forces(w.size()), both_forces(n);
+      half.bending_forces(kappa, forces);
+      whole.bending_forces(both_kappa, both_forces);
+      for (std::size_t i = 0; i < w.size(); ++i) {
+        const double folded =
+            i + 1 < w.size() ? both_forces[i] + both_forces[n - 1 - i] : both_forces[i];
+        EXPECT_NEAR(forces[i], folded, 1e-10 * std::abs(both_forces[0])) << i;
+      }
+    }
+  }
+}
+
+TEST(CellMesh, StrikeBetweenCellsSharesForceAsItSharesDisplacement) {
+  for (const CellMesh& mesh : meshes()) {
+    const std::vector<double> velocity = random_numbers(6, mesh.n_unknowns());
+    std::vector<double> forces(mesh.n_unknowns(), 0.0);
+    mesh.struck_point().add_to(forces, 5.0);
+    // Power given to the beam is force times the struck point's velocity; the force arrives whole.
+    EXPECT_NEAR(dot(forces, velocity), 5.0 * mesh.struck_point()(velocity), 1e-14);
+    EXPECT_NEAR(dot(forces, mesh.translation()), 5.0, 1e-14);
+  }
+}
+
+TEST(CellMesh, StrikeArrivesWhereItIsAimed) {
+  const Beam beam = paper_beam();
+  for (const double position : {0.03, 0.31, 0.5, 0.77, 0.97}) {
+    const CellMesh mesh(beam, position, 20, Extent::whole);
+    std::vector<double> x(20);
+    for (std::size_t i = 0; i < 20; ++i) x[i] = (static_cast<double>(i) + 0.5) * beam.length / 20;
+    EXPECT_NEAR(mesh.struck_point()(x), position * beam.length, 1e-14);
+    EXPECT_NEAR(mesh.section_positions()[mesh.struck_section()], position * beam.length,
+                1.001 * beam.length / 20);
+  }
+}
+
+TEST(CellMesh, FirstEndIsTheEndAndNotTheFirstCentre) {
+  const Beam beam = paper_beam();
+  const CellMesh mesh(beam, 0.5, 20, Extent::whole);
+  std::vector<double> w(20);
+  for (std::size_t i = 0; i < 20; ++i) w[i] = 2.0 + 3.0 * (static_cast<double>(i) + 0.5);
+  EXPECT_NEAR(mesh.first_end()(w), 2.0, 1e-14);
+}
+
+TEST(CellMesh, RefusesShapesItCannotModel) {
+  const Beam beam = paper_beam();
+  EXPECT_THROW(CellMesh(beam, 0.5, 4, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(CellMesh(beam, 0.5, 50, Extent::half), std::invalid_argument);
+  EXPECT_THROW(CellMesh(beam, 0.4, 51, Extent::half), std::invalid_argument);
+  EXPECT_NO_THROW(CellMesh(beam, 0.4, 50, Extent::whole));
+}
+
+}  // namespace
+}  // namespace subimpact

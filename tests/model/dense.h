@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "model/beam_mesh.h"
+
+namespace subimpact {
+
+inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+inline std::span<const double> entries(const Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+inline std::span<double> entries(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+
+inline Eigen::MatrixXd dense(const BandedMatrix& matrix) {
+  const Eigen::Index n = index(matrix.size());
+  Eigen::MatrixXd full(n, n);
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    for (std::size_t j = 0; j < matrix.size(); ++j) full(index(i), index(j)) = matrix(i, j);
+  }
+  return full;
+}
+
+/// The stiffness matrix of an elastic beam on a mesh, column by column out of curvatures and
+/// forces.
+inline Eigen::MatrixXd stiffness_matrix(const BeamMesh& mesh, double bending_stiffness) {
+  const Eigen::Index n = index(mesh.n_unknowns());
+  Eigen::MatrixXd stiffness(n, n);
+  std::vector<double> kappa(mesh.n_sections());
+  Eigen::VectorXd forces(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(n, j);
+    mesh.curvatures(entries(unit), kappa);
+    for (double& value : kappa) value *= bending_stiffness;
+    mesh.bending_forces(kappa, entries(forces));
+    stiffness.col(j) = -forces;
+  }
+  return stiffness;
+}
+
+/// Squared natural frequencies of the elastic beam on a mesh, ascending, rigid modes included.
+inline Eigen::VectorXd squared_frequencies(const BeamMesh& mesh, double bending_stiffness) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      stiffness_matrix(mesh, bending_stiffness), dense(mesh.mass()), Eigen::EigenvaluesOnly);
+  return solver.eigenvalues();
+}
+
+}  // namespace subimpact

@@ -1,0 +1,111 @@
+#include "model/mass_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "banded_examples.h"
+#include "dense.h"
+#include "model/cell_mesh.h"
+#include "paper_scene.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double rounding = 1e-14;
+
+TEST(BandedMatrix, MultipliesAsTheFullMatrix) {
+  for (const std::size_t bandwidth : {0u, 1u, 2u, 3u}) {
+    for (const std::size_t n : {1u, 2u, 5u, 30u}) {
+      const BandedMatrix matrix = random_positive_definite(n, bandwidth, 3);
+      const Eigen::MatrixXd full = dense(matrix);
+      EXPECT_EQ(full, full.transpose());
+      const std::vector<double> x = random_numbers(4, n);
+      const Eigen::Map<const Eigen::VectorXd> vector(x.data(), index(n));
+      std::vector<double> product(n);
+      matrix.multiply(x, product);
+      const Eigen::VectorXd expected = full * vector;
+      for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(product[i], expected(index(i)), 1e-14);
+      EXPECT_NEAR(matrix.quadratic_form(x), vector.dot(expected), 1e-13);
+    }
+  }
+}
+
+TEST(BandedSolver, AgreesWithDenseFactorisationForEverySizeUpToSixty) {
+  for (const std::size_t bandwidth : {0u, 1u, 2u, 3u}) {
+    for (std::size_t n = 1; n <= 60; ++n) {
+      const BandedMatrix matrix =
+          random_positive_definite(n, bandwidth, static_cast<unsigned>(100 * bandwidth + n));
+      const BandedSolver solver(matrix);
+      std::vector<double> x = random_numbers(7, n);
+      const Eigen::VectorXd solution =
+          dense(matrix).ldlt().solve(Eigen::Map<const Eigen::VectorXd>(x.data(), index(n)));
+      const std::vector<double> expected(solution.begin(), solution.end());
+      solver.solve(x);
+      EXPECT_LE(relative_difference(x, expected), rounding) << n << " of bandwidth " << bandwidth;
+    }
+  }
+}
+
+TEST(BandedSolver, FindsAKnownSolutionOfLargeSystems) {
+  for (const std::size_t bandwidth : {0u, 1u, 2u, 3u}) {
+    for (const std::size_t n : {251u, 501u, 2001u, 2008u}) {
+      const BandedMatrix matrix = random_positive_definite(n, bandwidth, 5);
+      const BandedSolver solver(matrix);
+      const std::vector<double> expected = random_numbers(8, n);
+      std::vector<double> x(n);
+      matrix.multiply(expected, x);
+      solver.solve(x);
+      EXPECT_LE(relative_difference(x, expected), rounding) << n << " of bandwidth " << bandwidth;
+    }
+  }
+}
+
+TEST(BandedSolver, SolvesTheMassMatricesOfBeams) {
+  Beam slender = paper_beam();
+  slender.theory = BeamTheory::euler_bernoulli;
+  for (const Beam& beam : {paper_beam(), slender}) {
+    for (const std::size_t n : {5u, 17u, 251u, 501u, 2001u}) {
+      for (const auto extent : {CellMesh::Extent::whole, CellMesh::Extent::half}) {
+        const CellMesh mesh(beam, 0.5, n, extent);
+        const BandedSolver solver(mesh.mass());
+        const std::vector<double> expected = random_numbers(9, mesh.n_unknowns());
+        std::vector<double> x(mesh.n_unknowns());
+        mesh.mass().multiply(expected, x);
+        solver.solve(x);
+        // The rotary inertia of small cells makes the matrix stiff: up to 1 + 4 r^2/dx^2.
+        EXPECT_LE(relative_difference(x, expected), 1e-12) << mesh.description();
+      }
+    }
+  }
+}
+
+TEST(BandedSolver, ReachesNothingBeyondItsUnknowns) {
+  for (const std::size_t n : {3u, 8u, 13u, 16u}) {
+    const BandedSolver solver(random_positive_definite(n, 2, 6));
+    std::vector<double> x(n + 16, 42.0);
+    solver.solve(std::span<double>(x).subspan(8, n));
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(x[i], 42.0);
+    for (std::size_t i = n + 8; i < x.size(); ++i) EXPECT_EQ(x[i], 42.0);
+  }
+}
+
+TEST(BandedSolver, RefusesAMatrixThatIsNotPositiveDefinite) {
+  for (const std::size_t row : {0u, 4u, 8u, 19u}) {
+    BandedMatrix negative = random_positive_definite(20, 1, 2);
+    negative.at(row, row) = -1.0;
+    EXPECT_THROW(BandedSolver{negative}, std::invalid_argument) << row;
+  }
+  BandedMatrix singular(10, 1);  // a chain of springs free at both ends
+  for (std::size_t i = 0; i < 10; ++i) singular.at(i, i) = i == 0 || i == 9 ? 1.0 : 2.0;
+  for (std::size_t i = 0; i < 9; ++i) singular.at(i, i + 1) = -1.0;
+  EXPECT_THROW(BandedSolver{singular}, std::invalid_argument);
+}
+
+TEST(BandedSolver, RefusesABandwidthItWasNotWrittenFor) {
+  EXPECT_THROW(BandedSolver{random_positive_definite(20, 4, 2)}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,141 @@
+#include "model/section_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "paper_scene.h"
+#include "random_walk.h"
+
+namespace subimpact {
+namespace {
+
+const Beam beam = paper_beam();
+
+// Curvatures of all sections at every step of a random history: section i walks with its own reach,
+// so that some never yield, some a little and some a lot.
+std::vector<std::vector<double>> histories(std::size_t n_sections, std::size_t n_steps) {
+  std::vector<std::vector<double>> steps(n_steps, std::vector<double>(n_sections));
+  for (std::size_t i = 0; i < n_sections; ++i) {
+    const double size = 0.2 + 6.0 * static_cast<double>(i) / static_cast<double>(n_sections);
+    const auto seed = static_cast<unsigned>(i);
+    const std::vector<double> walk = nested_walk(seed, n_steps, -size, size, size);
+    for (std::size_t k = 0; k < n_steps; ++k) steps[k][i] = walk[k] * beam.yield_curvature();
+  }
+  return steps;
+}
+
+class SectionFieldOfBothLaws : public testing::TestWithParam<bool> {
+ protected:
+  SectionLaw law() const { return {beam, GetParam() ? Fibres::continuous() : Fibres::layered(40)}; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Laws, SectionFieldOfBothLaws, testing::Bool(),
+                         [](const auto& info) { return info.param ? "exact" : "layers"; });
+
+TEST_P(SectionFieldOfBothLaws, StoredWhenYieldedOrAlwaysGivesTheSameBits) {
+  for (const std::size_t n : {1u, 15u, 16u, 17u, 61u}) {
+    SectionField lazy(n, law(), SectionField::Storage::when_yielded);
+    SectionField eager(n, law(), SectionField::Storage::always);
+    const std::vector<double> weights = random_numbers(1, n);
+    std::vector<double> lazy_moments(n), eager_moments(n);
+    for (const std::vector<double>& curvatures : histories(n, 400)) {
+      lazy.moments(curvatures, lazy_moments);
+      eager.moments(curvatures, eager_moments);
+      ASSERT_EQ(lazy_moments, eager_moments);
+      ASSERT_EQ(lazy.commit(curvatures), eager.commit(curvatures));
+      ASSERT_EQ(lazy.n_yielded(), eager.n_yielded());
+      const auto a = lazy.energies(curvatures, weights);
+      const auto b = eager.energies(curvatures, weights);
+      ASSERT_EQ(a.elastic, b.elastic);
+      ASSERT_EQ(a.plastic, b.plastic);
+      for (std::size_t i = 0; i < n; ++i) {
+        ASSERT_EQ(lazy.window_low()[i], eager.window_low()[i]);
+        ASSERT_EQ(lazy.window_high()[i], eager.window_high()[i]);
+        ASSERT_EQ(lazy.has_yielded(i), eager.has_yielded(i));
+        ASSERT_EQ(lazy.tangent(i, curvatures[i]), eager.tangent(i, curvatures[i]));
+      }
+    }
+  }
+}
+
+TEST_P(SectionFieldOfBothLaws, IsTheLawOfEverySectionOnItsOwn) {
+  const std::size_t n = 37;
+  SectionField field(n, law());
+  std::vector<SectionHistory> alone(n);
+  std::vector<double> moments(n);
+  const std::vector<double> weights(n, 2.5e-3);
+  for (const std::vector<double>& curvatures : histories(n, 500)) {
+    field.moments(curvatures, moments);
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_NEAR(moments[i], law().moment(alone[i], curvatures[i]), 1e-13 * beam.yield_moment());
+      law().commit(alone[i], curvatures[i]);
+    }
+    field.commit(curvatures);
+    double elastic = 0.0;
+    double work = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      elastic += weights[i] * law().elastic_energy(alone[i], curvatures[i]);
+      work += weights[i] * law().work(alone[i], curvatures[i]);
+    }
+    const SectionField::Energies energies = field.energies(curvatures, weights);
+    ASSERT_NEAR(energies.elastic, elastic, 1e-12 * work);
+    ASSERT_NEAR(energies.plastic, work - elastic, 1e-12 * work);
+  }
+}
+
+TEST_P(SectionFieldOfBothLaws, CountsTheSectionsThatHaveYieldedAndNoOthers) {
+  const std::size_t n = 40;
+  SectionField field(n, law());
+  const double first_yield = law().window({}).high;
+  std::vector<double> curvatures(n, 0.999 * first_yield);
+  EXPECT_EQ(field.commit(curvatures), 0u);
+  EXPECT_EQ(field.n_yielded(), 0u);
+  curvatures[7] = 1.001 * first_yield;
+  curvatures[39] = -3.0 * first_yield;
+  EXPECT_EQ(field.commit(curvatures), 2u);
+  EXPECT_EQ(field.commit(curvatures), 0u);  // reached already
+  EXPECT_EQ(field.n_yielded(), 2u);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(field.has_yielded(i), i == 7 || i == 39) << i;
+  curvatures[7] = 2.0 * first_yield;
+  EXPECT_EQ(field.commit(curvatures), 1u);
+  EXPECT_EQ(field.n_yielded(), 2u);
+}
+
+TEST_P(SectionFieldOfBothLaws, AskingForMomentsLeavesNoTrace) {
+  const std::size_t n = 33;
+  SectionField field(n, law());
+  std::vector<double> before(n), after(n), ignored(n);
+  const std::vector<double> weights(n, 1.0);
+  const auto steps = histories(n, 60);
+  for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
+    field.commit(steps[k]);
+    field.moments(steps[k], before);
+    field.moments(steps[k + 1], ignored);
+    field.energies(steps[k + 1], weights);
+    field.moments(steps[k], after);
+    ASSERT_EQ(before, after);
+  }
+}
+
+TEST(SectionField, OfAnElasticBeamIsLinearWithoutMemory) {
+  const std::size_t n = 21;
+  SectionField field(n, 7.0);
+  EXPECT_FALSE(field.can_yield());
+  const std::vector<double> curvatures = random_numbers(2, n, 1e6);
+  std::vector<double> moments(n);
+  field.moments(curvatures, moments);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(moments[i], 7.0 * curvatures[i]);
+  EXPECT_EQ(field.commit(curvatures), 0u);
+  EXPECT_EQ(field.n_yielded(), 0u);
+  const std::vector<double> weights(n, 0.1);
+  double elastic = 0.0;
+  for (const double k : curvatures) elastic += 0.1 * 3.5 * k * k;
+  EXPECT_NEAR(field.energies(curvatures, weights).elastic, elastic, 1e-14 * elastic);
+  EXPECT_EQ(field.energies(curvatures, weights).plastic, 0.0);
+  EXPECT_EQ(field.outer_stress(3, 0.5, 10.0), -5.0);
+}
+
+}  // namespace
+}  // namespace subimpact
