@@ -1,4 +1,5 @@
-// What erk adds to the cost of a right-hand side, with central differences as the measure.
+// What adaptive methods add to the cost of a right-hand side, with central differences as the
+// measure.
 
 #include <fmt/format.h>
 
@@ -16,12 +17,16 @@ void measure_evaluation(const Settings& settings) {
   dormand_prince.solver.rtol = 1e-9;
   Case dop853 = dormand_prince;
   dop853.solver.table = "dop853";
+  Case nystrom = dormand_prince;
+  nystrom.solver.method = Method::nystrom;
+  nystrom.solver.table = "dprkn8";
 
-  Result of_central, of_dormand_prince, of_dop853;
+  Result of_central, of_dormand_prince, of_dop853, of_nystrom;
   const std::vector<double> seconds =
       seconds_side_by_side(settings, {[&] { of_central = run_to_end(central); },
                                       [&] { of_dormand_prince = run_to_end(dormand_prince); },
-                                      [&] { of_dop853 = run_to_end(dop853); }});
+                                      [&] { of_dop853 = run_to_end(dop853); },
+                                      [&] { of_nystrom = run_to_end(nystrom); }});
 
   fmt::print(
       "Elastic section, half model, 2 ms: whole run divided by its right-hand sides (for central\n"
@@ -37,6 +42,7 @@ void measure_evaluation(const Settings& settings) {
   row("central-difference", seconds[0], of_central.work.steps);
   row("erk, dormand-prince", seconds[1], of_dormand_prince.work.right_hand_sides);
   row("erk, dop853", seconds[2], of_dop853.work.right_hand_sides);
+  row("nystrom, dprkn8", seconds[3], of_nystrom.work.right_hand_sides);
 }
 
 }  // namespace subimpact::benchmarks

@@ -18,12 +18,13 @@ std::span<const Part> all_parts() {
   static constexpr std::array<Part, 6> parts{{
       {"naive", "central-difference against the same scheme done naively", measure_naive},
       {"vectors", "own vector operations against the SUNDIALS library's", measure_vectors},
-      {"evaluation", "cost of a right-hand side of erk against a central-difference step",
+      {"evaluation",
+       "cost of a right-hand side of erk and nystrom against a central-difference step",
        measure_evaluation},
       {"mass", "tridiagonal mass solver against KLU", measure_mass},
       {"reversals", "section turns located against history advanced at step ends",
        measure_reversals},
-      {"tables", "every explicit table: work, time, error", measure_tables},
+      {"tables", "every table of erk and nystrom: work, time, error", measure_tables},
   }};
   return parts;
 }

@@ -27,6 +27,10 @@ void compare_runs(const Settings& settings) {
   erk.solver.method = Method::erk;
   erk.solver.table = "dormand-prince";
   row("erk, dormand-prince, rtol 1e-8", erk);
+  Case nystrom = paper_case(SectionKind::elastic);
+  nystrom.solver.method = Method::nystrom;
+  nystrom.solver.table = "dprkn8";
+  row("nystrom, dprkn8, rtol 1e-8", nystrom);
   Case central = paper_case(SectionKind::elastic);
   central.solver.method = Method::central_difference;
   central.solver.step = 1e-7;
