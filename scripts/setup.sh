@@ -90,7 +90,7 @@ build() {
     return 1
   fi
   (
-    cd "$project_root"
+    cd "$project_root" || return
     cmake --preset "$preset"
     cmake --build --preset "$preset" ${1:+--target "$@"}
   )
