@@ -21,7 +21,8 @@ class HermiteCubic {
   /// Where the slope changes from positive to negative in [0, 1], given that it is positive at 0
   /// and negative at 1.
   double peak() const {
-    return bisect([this](double s) { return -slope(s); }, 0.0, 1.0);
+    const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
+    return std::clamp(c1_ / (root - c2_), 0.0, 1.0);
   }
 
   /// Where the value rises through zero between `a` (not above) and `b` (above).

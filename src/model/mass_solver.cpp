@@ -5,10 +5,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/lanes.h"
+
 namespace subimpact {
 namespace {
 
-constexpr std::size_t block_size = 8;
+constexpr std::size_t block_size = n_lanes;
 using Block = Eigen::Matrix<double, block_size, block_size>;
 
 // Lower-banded Cholesky factor, padded with the identity to a whole number of blocks.
@@ -36,31 +38,24 @@ BandedMatrix cholesky_factor(const BandedMatrix& a, std::size_t padded) {
   return factor;
 }
 
-// Eight numbers at once, wherever they stand in memory; the compiler maps them to what the
-// processor has.
-using Lanes =
-    double __attribute__((vector_size(block_size * sizeof(double)), aligned(8), may_alias));
-
 // D x - P z for one block: D is 8 x 8, P is 8 x width, both column by column; z are the `width`
 // entries of `neighbour` from `first` on.
 template <std::size_t width>
 inline Lanes apply_block(const double* coefficients, const double* x, const Lanes& neighbour,
                          std::size_t first) {
-  const auto* column = reinterpret_cast<const Lanes*>(coefficients);
+  const auto column = [&](std::size_t c) { return lanes_at(coefficients + c * block_size); };
   // Two partial sums, so that the products with x do not wait for each other. The neighbour comes
   // last and in a register: it has only just been computed, and everything waits for it.
-  Lanes even = column[0] * x[0];
-  Lanes odd = column[1] * x[1];
+  Lanes even = column(0) * x[0];
+  Lanes odd = column(1) * x[1];
   for (std::size_t c = 2; c < block_size; c += 2) {
-    even += column[c] * x[c];
-    odd += column[c + 1] * x[c + 1];
+    even += column(c) * x[c];
+    odd += column(c + 1) * x[c + 1];
   }
   even += odd;
-  for (std::size_t c = 0; c < width; ++c) even -= column[block_size + c] * neighbour[first + c];
+  for (std::size_t c = 0; c < width; ++c) even -= column(block_size + c) * neighbour[first + c];
   return even;
 }
-
-inline void store(const Lanes& values, double* at) { *reinterpret_cast<Lanes*>(at) = values; }
 
 // The index of `coefficients` among those stored, stored now if new. A uniform mesh's factor
 // settles to a repeating pattern, so few blocks differ and all stay in the nearest cache.

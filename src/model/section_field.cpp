@@ -3,36 +3,28 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/lanes.h"
+
 namespace subimpact {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const SectionHistory virgin{};
 
-// Calls visit(i) for every section outside its window. Sections are scanned in blocks, which the
-// compiler turns into a few vector comparisons; almost all blocks have nothing to visit.
+// Calls visit(i) for every section outside its window.
 template <class Visit>
 void for_each_outside(std::span<const double> curvatures, const std::vector<double>& low,
                       const std::vector<double>& high, Visit visit) {
-  constexpr std::size_t block = 16;
-  const std::size_t n = curvatures.size();
   const double* k = curvatures.data();
-  std::size_t start = 0;
-  for (; start + block <= n; start += block) {
-    double excess = 0.0;
-    for (std::size_t i = start; i < start + block; ++i) {
-      const double beyond = std::max(k[i] - high[i], low[i] - k[i]);
-      excess = std::max(excess, beyond);
-    }
-    if (excess > 0.0) {
-      for (std::size_t i = start; i < start + block; ++i) {
-        if (k[i] > high[i] || k[i] < low[i]) visit(i);
-      }
-    }
-  }
-  for (std::size_t i = start; i < n; ++i) {
-    if (k[i] > high[i] || k[i] < low[i]) visit(i);
-  }
+  const double* l = low.data();
+  const double* h = high.data();
+  for_each_found(
+      curvatures.size(),
+      [=](std::size_t i) {
+        const Lanes here = lanes_at(k + i);
+        return (here > lanes_at(h + i)) | (here < lanes_at(l + i));
+      },
+      [=](std::size_t i) { return k[i] > h[i] || k[i] < l[i]; }, visit);
 }
 
 }  // namespace

@@ -269,7 +269,12 @@ bool StruckBeam::find_reversal(const StepEnds& step, double tolerance, const Gua
         return (start * end < 0.0) &
                ((upper + margin > lanes_at(high + i)) | (lower - margin < lanes_at(low + i)));
       },
-      [=](std::size_t i) { return r0[i] * r1[i] < 0.0; }, consider);
+      [=](std::size_t i) {
+        const double margin = reach * (std::abs(r0[i]) + std::abs(r1[i]));
+        return r0[i] * r1[i] < 0.0 && (std::max(k0[i], k1[i]) + margin > high[i] ||
+                                       std::min(k0[i], k1[i]) - margin < low[i]);
+      },
+      consider);
   return found;
 }
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+namespace subimpact {
+
+/// Eight numbers at once, wherever they stand in memory; the compiler maps them to whatever vector
+/// registers the processor has. For the few inner loops it does not vectorise by itself.
+constexpr std::size_t n_lanes = 8;
+using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double)), aligned(8), may_alias));
+/// What comparing two Lanes gives: all bits set or none, lane by lane.
+using LaneMask = decltype(Lanes{} < Lanes{});
+
+inline const Lanes& lanes_at(const double* at) { return *reinterpret_cast<const Lanes*>(at); }
+inline void store(const Lanes& values, double* at) { *reinterpret_cast<Lanes*>(at) = values; }
+
+inline bool any(const LaneMask& mask) {
+  // As bytes: two halves are joined until one word is left.
+  using Half = long long __attribute__((vector_size(n_lanes * sizeof(double) / 2)));
+  Half halves[2];
+  static_assert(sizeof(halves) == sizeof(mask));
+  std::memcpy(halves, &mask, sizeof(mask));
+  const Half joined = halves[0] | halves[1];
+  return (joined[0] | joined[1] | joined[2] | joined[3]) != 0;
+}
+
+/// Visits every i in [0, n) for which `test(i)` holds. `suspect(i)`, a LaneMask for i..i+7, must
+/// not miss any; it lets all but a few groups of eight be passed over at once.
+template <class Suspect, class Test, class Visit>
+void for_each_found(std::size_t n, Suspect suspect, Test test, Visit visit) {
+  std::size_t start = 0;
+  for (; start + 4 * n_lanes <= n; start += 4 * n_lanes) {
+    const LaneMask first = suspect(start) | suspect(start + n_lanes);
+    const LaneMask second = suspect(start + 2 * n_lanes) | suspect(start + 3 * n_lanes);
+    if (!any(first | second)) continue;
+    for (std::size_t i = start; i < start + 4 * n_lanes; ++i) {
+      if (test(i)) visit(i);
+    }
+  }
+  for (std::size_t i = start; i < n; ++i) {
+    if (test(i)) visit(i);
+  }
+}
+
+}  // namespace subimpact
