@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/banded_matrix.h"
+#include "model/natural_modes.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {
@@ -76,6 +77,10 @@ class BeamMesh {
   /// An upper bound, close to it, of the highest natural frequency for a bending stiffness (N m2),
   /// rad/s.
   virtual double highest_frequency(double bending_stiffness) const = 0;
+  /// All natural modes while nothing flows, for a bending stiffness (N m2); normalised by the mass.
+  virtual NaturalModes natural_modes(double bending_stiffness) const {
+    return dense_natural_modes(*this, bending_stiffness);
+  }
   /// "501 cells, half of them by symmetry", for people.
   virtual std::string description() const = 0;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/cell_modes.h"
+
 namespace subimpact {
 
 CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent)
@@ -97,6 +99,18 @@ BeamMesh::SectionStencil CellMesh::section_stencil(std::size_t section) const {
 double CellMesh::highest_frequency(double bending_stiffness) const {
   const double inverse = 4.0 / (spacing_ * spacing_);
   return inverse * std::sqrt(bending_stiffness / (mass_per_length_ + rotary_inertia_ * inverse));
+}
+
+NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
+  const std::size_t n = n_unknowns();
+  NaturalModes modes = free_cell_modes(
+      {n_cells_, spacing_, mass_per_length_, rotary_inertia_, bending_stiffness}, symmetric(), n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::span<double> shape(modes.shapes.data() + k * n, n);
+    const double scale = 1.0 / std::sqrt(mass().quadratic_form(shape));
+    for (double& entry : shape) entry *= scale;
+  }
+  return modes;
 }
 
 std::string CellMesh::description() const {

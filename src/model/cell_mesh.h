@@ -27,6 +27,8 @@ class CellMesh final : public BeamMesh {
   SectionStencil section_stencil(std::size_t section) const override;
   /// (4 c/dx^2)/sqrt(1 + 4 r^2/dx^2) with c = sqrt(E I/(rho A)): the infinite grid's.
   double highest_frequency(double bending_stiffness) const override;
+  /// In closed form (see free_cell_modes).
+  NaturalModes natural_modes(double bending_stiffness) const override;
   std::string description() const override;
 
  private:

@@ -1,0 +1,70 @@
+#include "model/modal_mesh.h"
+
+#include <Eigen/Core>
+#include <stdexcept>
+
+namespace subimpact {
+namespace {
+
+using Vector = Eigen::Map<Eigen::VectorXd>;
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+using ConstMatrix = Eigen::Map<const Eigen::MatrixXd>;
+
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+ConstMatrix matrix(const NaturalModes& modes) {
+  return {modes.shapes.data(), index(modes.size()), index(modes.size())};
+}
+
+}  // namespace
+
+ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffness)
+    : BeamMesh(physical->n_unknowns(), 0, physical->symmetric()),
+      physical_(std::move(physical)),
+      modes_(physical_->natural_modes(bending_stiffness)),
+      work_(n_unknowns()) {
+  const std::size_t n = n_unknowns();
+  for (std::size_t k = 0; k < n; ++k) {
+    mass_.at(k, k) = 1.0;
+    struck_point_.terms.push_back({k, physical_->struck_point()(modes_.shape(k))});
+    first_end_.terms.push_back({k, physical_->first_end()(modes_.shape(k))});
+  }
+  const auto weights = physical_->section_weights();
+  const auto positions = physical_->section_positions();
+  weights_.assign(weights.begin(), weights.end());
+  positions_.assign(positions.begin(), positions.end());
+  struck_section_ = physical_->struck_section();
+  to_modal(physical_->translation(), translation_);
+}
+
+void ModalMesh::to_physical(std::span<const double> modal, std::span<double> physical) const {
+  Vector(physical.data(), index(physical.size())).noalias() =
+      matrix(modes_) * ConstVector(modal.data(), index(modal.size()));
+}
+
+void ModalMesh::to_modal(std::span<const double> physical, std::span<double> modal) const {
+  physical_->mass().multiply(physical, work_);
+  Vector(modal.data(), index(modal.size())).noalias() =
+      matrix(modes_).transpose() * ConstVector(work_.data(), index(work_.size()));
+}
+
+void ModalMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
+  to_physical(unknowns, work_);
+  physical_->curvatures(work_, kappa);
+}
+
+void ModalMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
+  physical_->bending_forces(moments, work_);
+  Vector(forces.data(), index(forces.size())).noalias() =
+      matrix(modes_).transpose() * ConstVector(work_.data(), index(work_.size()));
+}
+
+BeamMesh::SectionStencil ModalMesh::section_stencil(std::size_t) const {
+  throw std::logic_error("modal mesh: a section's curvature depends on all unknowns");
+}
+
+std::string ModalMesh::description() const {
+  return physical_->description() + ", in natural modes";
+}
+
+}  // namespace subimpact

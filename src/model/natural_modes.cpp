@@ -1,0 +1,51 @@
+#include "model/natural_modes.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/beam_mesh.h"
+
+namespace subimpact {
+
+NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness) {
+  const auto n = static_cast<Eigen::Index>(mesh.n_unknowns());
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd stiffness(n, n);
+  std::vector<double> unit(mesh.n_unknowns());
+  std::vector<double> kappa(mesh.n_sections());
+  std::vector<double> force(mesh.n_unknowns());
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto column = static_cast<std::size_t>(j);
+    unit[column] = 1.0;
+    mesh.curvatures(unit, kappa);
+    for (double& k : kappa) k *= bending_stiffness;
+    mesh.bending_forces(kappa, force);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      stiffness(i, j) = -force[row];
+      mass(i, j) = mesh.mass()(row, column);
+    }
+    unit[column] = 0.0;
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+  if (solver.info() != Eigen::Success) {
+    throw std::runtime_error("natural modes: the eigenvalue decomposition did not converge");
+  }
+  NaturalModes modes;
+  modes.frequencies.resize(mesh.n_unknowns());
+  modes.shapes.assign(solver.eigenvectors().data(), solver.eigenvectors().data() + n * n);
+  const double highest = std::sqrt(solver.eigenvalues()(n - 1));
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    mesh.curvatures(modes.shape(k), kappa);
+    double twice_energy = 0.0;
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      twice_energy += mesh.section_weights()[i] * bending_stiffness * kappa[i] * kappa[i];
+    }
+    const double frequency = std::sqrt(twice_energy);
+    modes.frequencies[k] = frequency > 1e-7 * highest ? frequency : 0.0;
+  }
+  return modes;
+}
+
+}  // namespace subimpact
