@@ -1,10 +1,16 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <exception>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "commands.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/versions.h"
+#include "subimpact/simulate/case_keys.h"
 
 namespace {
 
@@ -14,6 +20,29 @@ std::string version_text() {
     text += fmt::format("\n  {} {}", name, version);
   }
   return text;
+}
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+// CLI11 would only say that a command is missing.
+std::optional<std::string> unknown_command(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  const std::vector<std::string> names = command_names(program);
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;
+  const std::string near = subimpact::nearest_name(argv[1], names);
+  return fmt::format("unknown command \"{}\"; allowed: {}; {}", argv[1], fmt::join(names, ", "),
+                     near.empty() ? "see subimpact --help" : "did you mean \"" + near + "\"?");
+}
+
+// One line, and where to read more.
+std::string usage_error(const CLI::App* program, const CLI::Error& error) {
+  std::string command = "subimpact";
+  for (const CLI::App* used : program->get_subcommands()) command += " " + used->get_name();
+  return fmt::format("{}: {}; see {} --help\n", command, error.what(), command);
 }
 
 }  // namespace
@@ -32,11 +61,16 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", version_text,
                            "Print the versions of program and libraries");
   program.require_subcommand(1);
+  program.failure_message(usage_error);
   app::add_run(program, status);
   app::add_explain(program, status);
   app::add_methods(program, status);
   app::add_keys(program, status);
 
+  if (const auto message = unknown_command(program, argc, argv)) {
+    fmt::print(stderr, "subimpact: {}\n", *message);
+    return app::refused;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

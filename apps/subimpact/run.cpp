@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "commands.h"
 #include "progress.h"
@@ -57,21 +59,24 @@ int run(const RunOptions& options) {
   const std::filesystem::path directory = output_directory(options);
   prepare_output_directory(directory);
   const Result result = simulate_with_progress(loaded, options.quiet);
-  if (!options.quiet) {
-    fmt::print("{}\n{}", run_summary(loaded.value, result), sub_impact_table(result));
-  }
-  const int status = exit_status(result.outcome.kind);
-  if (status != done) {
-    std::fflush(stdout);
-    fmt::print(stderr, "subimpact: {}\n", failure_message(loaded.value, result));
-  }
+  int status = exit_status(result.outcome.kind);
+  std::string unwritten;
   try {
+    // Before anything is printed: the reader of a pipe may leave early and end the program.
     write_results(directory, loaded.value, result);
   } catch (const OutputError& error) {
-    fmt::print(stderr, "subimpact: {}\n", error.what());
-    return failed;
+    unwritten = error.what();
+    status = failed;
   }
-  if (!options.quiet) fmt::print("\nfiles in {}\n", directory.string());
+  if (!options.quiet) {
+    fmt::print("{}\n{}", run_summary(loaded.value, result), sub_impact_table(result));
+    if (unwritten.empty()) fmt::print("\nfiles in {}\n", directory.string());
+    std::fflush(stdout);
+  }
+  if (!result.outcome.completed()) {
+    fmt::print(stderr, "subimpact: {}\n", failure_message(loaded.value, result));
+  }
+  if (!unwritten.empty()) fmt::print(stderr, "subimpact: {}\n", unwritten);
   return status;
 }
 

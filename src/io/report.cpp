@@ -92,9 +92,11 @@ std::string run_summary(const Case& input, const Result& result) {
                                        result.striker_velocity, result.beam_mean_velocity));
   line("conservation", fmt::format("energy to {:.1e}, momentum to {:.1e}, relative",
                                    result.max_energy_error, result.max_momentum_error));
-  line("work", fmt::format("{}: {} steps, {} rejected, {} right-hand sides, {} events; {}",
-                           to_string(input.solver.method), work.steps, work.rejected_steps,
-                           work.right_hand_sides, work.roots, duration_text(work.wall_seconds)));
+  line("method", fmt::format("{}{}", to_string(input.solver.method),
+                             result.used.table ? ", table " + *result.used.table : ""));
+  line("work", fmt::format("{} steps, {} rejected, {} right-hand sides, {} events; {}", work.steps,
+                           work.rejected_steps, work.right_hand_sides, work.roots,
+                           duration_text(work.wall_seconds)));
   return fmt::to_string(text);
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "subimpact/simulate/case_keys.h"
 
@@ -29,8 +28,8 @@ std::string choice_list(const CaseKey& key) {
 
 // A value of another type than the key's is shown together with its type.
 std::string typed(const KeyValue& value) {
-  static constexpr const char* kinds[] = {"a boolean", "a whole number", "a number", "a text",
-                                          "a list"};
+  static constexpr const char* kinds[] = {"a boolean", "a whole number", "a floating-point number",
+                                          "a text", "a list"};
   return fmt::format("{} ({})", kinds[value.index()], to_text(value));
 }
 
@@ -67,6 +66,36 @@ std::optional<std::string> choice_problem(const CaseKey& key, const std::string&
   if (is_choice(key, name)) return std::nullopt;
   const std::string near = nearest_name(name, choice_names(key));
   return refusal(key, quoted(name)) + (near.empty() ? "" : "; did you mean " + quoted(near) + "?");
+}
+
+// What to change when the value is right but written as another type.
+std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
+  const bool is_text = std::holds_alternative<std::string>(value);
+  if (is_text && (key.type == KeyType::number || key.type == KeyType::count)) {
+    return "; numbers are written without quotes";
+  }
+  if (key.type == KeyType::count && std::holds_alternative<double>(value)) {
+    return "; write it without decimal point and exponent";
+  }
+  if (key.type == KeyType::flag && is_text) return "; write it without quotes";
+  return {};
+}
+
+// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other
+// (optimal string alignment).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replaced});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
 }
 
 std::string remedy(const CaseKey& key) {
@@ -131,7 +160,7 @@ std::string refusal(const CaseKey& key, const std::string& found) {
 }
 
 std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& value) {
-  if (!has_type(key, value)) return refusal(key, typed(value));
+  if (!has_type(key, value)) return refusal(key, typed(value)) + spelling_hint(key, value);
   switch (key.type) {
     case KeyType::number:
       if (const auto* number = std::get_if<double>(&value)) {
@@ -161,20 +190,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   std::string best;
   std::size_t best_distance = std::numeric_limits<std::size_t>::max();
   for (const std::string& candidate : candidates) {
-    // Levenshtein's distance, one row of his table at a time.
-    std::vector<std::size_t> row(candidate.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= name.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const std::size_t replaced = diagonal + (name[i - 1] == candidate[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-      }
-    }
-    if (row.back() < best_distance) {
-      best_distance = row.back();
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
       best = candidate;
     }
   }

@@ -14,10 +14,11 @@ struct CostEstimate {
   double seconds = 0.0;
 };
 
-/// Steps follow from the step or, for adaptive methods, from the highest frequency of the mesh and
-/// a fit to the paper's example; time from right-hand sides timed for some milliseconds. How often
-/// the beam will yield and touch is unknown beforehand, so the true cost may be three times less or
-/// more. Throws InvalidCase.
+/// Steps follow from the fixed step or, for adaptive methods, from the highest frequency of the
+/// mesh, table and tolerance, by a fit to the paper's example. Time follows from right-hand sides
+/// timed on the spot for some milliseconds. How much the beam will yield is unknown beforehand, so
+/// the true cost may be three times less or more. Nothing for a method without such a fit. Throws
+/// InvalidCase.
 std::optional<CostEstimate> estimate_cost(const Case& input);
 
 }  // namespace subimpact
