@@ -21,16 +21,14 @@ class OrderTable {
 
   std::size_t size() const { return rows_.size(); }
 
-  double order(std::size_t row) const {
-    const Row& coarse = rows_[row - 1];
-    const Row& fine = rows_[row];
-    return std::log(coarse.error / fine.error) / std::log(fine.resolution / coarse.resolution);
-  }
+  double order(std::size_t row) const { return order_between(rows_[row - 1], rows_[row]); }
 
   /// Order over all rows at once: from the first to the last.
-  double overall_order() const {
-    return std::log(rows_.front().error / rows_.back().error) /
-           std::log(rows_.back().resolution / rows_.front().resolution);
+  double overall_order() const { return order_between(rows_.front(), rows_.back()); }
+
+  /// Order over the last `n` rows.
+  double finest_order(std::size_t n) const {
+    return order_between(rows_[rows_.size() - n], rows_.back());
   }
 
   void print() const {
@@ -60,10 +58,21 @@ class OrderTable {
     EXPECT_LE(overall_order(), high) << title_;
   }
 
+  /// Expects the order over the last `n` rows to lie in [low, high].
+  void expect_finest_order_within(std::size_t n, double low, double high) const {
+    ASSERT_GE(rows_.size(), n) << title_;
+    EXPECT_GE(finest_order(n), low) << title_;
+    EXPECT_LE(finest_order(n), high) << title_;
+  }
+
  private:
   struct Row {
     double resolution, error;
   };
+  static double order_between(const Row& coarse, const Row& fine) {
+    return std::log(coarse.error / fine.error) / std::log(fine.resolution / coarse.resolution);
+  }
+
   std::string title_;
   std::vector<Row> rows_;
 };

@@ -1,0 +1,94 @@
+// What is particular to the methods of SUNDIALS: vector operations, tables, failures by name.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "integrate/arkode_erk.h"
+#include "test_systems.h"
+
+namespace subimpact {
+namespace {
+
+State run(SpringChain& chain, const std::string& table, VectorOperations operations,
+          std::optional<double> fixed_step, long* steps = nullptr) {
+  ErkOptions options;
+  options.table = table;
+  options.relative_tolerance = 1e-7;
+  options.fixed_step = fixed_step;
+  options.vector_operations = operations;
+  const auto integrator = make_arkode_erk(chain, options);
+  integrator->restart(0.0, chain.initial());
+  while (integrator->time() < 20.0) integrator->step();
+  State end;
+  integrator->state_at(20.0, end);
+  if (steps) *steps = integrator->work().steps;
+  return end;
+}
+
+double largest_difference(const State& a, const State& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+TEST(VectorOperations, OfTheProjectGiveTheNumbersOfTheLibrary) {
+  for (const ExplicitTable& table : explicit_tables()) {
+    for (const std::size_t n : {1u, 2u, 3u, 4u, 7u, 8u, 17u, 60u}) {
+      SpringChain chain(n);
+      const State project = run(chain, table.name, VectorOperations::project, 0.05);
+      const State library = run(chain, table.name, VectorOperations::library, 0.05);
+      EXPECT_LE(largest_difference(project, library), 1e-13) << table.name << ", " << n;
+    }
+  }
+}
+
+TEST(VectorOperations, OfTheProjectChooseTheStepsOfTheLibrary) {
+  for (const ExplicitTable& table : explicit_tables()) {
+    SpringChain chain(13);
+    long project_steps = 0, library_steps = 0;
+    const State project = run(chain, table.name, VectorOperations::project, {}, &project_steps);
+    const State library = run(chain, table.name, VectorOperations::library, {}, &library_steps);
+    EXPECT_EQ(project_steps, library_steps) << table.name;
+    EXPECT_LE(largest_difference(project, library), 1e-9) << table.name;
+  }
+}
+
+TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
+  // s'' = 6 s^2 with s = 1/(1 - t)^2 is at infinity at t = 1.
+  AnyMotion motion(
+      1, [](std::span<const double> q, std::span<double> a) { a[0] = 6.0 * q[0] * q[0]; });
+  for (const ExplicitTable& table : explicit_tables()) {
+    ErkOptions options;
+    options.table = table.name;
+    const auto integrator = make_arkode_erk(motion, options);
+    integrator->restart(0.0, {1.0, 2.0});
+    try {
+      for (int i = 0; i < 200000; ++i) integrator->step();
+      FAIL() << "went through the singularity to t = " << integrator->time();
+    } catch (const IntegrationFailure& failure) {
+      EXPECT_EQ(failure.function, "ERKStepEvolve");
+      EXPECT_TRUE(failure.flag.starts_with("ARK_")) << failure.flag;
+      EXPECT_TRUE(std::string(failure.what()).starts_with("ERKStepEvolve failed with ARK_"));
+      EXPECT_NEAR(failure.time, 1.0, 0.01);
+    }
+  }
+}
+
+TEST(ExplicitTables, AreFoundByNameAndNoOtherNameIs) {
+  SpringChain chain(2);
+  for (const ExplicitTable& table : explicit_tables()) {
+    EXPECT_GT(table.order, table.embedded_order) << table.name;
+    ErkOptions options;
+    options.table = table.name;
+    EXPECT_NO_THROW(make_arkode_erk(chain, options));
+  }
+  ErkOptions unknown;
+  unknown.table = "no-such-table";
+  EXPECT_THROW(make_arkode_erk(chain, unknown), std::invalid_argument);
+  EXPECT_EQ(explicit_tables().front().name, ErkOptions{}.table);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,108 @@
+#include "integrate/central_difference.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "test_systems.h"
+
+namespace subimpact {
+namespace {
+
+TEST(CentralDifference, IsTheThreePointFormulaOfThePaper) {
+  CurvedMotion motion;
+  const double step = 0.01;
+  CentralDifference integrator(motion, step);
+  integrator.restart(0.0, motion.initial());
+  std::vector<State> states{motion.initial()};
+  for (int i = 0; i < 200; ++i) {
+    integrator.step();
+    states.push_back(integrator.state());
+  }
+  std::vector<double> a(3);
+  for (std::size_t k = 1; k + 1 < states.size(); ++k) {
+    motion.acceleration({states[k].data(), 3}, a);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(states[k + 1][i] - 2.0 * states[k][i] + states[k - 1][i], step * step * a[i],
+                  2e-15);
+    }
+  }
+}
+
+double largest_over(SpringChain& chain, double step, int n_steps) {
+  CentralDifference integrator(chain, step);
+  integrator.restart(0.0, chain.initial());
+  double largest = 0.0;
+  for (int i = 0; i < n_steps; ++i) {
+    integrator.step();
+    for (const double value : integrator.state()) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+TEST(CentralDifference, IsStableJustBelowTheCriticalStepAndGrowsJustAbove) {
+  for (const double rate : {1.0, 1e6}) {
+    SpringChain chain(9, rate);
+    const double critical = 2.0 / chain.frequency(9);
+    // Below, the highest mode is overstated by up to 1/sqrt(1 - 0.999^2) = 22, for ever.
+    EXPECT_LT(largest_over(chain, 0.999 * critical, 100000), 30.0 * rate);
+    EXPECT_GT(largest_over(chain, 1.001 * critical, 1000), 1e20 * rate);
+  }
+}
+
+TEST(CentralDifference, GrowsAboveTheCriticalStepAsFastAsTheRootsSay) {
+  SpringChain chain(1);
+  const double step = 1.001 * 2.0 / chain.frequency(1);
+  const double w = step * chain.frequency(1);
+  const double growth = std::acosh(0.5 * w * w - 1.0);  // of a step, logarithmic
+  const double a = largest_over(chain, step, 200);
+  const double b = largest_over(chain, step, 400);
+  EXPECT_NEAR(std::log(b / a) / 200.0, growth, 1e-3 * growth);
+}
+
+TEST(CentralDifference, KeepsTheEnergyBoundedForEver) {
+  SpringChain chain(9);
+  const double step = 0.3 * 2.0 / chain.frequency(9);
+  CentralDifference integrator(chain, step);
+  integrator.restart(0.0, chain.initial());
+  const double energy = chain.energy(chain.initial());
+  double early = 0.0, late = 0.0;
+  const int n = 200000;
+  for (int i = 0; i < n; ++i) {
+    integrator.step();
+    const double off = std::abs(chain.energy(integrator.state()) / energy - 1.0);
+    double& largest = i < n / 10 ? early : late;
+    largest = std::max(largest, off);
+  }
+  EXPECT_GT(early, 1e-4);  // it does vary: the scheme keeps a neighbouring energy
+  EXPECT_LT(early, 0.1);
+  EXPECT_LT(late, 1.2 * early);
+}
+
+TEST(CentralDifference, RunsBackwardsTheWayItCame) {
+  CurvedMotion motion;
+  CentralDifference integrator(motion, 0.05);
+  integrator.restart(0.0, motion.initial());
+  for (int i = 0; i < 100; ++i) integrator.step();
+  State back = integrator.state();
+  for (std::size_t i = 3; i < 6; ++i) back[i] = -back[i];
+  integrator.restart(0.0, back);
+  for (int i = 0; i < 100; ++i) integrator.step();
+  const State start = motion.initial();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(integrator.state()[i], start[i], 1e-12);
+    EXPECT_NEAR(integrator.state()[i + 3], -start[i + 3], 1e-12);
+  }
+}
+
+TEST(CentralDifference, CountsItsTimeWithoutDrift) {
+  SpringChain chain(1);
+  CentralDifference integrator(chain, 1e-7);
+  integrator.restart(0.25, chain.initial());
+  for (int i = 0; i < 100000; ++i) integrator.step();
+  EXPECT_EQ(integrator.time(), 0.25 + 100000 * 1e-7);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,233 @@
+// What every method promises besides its order: steps, states inside them, restarts, work, errors.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "methods.h"
+#include "order_table.h"
+#include "test_systems.h"
+
+namespace subimpact {
+namespace {
+
+double largest_difference(const State& a, const State& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+class EveryMethod : public testing::TestWithParam<ExplicitMethod> {};
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(all_methods()),
+                         [](const auto& info) { return test_name(info.param); });
+
+class EveryAdaptiveMethod : public testing::TestWithParam<ExplicitMethod> {};
+INSTANTIATE_TEST_SUITE_P(Methods, EveryAdaptiveMethod, testing::ValuesIn(adaptive_methods()),
+                         [](const auto& info) { return test_name(info.param); });
+
+TEST_P(EveryMethod, StatesInsideAStepAgreeWithItsEnds) {
+  CurvedMotion motion;
+  const double step = 0.02;
+  const auto integrator = GetParam().with_step(motion, step);
+  integrator->restart(1.0, motion.exact(1.0));
+  State inside;
+  for (int i = 0; i < 20; ++i) {
+    integrator->step();
+    integrator->state_at(integrator->time(), inside);
+    EXPECT_LE(largest_difference(inside, integrator->state()), 1e-14);
+    integrator->state_at(integrator->start_time() + 1e-9 * step, inside);
+    EXPECT_LE(largest_difference(inside, integrator->start_state()), 1e-10);
+  }
+}
+
+TEST_P(EveryMethod, StateAtTheStartOfAStepIsItsStartState) {
+  CurvedMotion motion;
+  const auto integrator = GetParam().with_step(motion, 0.02);
+  integrator->restart(1.0, motion.exact(1.0));
+  for (int i = 0; i < 3; ++i) integrator->step();
+  State at_start;
+  integrator->state_at(integrator->start_time(), at_start);
+  EXPECT_LE(largest_difference(at_start, integrator->start_state()), 1e-15);
+}
+
+TEST_P(EveryMethod, LookingInsideAStepDoesNotDisturbTheNextOne) {
+  CurvedMotion motion;
+  const auto undisturbed = GetParam().with_step(motion, 0.02);
+  const auto looked_into = GetParam().with_step(motion, 0.02);
+  undisturbed->restart(0.0, motion.initial());
+  looked_into->restart(0.0, motion.initial());
+  State inside;
+  for (int i = 0; i < 50; ++i) {
+    undisturbed->step();
+    looked_into->step();
+    for (const double part : {0.9, 0.1, 0.5}) {
+      looked_into->state_at(looked_into->start_time() + part * 0.02, inside);
+    }
+  }
+  EXPECT_EQ(undisturbed->state(), looked_into->state());
+}
+
+TEST_P(EveryMethod, StepsJoinUp) {
+  CurvedMotion motion;
+  const auto integrator = GetParam().with_step(motion, 0.02);
+  integrator->restart(0.5, motion.exact(0.5));
+  EXPECT_EQ(integrator->start_time(), 0.5);
+  EXPECT_EQ(integrator->time(), 0.5);
+  EXPECT_EQ(integrator->state(), motion.exact(0.5));
+  for (int i = 0; i < 10; ++i) {
+    const double time = integrator->time();
+    const State state = integrator->state();
+    integrator->step();
+    EXPECT_EQ(integrator->start_time(), time);
+    EXPECT_EQ(integrator->start_state(), state);
+    EXPECT_NEAR(integrator->time() - time, 0.02, 1e-15);
+  }
+}
+
+TEST_P(EveryMethod, RestartForgetsWhatWasBefore) {
+  CurvedMotion motion;
+  const auto fresh = GetParam().with_step(motion, 0.02);
+  const auto used = GetParam().with_step(motion, 0.02);
+  used->restart(0.0, motion.initial());
+  for (int i = 0; i < 7; ++i) used->step();
+  used->restart(2.0, motion.exact(2.0));
+  fresh->restart(2.0, motion.exact(2.0));
+  for (int i = 0; i < 20; ++i) {
+    used->step();
+    fresh->step();
+  }
+  EXPECT_EQ(used->state(), fresh->state());
+  EXPECT_EQ(used->time(), fresh->time());
+}
+
+TEST_P(EveryMethod, TakesTheAccelerationAnewAfterARestart) {
+  double sign = 1.0;
+  AnyMotion motion(1, [&](std::span<const double>, std::span<double> a) { a[0] = sign; });
+  const auto integrator = GetParam().with_step(motion, 0.5);
+  integrator->restart(0.0, {0.0, 0.0});
+  integrator->step();
+  EXPECT_NEAR(integrator->state()[1], 0.5, 1e-13);
+  sign = -1.0;
+  integrator->restart(0.5, integrator->state());
+  integrator->step();
+  EXPECT_NEAR(integrator->state()[1], 0.0, 1e-13);
+}
+
+TEST_P(EveryMethod, WorksInMicrosecondsAsInYears) {
+  for (const double rate : {1e-7, 1.0, 1e7}) {
+    SpringChain chain(3, rate);
+    const auto integrator = GetParam().with_step(chain, 1e-3 / rate);
+    integrator->restart(0.0, chain.initial());
+    for (int i = 0; i < 1000; ++i) integrator->step();
+    EXPECT_LE(chain.error(1.0 / rate, integrator->state()), 1e-6) << "rate " << rate;
+  }
+}
+
+TEST_P(EveryMethod, CostsTheEvaluationsItsTableClaims) {
+  if (GetParam().evaluations == 0) GTEST_SKIP() << "no claim";
+  CurvedMotion motion;
+  const auto integrator = GetParam().with_step(motion, 0.02);
+  integrator->restart(0.0, motion.initial());
+  for (int i = 0; i < 100; ++i) integrator->step();
+  const WorkCounts work = integrator->work();
+  EXPECT_EQ(work.steps, 100);
+  EXPECT_GE(work.right_hand_sides, 100 * GetParam().evaluations);
+  EXPECT_LE(work.right_hand_sides, 100 * GetParam().evaluations + 2);  // the first one
+}
+
+struct Interrupted {
+  int at_call;
+};
+
+TEST_P(EveryMethod, LetsAnExceptionOfTheAccelerationOutWhole) {
+  int calls = 0;
+  AnyMotion motion(5, [&](std::span<const double> q, std::span<double> a) {
+    if (++calls == 20) throw Interrupted{calls};
+    for (std::size_t i = 0; i < 5; ++i) a[i] = -q[i];
+  });
+  const auto integrator = GetParam().with_step(motion, 0.1);
+  const State start{1.0, 2.0, 3.0, 4.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const auto run = [&] {
+    integrator->restart(0.0, start);
+    for (int i = 0; i < 20; ++i) integrator->step();
+  };
+  try {
+    run();
+    FAIL() << "nothing came out";
+  } catch (const Interrupted& interrupted) {
+    EXPECT_EQ(interrupted.at_call, 20);
+  }
+  // And it can be used again.
+  run();
+  EXPECT_NEAR(integrator->state()[4], 5.0 * std::cos(2.0), 0.02);
+}
+
+// Error at t = 10 of an adaptive run.
+double adaptive_error(const ExplicitMethod& method, KnownMotion& motion, double rtol,
+                      WorkCounts* work = nullptr) {
+  const auto integrator = method.with_tolerance(motion, rtol);
+  integrator->restart(0.0, motion.initial());
+  while (integrator->time() < 10.0) integrator->step();
+  State end;
+  integrator->state_at(10.0, end);
+  if (work) *work = integrator->work();
+  return motion.error(10.0, end);
+}
+
+TEST_P(EveryAdaptiveMethod, ErrorFallsWithTheToleranceAboutAsFast) {
+  CurvedMotion motion;
+  OrderTable table(GetParam().name + ": error over 1/rtol");
+  long steps = 0;
+  for (const double rtol : {1e-3, 1e-5, 1e-7, 1e-9}) {
+    WorkCounts work;
+    const double error = adaptive_error(GetParam(), motion, rtol, &work);
+    table.add(1.0 / rtol, error);
+    EXPECT_LE(error, 300.0 * rtol);
+    EXPECT_GT(work.steps, steps);
+    steps = work.steps;
+  }
+  table.print();
+  table.expect_overall_order_within(0.7, 1.5);
+}
+
+TEST_P(EveryAdaptiveMethod, ChoosesTheSameStepsWhateverTheUnitOfTime) {
+  SpringChain slow(5, 1.0);
+  SpringChain fast(5, 0x1p20);
+  const auto slow_run = GetParam().with_tolerance(slow, 1e-6);
+  const auto fast_run = GetParam().with_tolerance(fast, 1e-6);
+  slow_run->restart(0.0, slow.initial());
+  fast_run->restart(0.0, fast.initial());
+  const auto steps_to = [](Integrator& integrator, double end) {
+    while (integrator.time() < end) integrator.step();
+    return static_cast<double>(integrator.work().steps);
+  };
+  const double a = steps_to(*slow_run, 100.0);
+  const double b = steps_to(*fast_run, 100.0 * 0x1p-20);
+  EXPECT_NEAR(a, b, 0.02 * a + 5.0);
+}
+
+TEST_P(EveryAdaptiveMethod, AnAccelerationThatIsNoLongerANumberEndsInAFailureThatExplainsItself) {
+  int calls = 0;
+  AnyMotion motion(1, [&](std::span<const double> q, std::span<double> a) {
+    a[0] = ++calls > 500 ? std::numeric_limits<double>::quiet_NaN() : -q[0];
+  });
+  const auto integrator = GetParam().with_tolerance(motion, 1e-8);
+  integrator->restart(0.0, {0.0, 1.0});
+  try {
+    for (int i = 0; i < 10000; ++i) integrator->step();
+    FAIL() << "went on to t = " << integrator->time();
+  } catch (const IntegrationFailure& failure) {
+    const std::string message = failure.what();
+    EXPECT_FALSE(failure.function.empty());
+    EXPECT_FALSE(failure.flag.empty());
+    EXPECT_NE(message.find(failure.function), std::string::npos) << message;
+    EXPECT_NE(message.find(failure.flag), std::string::npos) << message;
+    EXPECT_GT(failure.time, 0.0);
+    EXPECT_TRUE(std::isfinite(failure.time));
+  }
+}
+
+}  // namespace
+}  // namespace subimpact
