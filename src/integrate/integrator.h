@@ -13,9 +13,12 @@ struct WorkCounts {
   long rejected_steps = 0;
   long right_hand_sides = 0;  ///< evaluations of the acceleration asked for by the integrator
   long partial_steps = 0;     ///< steps retaken to a time inside the last one
-  long mass_solves = 0;
-  long jacobians = 0;
-  long factorisations = 0;
+  long mass_solves = 0;       ///< beyond those of the accelerations
+  long jacobians = 0;         ///< evaluations of the tangent stiffness
+  long factorisations = 0;    ///< numerical ones, of Newton matrices
+  long pattern_analyses = 0;  ///< symbolic ones: one a matrix
+  long nonlinear_iterations = 0;
+  long nonlinear_failures = 0;  ///< solves that did not converge
 };
 
 /// An integrator that cannot go on. `what()` says all; the parts are kept for reports.

@@ -59,6 +59,16 @@ std::span<const Named<Method>> names_of(Method) {
       {Method::nystrom, "nystrom",
        "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of its "
        "cost"},
+      {Method::dirk, "dirk",
+       "diagonally implicit Runge-Kutta with error control (ARKODE): stable at any step, but damps "
+       "what it does not resolve"},
+      {Method::imex, "imex",
+       "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler systems"},
+      {Method::adams, "adams",
+       "Adams-Moulton of variable order (CVODE): two evaluations a step, begins anew at events"},
+      {Method::bdf, "bdf",
+       "backward differentiation with error control (CVODE): shows what damping takes away from a "
+       "beam that has none"},
   };
   return names;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -150,6 +151,12 @@ CaseKey with_choices(CaseKey key, std::vector<Choice> choices) {
 std::vector<Choice> table_choices() {
   std::vector<Choice> choices;
   for (const MethodTable& table : method_tables()) {
+    const auto same = std::find_if(choices.begin(), choices.end(),
+                                   [&](const Choice& c) { return c.name == table.name; });
+    if (same != choices.end()) {
+      same->note = fmt::format("{}, {}", to_string(table.method), same->note);
+      continue;
+    }
     choices.push_back({table.name, fmt::format("{}: {}", to_string(table.method), table.note)});
   }
   return choices;
@@ -198,7 +205,8 @@ std::vector<CaseKey> make_case_keys() {
     with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),
     row("solver.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(solver.mass_solver)),
     row("solver.events", "", any_value, "treatment of an event inside a step", "central-difference: \"interpolated\"; others: \"located\"", AT(solver.events)),
-    row("solver.reversals", "", any_value, "treatment of flowing sections that turn back", as_in_case, AT(solver.reversals)),
+    row("solver.reversals", "", any_value, "treatment of flowing sections that turn back", "located", AT(solver.reversals)),
+    row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", "adams: 12; bdf: 2", AT(solver.max_order)),
     row("solver.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(solver.vector_operations)),
     row("solver.beyond_critical", "", any_value, "lets a fixed step exceed the stability limit, to see it fail", as_in_case, AT(solver.beyond_critical)),
 

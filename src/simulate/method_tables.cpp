@@ -1,5 +1,6 @@
 #include "subimpact/simulate/method_tables.h"
 
+#include "integrate/arkode_ark.h"
 #include "integrate/arkode_erk.h"
 #include "integrate/nystrom_tables.h"
 
@@ -16,6 +17,14 @@ const std::vector<MethodTable>& method_tables() {
       const int stages = static_cast<int>(table.n_stages());
       list.push_back({Method::nystrom, table.name, table.order, table.embedded_order,
                       table.first_same_as_last() ? stages - 1 : stages, table.note});
+    }
+    for (const ImplicitTable& table : dirk_tables()) {
+      list.push_back(
+          {Method::dirk, table.name, table.order, table.embedded_order, table.stages, table.note});
+    }
+    for (const ImplicitTable& table : imex_tables()) {
+      list.push_back(
+          {Method::imex, table.name, table.order, table.embedded_order, table.stages, table.note});
     }
     return list;
   }();

@@ -7,18 +7,23 @@
 #include <cmath>
 #include <utility>
 
+#include "integrate/arkode_ark.h"
 #include "integrate/arkode_erk.h"
 #include "integrate/central_difference.h"
+#include "integrate/cvode.h"
 #include "integrate/klu_mass_solver.h"
 #include "integrate/nystrom.h"
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
 #include "subimpact/simulate/case_keys.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double default_part_of_critical = 0.9;
+constexpr int default_adams_order = 12;
+constexpr int default_bdf_order = 2;  // the higher ones are unstable on undamped oscillations
 
 bool is_symmetric(const Scene& scene) {
   return scene.striker.position == 0.5 && scene.beam.ends[0] == scene.beam.ends[1];
@@ -26,12 +31,33 @@ bool is_symmetric(const Scene& scene) {
 
 std::vector<std::string> tables_of(Method method) {
   std::vector<std::string> names;
-  if (method == Method::erk) {
-    for (const ExplicitTable& table : explicit_tables()) names.push_back(table.name);
-  } else if (method == Method::nystrom) {
-    for (const NystromTable& table : nystrom_tables()) names.push_back(table.name);
+  for (const MethodTable& table : method_tables()) {
+    if (table.method == method) names.push_back(table.name);
   }
   return names;
+}
+
+bool is_multistep(Method method) { return method == Method::adams || method == Method::bdf; }
+
+std::optional<int> max_order_used(const Case& input) {
+  const std::optional<int>& asked = input.solver.max_order;
+  const Method method = input.solver.method;
+  if (!is_multistep(method)) {
+    if (!asked) return std::nullopt;
+    throw InvalidCase(
+        "solver.max_order",
+        fmt::format("is {}, but {} has no order to choose; leave it out, or use adams "
+                    "or bdf",
+                    *asked, to_string(method)));
+  }
+  const int limit = method == Method::adams ? adams_order_limit : bdf_order_limit;
+  const int order =
+      asked.value_or(method == Method::adams ? default_adams_order : default_bdf_order);
+  if (order < 1 || order > limit) {
+    throw InvalidCase("solver.max_order", fmt::format("is {}; allowed for {}: from 1 to {}", order,
+                                                      to_string(method), limit));
+  }
+  return order;
 }
 
 // The table asked for, or the method's first; nothing for a method without tables.
@@ -112,6 +138,15 @@ Used describe(const Case& input, const StruckBeam& beam) {
   const bool central = input.solver.method == Method::central_difference;
   used.events =
       input.solver.events.value_or(central ? EventHandling::interpolated : EventHandling::located);
+  used.reversals = input.solver.reversals.value_or(ReversalHandling::located);
+  used.max_order = max_order_used(input);
+  if (is_multistep(input.solver.method) && input.solver.step) {
+    throw InvalidCase(
+        "solver.step",
+        fmt::format("is {} s, but {} chooses step and order together and has no fixed step; leave "
+                    "it out (solver.max_step bounds the step), or use another method",
+                    *input.solver.step, to_string(input.solver.method)));
+  }
   if (central) {
     used.step = input.solver.step.value_or(default_part_of_critical * used.critical_step);
     if (*used.step > used.critical_step && !input.solver.beyond_critical) {
@@ -147,14 +182,34 @@ std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used,
     options.max_step = input.solver.max_step;
     return std::make_unique<Nystrom>(beam, options);
   }
+  const VectorOperations vector_operations =
+      input.solver.vector_operations == VectorOperationsKind::library ? VectorOperations::library
+                                                                      : VectorOperations::project;
+  if (is_multistep(input.solver.method)) {
+    CvodeOptions options;
+    options.max_order = *used.max_order;
+    options.relative_tolerance = input.solver.rtol;
+    options.max_step = input.solver.max_step;
+    options.vector_operations = vector_operations;
+    return input.solver.method == Method::adams ? make_cvode_adams(beam, options)
+                                                : make_cvode_bdf(beam, options);
+  }
+  if (input.solver.method == Method::dirk || input.solver.method == Method::imex) {
+    ArkOptions options;
+    options.table = *used.table;
+    options.relative_tolerance = input.solver.rtol;
+    options.fixed_step = input.solver.step;
+    options.max_step = input.solver.max_step;
+    options.vector_operations = vector_operations;
+    return input.solver.method == Method::dirk ? make_arkode_dirk(beam, options)
+                                               : make_arkode_imex(beam, options);
+  }
   ErkOptions options;
   options.table = *used.table;
   options.relative_tolerance = input.solver.rtol;
   options.fixed_step = input.solver.step;
   options.max_step = input.solver.max_step;
-  options.vector_operations = input.solver.vector_operations == VectorOperationsKind::library
-                                  ? VectorOperations::library
-                                  : VectorOperations::project;
+  options.vector_operations = vector_operations;
   return make_arkode_erk(beam, options);
 }
 

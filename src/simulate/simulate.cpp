@@ -20,8 +20,7 @@ constexpr double negligible_overshoot = 0.1;
 constexpr long progress_interval = 512;  // steps
 
 double reversal_tolerance(const Case& input, const Used& used) {
-  if (input.solver.reversals == ReversalHandling::step_end ||
-      used.events == EventHandling::interpolated) {
+  if (used.reversals == ReversalHandling::step_end || used.events == EventHandling::interpolated) {
     return std::numeric_limits<double>::infinity();
   }
   return negligible_overshoot * input.solver.rtol * used.yield_curvature;
@@ -81,10 +80,12 @@ Result simulate(const Case& input, const Progress& progress) {
   result.work.steps = counts.steps;
   result.work.rejected_steps = counts.rejected_steps;
   result.work.partial_steps = counts.partial_steps;
-  result.work.right_hand_sides = beam.n_accelerations();
-  result.work.mass_solves = beam.n_accelerations();
+  result.work.right_hand_sides = beam.n_accelerations() + beam.n_forces();
+  result.work.mass_solves = beam.n_accelerations() + counts.mass_solves;
   result.work.jacobians = counts.jacobians;
   result.work.factorisations = 1 + counts.factorisations;
+  result.work.nonlinear_iterations = counts.nonlinear_iterations;
+  result.work.nonlinear_failures = counts.nonlinear_failures;
   result.work.roots = loop.n_events();
   result.work.wall_seconds = seconds_since(start);
   return result;

@@ -31,7 +31,7 @@ struct ModelOptions {
   SymmetryUse symmetry = SymmetryUse::automatic;
 };
 
-enum class Method { central_difference, erk, nystrom };
+enum class Method { central_difference, erk, nystrom, dirk, imex, adams, bdf };
 
 /// Who solves with the mass matrix.
 enum class MassSolverKind { tridiagonal, klu };
@@ -59,7 +59,8 @@ struct SolverOptions {
   MassSolverKind mass_solver = MassSolverKind::tridiagonal;
   std::optional<EventHandling>
       events;  ///< empty: interpolated for central-difference, else located
-  ReversalHandling reversals = ReversalHandling::located;
+  std::optional<ReversalHandling> reversals;  ///< empty: located, by adams and bdf step_end
+  std::optional<int> max_order;               ///< adams and bdf; empty: default of the method
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
   bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
 };

@@ -13,7 +13,8 @@ struct MethodTable {
   std::string name;
   int order;
   int embedded_order;  ///< of the error estimate
-  int evaluations;     ///< right-hand sides an accepted step costs
+  int evaluations;     ///< right-hand sides an accepted step costs; for an implicit method its
+                       ///< stages, each of which is evaluated two or three times
   std::string note;    ///< what it is for, and its source
 };
 

@@ -60,6 +60,8 @@ struct Used {
   std::optional<double> step;        ///< s, of fixed-step methods
   std::optional<std::string> table;  ///< coefficients, of Runge-Kutta methods
   EventHandling events = EventHandling::located;
+  ReversalHandling reversals = ReversalHandling::located;
+  std::optional<int> max_order;     ///< of multistep methods
   double position_tolerance = 0.0;  ///< m, adaptive methods
   double velocity_tolerance = 0.0;  ///< m/s
   double contact_stiffness = 0.0;   ///< K, N/m^1.5
@@ -77,7 +79,9 @@ struct Work {
   long mass_solves = 0;
   long jacobians = 0;
   long factorisations = 0;
-  long roots = 0;  ///< events located
+  long nonlinear_iterations = 0;  ///< of implicit methods
+  long nonlinear_failures = 0;    ///< their solves that did not converge
+  long roots = 0;                 ///< events located
   double setup_seconds = 0.0;
   double wall_seconds = 0.0;  ///< whole, set-up included
 };

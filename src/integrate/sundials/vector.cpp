@@ -37,10 +37,10 @@ double reduce(std::size_t n, double start, F f, Join join) {
 constexpr auto plus = [](double a, double b) { return a + b; };
 
 // The operations SUNDIALS' integrators spend their time in.
-void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
   fill(z, [=, u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return a * u[i] + b * v[i]; });
 }
-void constant(realtype c, N_Vector z) {
+void constant(sunrealtype c, N_Vector z) {
   fill(z, [=](std::size_t) { return c; });
 }
 void product(N_Vector x, N_Vector y, N_Vector z) {
@@ -49,7 +49,7 @@ void product(N_Vector x, N_Vector y, N_Vector z) {
 void divide(N_Vector x, N_Vector y, N_Vector z) {
   fill(z, [u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return u[i] / v[i]; });
 }
-void scale(realtype c, N_Vector x, N_Vector z) {
+void scale(sunrealtype c, N_Vector x, N_Vector z) {
   if (c == 1.0 && x == z) return;
   fill(z, [=, u = NV_DATA_S(x)](std::size_t i) { return c * u[i]; });
 }
@@ -59,26 +59,26 @@ void absolute(N_Vector x, N_Vector z) {
 void inverse(N_Vector x, N_Vector z) {
   fill(z, [u = NV_DATA_S(x)](std::size_t i) { return 1.0 / u[i]; });
 }
-void add_constant(N_Vector x, realtype b, N_Vector z) {
+void add_constant(N_Vector x, sunrealtype b, N_Vector z) {
   fill(z, [=, u = NV_DATA_S(x)](std::size_t i) { return u[i] + b; });
 }
-realtype max_norm(N_Vector x) {
+sunrealtype max_norm(N_Vector x) {
   return reduce(
       size(x), 0.0, [u = NV_DATA_S(x)](std::size_t i) { return std::abs(u[i]); },
       [](double a, double b) { return std::max(a, b); });
 }
-realtype minimum(N_Vector x) {
+sunrealtype minimum(N_Vector x) {
   const double* u = NV_DATA_S(x);
   return reduce(
       size(x), u[0], [u](std::size_t i) { return u[i]; },
       [](double a, double b) { return std::min(a, b); });
 }
-realtype dot(N_Vector x, N_Vector y) {
+sunrealtype dot(N_Vector x, N_Vector y) {
   return reduce(
       size(x), 0.0, [u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return u[i] * v[i]; },
       plus);
 }
-realtype wrms_norm(N_Vector x, N_Vector w) {
+sunrealtype wrms_norm(N_Vector x, N_Vector w) {
   const double sum = reduce(
       size(x), 0.0,
       [u = NV_DATA_S(x), v = NV_DATA_S(w)](std::size_t i) {
@@ -91,7 +91,7 @@ realtype wrms_norm(N_Vector x, N_Vector w) {
 
 // z = sum of N scaled vectors in one pass.
 template <int N>
-void combine(const realtype* c, N_Vector* x, double* z, sunindextype length) {
+void combine(const sunrealtype* c, N_Vector* x, double* z, sunindextype length) {
   const double* column[N];
   double weight[N];
   for (int k = 0; k < N; ++k) {
@@ -106,7 +106,7 @@ void combine(const realtype* c, N_Vector* x, double* z, sunindextype length) {
   }
 }
 
-void combine_up_to_eight(int n, const realtype* c, N_Vector* x, double* z, sunindextype length) {
+void combine_up_to_eight(int n, const sunrealtype* c, N_Vector* x, double* z, sunindextype length) {
   switch (n) {
     case 1:
       return combine<1>(c, x, z, length);
@@ -127,14 +127,14 @@ void combine_up_to_eight(int n, const realtype* c, N_Vector* x, double* z, sunin
   }
 }
 
-int linear_combination(int n, realtype* c, N_Vector* x, N_Vector z) {
+int linear_combination(int n, sunrealtype* c, N_Vector* x, N_Vector z) {
   constexpr int widest = 8;
   const sunindextype length = NV_LENGTH_S(z);
   double* out = NV_DATA_S(z);
   // Terms with a zero coefficient are left out (high-order tables are full of them). Passes of up
   // to eight terms; further passes carry the sum so far along with weight 1. Only the first vector
   // may alias z, so nothing is lost in between.
-  realtype weights[widest];
+  sunrealtype weights[widest];
   N_Vector vectors[widest];
   int held = 0;
   for (int k = 0; k < n; ++k) {
@@ -159,6 +159,7 @@ ContextPointer make_context() {
   SUNContext context = nullptr;
 #if SUNDIALS_VERSION_MAJOR >= 7
   const int flag = SUNContext_Create(SUN_COMM_NULL, &context);
+  if (flag == 0) SUNContext_ClearErrHandlers(context);  // each solver keeps its messages itself
 #else
   const int flag = SUNContext_Create(nullptr, &context);
 #endif

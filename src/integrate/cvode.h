@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "integrate/arkode_erk.h"
+#include "integrate/integrator.h"
+
+namespace subimpact {
+
+/// The highest orders CVODE knows.
+constexpr int adams_order_limit = 12;
+constexpr int bdf_order_limit = 5;
+
+struct CvodeOptions {
+  int max_order = 0;  ///< 1 to the limit above
+  double relative_tolerance = 1e-8;
+  std::optional<double> max_step;  ///< s
+  VectorOperations vector_operations = VectorOperations::project;
+};
+
+/// SUNDIALS CVODE's multistep methods on y' = [v, a(q)], order and step chosen by error control
+/// with the constant weights of `erk`.
+///
+/// A state inside the last step is that of the method's own polynomial (CVodeGetDky), as accurate
+/// as its order. A multistep method remembers steps, so a restart forgets them all (CVodeReInit):
+/// it begins again at order one with a step of its own estimate, and builds both up anew. There is
+/// no fixed step.
+
+/// Adams-Moulton, orders 1 to 12, corrected by fixed-point iteration; no matrices. Stable for
+/// frequencies omega with omega h up to about 1 at most, less at high orders: for accuracy, not for
+/// long steps.
+std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const CvodeOptions& options);
+
+/// Backward differentiation formulas, orders 1 to 5, corrected by Newton's method. On an undamped
+/// oscillation of frequency omega, order 2 is stable for every step but damps; from order 3 on the
+/// oscillation grows over a range of steps (order 3: omega h up to 1.94; order 5: 0.71 to 9.39),
+/// and a beam's spectrum always has frequencies in it.
+///
+/// CVODE has no mass matrix, so the right-hand side solves with the mass, and Newton's system
+/// (I - gamma J) x = b, J = [0, I; -Mass^-1 K, 0], is solved as
+///
+///     (Mass + gamma^2 K) x2 = Mass b2 - gamma K b1,   x1 = b1 + gamma x2,
+///
+/// which stays sparse: KLU factors it, its pattern analysed once.
+std::unique_ptr<Integrator> make_cvode_bdf(MechanicalSystem& system, const CvodeOptions& options);
+
+}  // namespace subimpact

@@ -1,0 +1,162 @@
+#include "integrate/arkode_ark.h"
+
+#include <arkode/arkode_arkstep.h>
+
+#include <algorithm>
+
+#include "integrate/sundials/block_system.h"
+#include "integrate/sundials/butcher_tables.h"
+#include "integrate/sundials/one_step_integrator.h"
+#include "integrate/sundials/solver_frame.h"
+#include "integrate/sundials/vector.h"
+
+namespace subimpact {
+namespace {
+
+using Part = MechanicalSystem::Part;
+
+struct DirkOptions : ArkOptions {};
+struct ImexOptions : ArkOptions {};
+
+class ArkSolver : private SolverFrame {
+ public:
+  ArkSolver(MechanicalSystem& system, const DirkOptions& options, SUNContext context)
+      : ArkSolver(system, options, Part::all, {load_dirk_table(options.table), nullptr}, context) {}
+  ArkSolver(MechanicalSystem& system, const ImexOptions& options, SUNContext context)
+      : ArkSolver(system, options, Part::stiff, load_imex_tables(options.table), context) {}
+
+  void set_fixed_step(double step) {
+    check(ARKStepSetFixedStep(memory_.get(), step), "ARKStepSetFixedStep");
+  }
+
+  void reset(double t, const State& y) {
+    std::copy(y.begin(), y.end(), entries(y_.get()).begin());
+    check(ARKStepReset(memory_.get(), t, y_.get()), "ARKStepReset");
+    time_ = t;
+  }
+
+  /// One step; returns the time reached.
+  double step(State& y) {
+    double reached = time_;
+    check(ARKStepEvolve(memory_.get(), time_ahead(time_), y_.get(), &reached, ARK_ONE_STEP),
+          "ARKStepEvolve");
+    const auto values = entries(y_.get());
+    std::copy(values.begin(), values.end(), y.begin());
+    time_ = reached;
+    return reached;
+  }
+
+  void add_counts(WorkCounts& counts) const {
+    long rejected = 0, mass_solves = 0, iterations = 0, failures = 0;
+    ARKStepGetNumErrTestFails(memory_.get(), &rejected);
+    ARKStepGetNumMassSolves(memory_.get(), &mass_solves);
+    ARKStepGetNonlinSolvStats(memory_.get(), &iterations, &failures);
+    counts.rejected_steps += rejected;
+    counts.mass_solves += mass_solves;
+    counts.nonlinear_iterations += iterations;
+    counts.nonlinear_failures += failures;
+    counts.right_hand_sides += right_hand_sides_;
+    matrices_.add_counts(counts);
+  }
+
+ private:
+  struct FreeMemory {
+    void operator()(void* memory) const { ARKStepFree(&memory); }
+  };
+
+  ArkSolver(MechanicalSystem& system, const ArkOptions& options, Part implicit_part,
+            const ButcherTablePair& tables, SUNContext context)
+      : SolverFrame(system, options.relative_tolerance, context),
+        system_(system),
+        implicit_part_(implicit_part),
+        y_(make_vector(2 * n_positions_, context, options.vector_operations)),
+        matrices_(system, implicit_part, y_.get(), context) {
+    N_VConst(0.0, y_.get());
+    const ARKRhsFn explicit_rate = implicit_part == Part::all ? nullptr : rate_of_rest;
+    memory_.reset(ARKStepCreate(explicit_rate, implicit_rate, 0.0, y_.get(), context));
+    void* memory = memory_.get();
+    if (!memory) throw IntegrationFailure(0.0, "ARKStepCreate", "no memory", "");
+    check(ARKStepSetUserData(memory, user_data()), "ARKStepSetUserData");
+#if SUNDIALS_VERSION_MAJOR < 7
+    check(ARKStepSetErrHandlerFn(memory, keep_message, user_data()), "ARKStepSetErrHandlerFn");
+#endif
+    check(ARKStepWFtolerances(memory, error_weights), "ARKStepWFtolerances");
+    check(ARKStepSetTables(memory, tables.implicit->q, tables.implicit->p, tables.implicit.get(),
+                           tables.explicit_part.get()),
+          "ARKStepSetTables");
+    check(ARKStepSetMassLinearSolver(memory, matrices_.mass_solver(), matrices_.mass_matrix(),
+                                     SUNFALSE),
+          "ARKStepSetMassLinearSolver");
+    check(ARKStepSetMassFn(memory, mass), "ARKStepSetMassFn");
+    check(ARKStepSetLinearSolver(memory, matrices_.newton_solver(), matrices_.newton_matrix()),
+          "ARKStepSetLinearSolver");
+    check(ARKStepSetLinSysFn(memory, newton_matrix), "ARKStepSetLinSysFn");
+    // No dense output is asked for, and Lagrange interpolation costs no evaluation.
+    check(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
+    check(ARKStepSetMaxNumSteps(memory, -1), "ARKStepSetMaxNumSteps");
+    if (options.max_step) {
+      check(ARKStepSetMaxStep(memory, *options.max_step), "ARKStepSetMaxStep");
+    }
+    if (options.fixed_step) set_fixed_step(*options.fixed_step);
+  }
+
+  static int implicit_rate(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
+    auto& self = static_cast<ArkSolver&>(of(frame));
+    const std::size_t n = self.n_positions_;
+    const auto in = entries(y);
+    const auto out = entries(rate);
+    ++self.right_hand_sides_;
+    return self.guarded([&] {
+      std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
+      self.system_.force(in.first(n), self.implicit_part_, out.subspan(n));
+    });
+  }
+
+  static int rate_of_rest(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
+    auto& self = static_cast<ArkSolver&>(of(frame));
+    const std::size_t n = self.n_positions_;
+    const auto out = entries(rate);
+    return self.guarded([&] {
+      std::fill_n(out.begin(), n, 0.0);
+      self.system_.force(entries(y).first(n), Part::rest, out.subspan(n));
+    });
+  }
+
+  static int mass(sunrealtype, SUNMatrix matrix, void* frame, N_Vector, N_Vector, N_Vector) {
+    auto& self = static_cast<ArkSolver&>(of(frame));
+    return self.guarded([&] { self.matrices_.fill_mass(matrix); });
+  }
+
+  static int newton_matrix(sunrealtype, N_Vector y, N_Vector, SUNMatrix, SUNMatrix,
+                           sunbooleantype keep_stiffness, sunbooleantype* updated,
+                           sunrealtype gamma, void* frame, N_Vector, N_Vector, N_Vector) {
+    auto& self = static_cast<ArkSolver&>(of(frame));
+    *updated = keep_stiffness ? SUNFALSE : SUNTRUE;
+    return self.guarded([&] {
+      if (!keep_stiffness) self.matrices_.update_stiffness(entries(y).first(self.n_positions_));
+      self.matrices_.assemble(gamma);
+    });
+  }
+
+  void check(int flag, const char* function) {
+    SolverFrame::check(flag, function, ARKStepGetReturnFlagName);
+  }
+
+  MechanicalSystem& system_;
+  Part implicit_part_;
+  VectorPointer y_;
+  BlockSystem matrices_;
+  std::unique_ptr<void, FreeMemory> memory_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system, const ArkOptions& options) {
+  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, DirkOptions{options});
+}
+
+std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system, const ArkOptions& options) {
+  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, ImexOptions{options});
+}
+
+}  // namespace subimpact

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <utility>
+
+#include "integrate/integrator.h"
+#include "integrate/sundials/vector.h"
+
+namespace subimpact {
+
+/// An integrator out of two solvers of one one-step method: one goes forward, the other retakes
+/// part of the last step, from its start, with a single step of the length asked for. A state
+/// inside a step so has the method's own order.
+///
+/// Solver(arguments..., context) is made twice, the second time with `as_partial` options; it
+/// offers reset(t, y), step(y) -> time reached, set_fixed_step(h), time() and
+/// add_counts(WorkCounts&).
+template <class Solver>
+class OneStepIntegrator final : public Integrator {
+ public:
+  template <class Ode, class Options>
+  OneStepIntegrator(Ode& ode, const Options& options)
+      : context_(make_context()),
+        main_(ode, options, context_.get()),
+        partial_(ode, as_partial(options), context_.get()) {}
+
+  void restart(double t, const State& y) override {
+    main_.reset(t, y);
+    t0_ = t1_ = t;
+    y0_ = y;
+    y1_ = y;
+  }
+
+  void step() override {
+    std::swap(y0_, y1_);
+    t0_ = t1_;
+    t1_ = main_.step(y1_);
+    ++steps_;
+  }
+
+  void state_at(double t, State& y) override {
+    if (t == t0_) {  // to the library a fixed step of zero means an adaptive one
+      y = y0_;
+      return;
+    }
+    y.resize(y0_.size());
+    partial_.set_fixed_step(t - t0_);
+    partial_.reset(t0_, y0_);
+    partial_.step(y);
+    ++partial_steps_;
+  }
+
+  WorkCounts work() const override {
+    WorkCounts counts;
+    main_.add_counts(counts);
+    partial_.add_counts(counts);
+    counts.steps = steps_;
+    counts.partial_steps = partial_steps_;
+    return counts;
+  }
+
+ private:
+  template <class Options>
+  static Options as_partial(Options options) {
+    options.fixed_step = options.fixed_step.value_or(1.0);  // set anew before every use
+    options.max_step.reset();
+    return options;
+  }
+
+  ContextPointer context_;
+  Solver main_;
+  Solver partial_;
+  long steps_ = 0;
+  long partial_steps_ = 0;
+};
+
+}  // namespace subimpact

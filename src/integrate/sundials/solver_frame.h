@@ -1,0 +1,71 @@
+#pragma once
+
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_nvector.h>
+#include <sundials/sundials_version.h>
+
+#include <cstddef>
+#include <exception>
+#include <string>
+
+#include "integrate/integrator.h"
+
+namespace subimpact {
+
+/// What the C callbacks of every SUNDIALS solver here need; each solver's user data is its frame.
+///
+/// No exception crosses a C frame: what a callback throws is kept, the library told to stop, and it
+/// is thrown again, whole, after the call. The library's own messages are kept for the failure that
+/// follows them.
+class SolverFrame {
+ public:
+  SolverFrame(SecondOrderOde& ode, double relative_tolerance, SUNContext context);
+  SolverFrame(const SolverFrame&) = delete;
+  SolverFrame& operator=(const SolverFrame&) = delete;
+
+  /// Error weights 1/(rtol * scale) of positions and velocities: asked for at every step, but
+  /// constant.
+  static int error_weights(N_Vector y, N_Vector weights, void* frame);
+
+#if SUNDIALS_VERSION_MAJOR < 7
+  static void keep_message(int code, const char* module, const char* function, char* message,
+                           void* frame);
+#endif
+
+  long right_hand_sides() const { return right_hand_sides_; }
+
+ protected:
+  ~SolverFrame() = default;
+
+  static SolverFrame& of(void* user_data) { return *static_cast<SolverFrame*>(user_data); }
+  void* user_data() { return this; }
+
+  /// Runs a callback's body: 0, or -1 if it threw.
+  template <class Body>
+  int guarded(Body body) noexcept {
+    try {
+      body();
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return -1;
+    }
+    return 0;
+  }
+  /// Throws what a callback threw; otherwise IntegrationFailure if `flag` reports one. `flag_name`
+  /// is the library's.
+  void check(int flag, const char* function, char* (*flag_name)(long int));
+
+  std::size_t n_positions_;
+  double time_ = 0.0;  // s, up to which the solution is good
+  long right_hand_sides_ = 0;
+
+ private:
+  double position_weight_, velocity_weight_;
+  std::exception_ptr thrown_;
+  std::string message_;
+};
+
+/// An output time for one-step modes, where it only says which way time runs.
+double time_ahead(double t);
+
+}  // namespace subimpact
