@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/banded_matrix.h"
+#include "model/lanes.h"
 #include "model/natural_modes.h"
 #include "subimpact/model/scene.h"
 
@@ -18,8 +19,10 @@ struct SparseFunctional {
     double coefficient;
   };
   std::vector<Term> terms;
+  std::vector<double> dense;  ///< the same, one coefficient an unknown, where the terms are many
 
   double operator()(std::span<const double> unknowns) const {
+    if (!dense.empty()) return dot(dense.data(), unknowns.data(), dense.size());
     double sum = 0.0;
     for (const Term& term : terms) sum += term.coefficient * unknowns[term.unknown];
     return sum;

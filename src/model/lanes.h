@@ -15,6 +15,22 @@ using LaneMask = decltype(Lanes{} < Lanes{});
 inline const Lanes& lanes_at(const double* at) { return *reinterpret_cast<const Lanes*>(at); }
 inline void store(const Lanes& values, double* at) { *reinterpret_cast<Lanes*>(at) = values; }
 
+inline double sum(const Lanes& values) {
+  double total = 0.0;
+  for (std::size_t i = 0; i < n_lanes; ++i) total += values[i];
+  return total;
+}
+
+/// a . b
+inline double dot(const double* a, const double* b, std::size_t n) {
+  Lanes running{};
+  std::size_t i = 0;
+  for (; i + n_lanes <= n; i += n_lanes) running += lanes_at(a + i) * lanes_at(b + i);
+  double total = sum(running);
+  for (; i < n; ++i) total += a[i] * b[i];
+  return total;
+}
+
 inline bool any(const LaneMask& mask) {
   // As bytes: two halves are joined until one word is left.
   using Half = long long __attribute__((vector_size(n_lanes * sizeof(double) / 2)));

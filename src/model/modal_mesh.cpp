@@ -28,6 +28,8 @@ ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffnes
     mass_.at(k, k) = 1.0;
     struck_point_.terms.push_back({k, physical_->struck_point()(modes_.shape(k))});
     first_end_.terms.push_back({k, physical_->first_end()(modes_.shape(k))});
+    struck_point_.dense.push_back(struck_point_.terms.back().coefficient);
+    first_end_.dense.push_back(first_end_.terms.back().coefficient);
   }
   const auto weights = physical_->section_weights();
   const auto positions = physical_->section_positions();

@@ -27,7 +27,6 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       striker_velocity_(scene.striker.velocity),
       stress_reach_(0.5 * scene.beam.youngs_modulus * scene.beam.thickness),
       momentum_functional_(n_),
-      jacobian_(*mesh_, striker_mass_),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
       trial_(n_ + 1) {
@@ -106,7 +105,7 @@ void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
   }
   const double slope =
       part == Part::stiff ? 0.0 : force_slope(positions[n_] - mesh_->struck_point()(unknowns));
-  jacobian_.stiffness_entries(moments_, slope, values);
+  jacobian().stiffness_entries(moments_, slope, values);
 }
 
 double StruckBeam::indentation(const State& y) const {
@@ -347,6 +346,11 @@ double StruckBeam::momentum(const State& y) const {
   const auto velocities = beam_velocities(y);
   for (std::size_t i = 0; i < n_; ++i) sum += momentum_functional_[i] * velocities[i];
   return sum;
+}
+
+BeamJacobian& StruckBeam::jacobian() const {
+  if (!jacobian_) jacobian_ = std::make_unique<BeamJacobian>(*mesh_, striker_mass_);
+  return *jacobian_;
 }
 
 double StruckBeam::beam_mass() const {

@@ -79,8 +79,8 @@ class StruckBeam final : public MechanicalSystem {
 
   /// Stiff part: the bending forces; the rest: the contact force.
   void force(std::span<const double> positions, Part part, std::span<double> result) override;
-  const SparsityPattern& pattern() const override { return jacobian_.pattern(); }
-  void mass_entries(std::span<double> values) const override { jacobian_.mass_entries(values); }
+  const SparsityPattern& pattern() const override { return jacobian().pattern(); }
+  void mass_entries(std::span<double> values) const override { jacobian().mass_entries(values); }
   void stiffness_entries(std::span<const double> positions, Part part,
                          std::span<double> values) override;
 
@@ -168,7 +168,8 @@ class StruckBeam final : public MechanicalSystem {
   ContactBranch contact_branch_ = ContactBranch::separated;
   ContactHistory contact_history_;
 
-  BeamJacobian jacobian_;
+  BeamJacobian& jacobian() const;
+  mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first asks
   long n_accelerations_ = 0;
   long n_forces_ = 0;
   std::vector<double> curvatures_, moments_;  // of the last evaluation

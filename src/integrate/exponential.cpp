@@ -1,0 +1,226 @@
+#include "integrate/exponential.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "events/hermite.h"
+#include "model/lanes.h"
+
+namespace subimpact {
+namespace {
+
+constexpr int deepest_level = 48;
+constexpr int most_iterations = 30;
+// Newton's method ends when forces change by less than this part of the largest.
+constexpr double solved = 1e-13;
+// A doubt about lambda below this part of the displacement scale does not matter.
+constexpr double negligible_doubt = 1e-13;
+// The estimate falls by about 2^5 when a step is halved; a longer one is tried below this part.
+constexpr double room_to_grow = 1.0 / 64.0;
+
+// Gaussian elimination with row pivoting, in place; the solution replaces b.
+void solve_linear(std::array<NodeForces, n_force_nodes>& a, NodeForces& b) {
+  constexpr std::size_t n = n_force_nodes;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
+    }
+    std::swap(a[k], a[pivot]);
+    std::swap(b[k], b[pivot]);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < n; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+}
+
+}  // namespace
+
+Exponential::Exponential(ForcedOscillators& oscillators, const ExponentialOptions& options)
+    : oscillators_(oscillators),
+      options_(options),
+      n_(oscillators.size()),
+      scales_(oscillators.scales()),
+      unit_(scales_.position / scales_.velocity) {
+  if (options_.fixed_step) {
+    unit_ = *options_.fixed_step;
+  } else if (options_.max_step) {
+    while (unit_ / std::exp2(first_level_) > *options_.max_step) ++first_level_;
+  }
+  level_ = options_.fixed_step ? 0 : std::max(first_level_, 4);
+}
+
+const OscillatorStep& Exponential::table(int level) {
+  auto& entry = tables_[level];
+  if (!entry) {
+    entry = std::make_unique<OscillatorStep>(oscillators_, std::ldexp(unit_, -level));
+    ++work_.factorisations;
+  }
+  return *entry;
+}
+
+double Exponential::displacement(const double* values) const {
+  return dot(oscillators_.displacements().data(), values, n_);
+}
+
+void Exponential::restart(double t, const State& y) {
+  t0_ = t1_ = t;
+  y0_ = y;
+  y1_ = y;
+  lambda1_ = displacement(y1_.data());
+  rate1_ = displacement(y1_.data() + n_);
+  bound_ = -1.0;
+}
+
+void Exponential::step() {
+  std::swap(y0_, y1_);
+  y1_.resize(y0_.size());
+  t0_ = t1_;
+  if (oscillators_.is_free()) {
+    free_step();
+  } else {
+    bound_ = -1.0;
+    forced_step();
+  }
+  ++work_.steps;
+}
+
+double Exponential::fourth_derivative_bound() const {
+  const auto omega = oscillators_.frequencies();
+  const auto c = oscillators_.displacements();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double w = omega[i];
+    const double amplitude_w = std::hypot(w * y0_[i], y0_[n_ + i]);  // A omega
+    sum += std::abs(c[i]) * amplitude_w * w * w * w;
+  }
+  return sum;
+}
+
+bool Exponential::is_decided(const Ends& ends, double h, double doubt) const {
+  if (doubt <= negligible_doubt * scales_.position) return true;
+  // The cubic's distance from the critical displacement, at its ends and at an extremum between
+  // them.
+  const double critical = oscillators_.critical_displacement();
+  const double sign = oscillators_.is_free() ? 1.0 : -1.0;  // the side on which an event lies
+  const HermiteCubic path(sign * (ends.lambda0 - critical), sign * ends.rate0,
+                          sign * (ends.lambda1 - critical), sign * ends.rate1, h);
+  double nearest = path(1.0);
+  if (sign * ends.rate0 > 0.0 && sign * ends.rate1 < 0.0) {
+    nearest = std::max(nearest, path(path.peak()));
+  }
+  return nearest < -doubt;
+}
+
+void Exponential::free_step() {
+  if (bound_ < 0.0) bound_ = fourth_derivative_bound();
+  const double lambda0 = lambda1_;
+  const double rate0 = rate1_;
+  if (!options_.fixed_step) level_ = std::max(level_ - 1, first_level_);
+  force_ = ForcePolynomial();
+  for (;; ++level_) {
+    const OscillatorStep& trial = table(level_);
+    const double h = trial.length();
+    const double doubt = h * h * h * h / 384.0 * bound_;
+    trial.advance_freely(y0_, y1_);
+    lambda1_ = displacement(y1_.data());
+    rate1_ = displacement(y1_.data() + n_);
+    t1_ = t0_ + h;
+    force_length_ = h;
+    if (options_.fixed_step || level_ >= deepest_level ||
+        is_decided({lambda0, rate0, lambda1_, rate1_}, h, doubt)) {
+      return;
+    }
+    ++work_.rejected_steps;
+  }
+}
+
+bool Exponential::solve(const OscillatorStep& step, const NodeForces& free, NodeForces& forces,
+                        NodeForces& lambda) const {
+  constexpr std::size_t n = n_force_nodes;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    std::array<NodeForces, n> jacobian;
+    NodeForces change;
+    for (std::size_t i = 0; i < n; ++i) {
+      lambda[i] = free[i];
+      for (std::size_t j = 0; j < n; ++j) lambda[i] += step.compliance(i, j) * forces[j];
+      const ForcedOscillators::Force at = oscillators_.force(lambda[i]);
+      change[i] = at.value - forces[i];
+      for (std::size_t j = 0; j < n; ++j) jacobian[i][j] = -at.slope * step.compliance(i, j);
+      jacobian[i][i] += 1.0;
+    }
+    solve_linear(jacobian, change);
+    double size = 0.0;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      forces[i] += change[i];
+      size = std::max(size, std::abs(forces[i]));
+      largest = std::max(largest, std::abs(change[i]));
+    }
+    if (!std::isfinite(largest)) return false;
+    if (largest <= solved * size || largest == 0.0) return true;
+  }
+  return false;
+}
+
+void Exponential::forced_step() {
+  const double lambda0 = lambda1_;
+  const double rate0 = rate1_;
+  const ForcedOscillators::Force start = oscillators_.force(lambda0);
+  const double tolerance = options_.relative_tolerance * scales_.position;
+  for (;; ++level_) {
+    if (level_ > deepest_level) {
+      throw IntegrationFailure(t0_, "exponential", "step size too small",
+                               "the force does not become smooth on any scale");
+    }
+    const OscillatorStep& trial = table(level_);
+    const double h = trial.length();
+    const NodeForces free = trial.free_displacements(y0_);
+    NodeForces forces;
+    for (std::size_t i = 0; i < n_force_nodes; ++i) {
+      forces[i] = start.value + start.slope * rate0 * gauss_points()[i] * h;
+    }
+    NodeForces lambda;
+    if (solve(trial, free, forces, lambda)) {
+      work_.right_hand_sides += n_force_nodes;
+      trial.advance(y0_, forces, y1_);
+      lambda1_ = displacement(y1_.data());
+      rate1_ = displacement(y1_.data() + n_);
+      t1_ = t0_ + h;
+      force_ = ForcePolynomial(forces);
+      force_length_ = h;
+      if (options_.fixed_step) return;
+      const double defect = std::max(std::abs(force_(0.0) - start.value),
+                                     std::abs(force_(1.0) - oscillators_.force(lambda1_).value));
+      const double error = defect * trial.reach();
+      double doubt = 0.0;
+      const HermiteCubic path(lambda0, rate0, lambda1_, rate1_, h);
+      for (std::size_t i = 0; i < n_force_nodes; ++i) {
+        doubt = std::max(doubt, std::abs(path(gauss_points()[i]) - lambda[i]));
+      }
+      if (error <= tolerance && is_decided({lambda0, rate0, lambda1_, rate1_}, h, 2.0 * doubt)) {
+        if (error <= room_to_grow * tolerance) level_ = std::max(level_ - 1, first_level_);
+        return;
+      }
+    } else if (options_.fixed_step) {
+      throw IntegrationFailure(t0_, "exponential", "no convergence",
+                               "the collocation equations have no solution at this solver.step");
+    }
+    ++work_.rejected_steps;
+  }
+}
+
+void Exponential::state_at(double t, State& y) {
+  y.resize(2 * n_);
+  flow(oscillators_, y0_, force_, force_length_, t - t0_, y);
+  ++work_.partial_steps;
+}
+
+}  // namespace subimpact

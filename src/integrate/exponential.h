@@ -1,0 +1,73 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "integrate/integrator.h"
+#include "integrate/oscillator_step.h"
+
+namespace subimpact {
+
+struct ExponentialOptions {
+  double relative_tolerance = 1e-8;
+  std::optional<double> fixed_step;  ///< s; adaptive if empty
+  std::optional<double> max_step;    ///< s
+};
+
+/// The exponential method: oscillators driven by one scalar force, integrated exactly but for that
+/// force, which is a cubic over each step, collocated at its four Gauss points.
+///
+/// A step costs four scalar equations (Newton) and a few passes over the oscillators; no frequency
+/// limits its length, only the smoothness of the force. Free motion is exact. The error estimate is
+/// the defect: by how much the cubic misses the force at the step's two ends, times what such a
+/// force does to lambda over the step; it is held below rtol times the displacement scale. Steps
+/// come from a ladder of lengths that halve, each with tables made when first used.
+///
+/// Whoever looks for events in a step sees its ends only, and a cubic in lambda through them. So a
+/// step is also halved until that cubic cannot mistake the side of the critical displacement on
+/// which lambda lies: in contact by comparing it with lambda at the Gauss points; in free motion by
+/// a bound. There |lambda''''| <= sum |c_i| A_i omega_i^4 with the amplitudes A_i, which free
+/// motion keeps, so the cubic is off by at most h^4/384 times that.
+///
+/// state_at gives the flow under the step's force: exact but for the cubic.
+class Exponential final : public Integrator {
+ public:
+  Exponential(ForcedOscillators& oscillators, const ExponentialOptions& options);
+
+  void restart(double t, const State& y) override;
+  void step() override;
+  void state_at(double t, State& y) override;
+  WorkCounts work() const override { return work_; }
+
+ private:
+  struct Ends {
+    double lambda0, rate0, lambda1, rate1;
+  };
+  const OscillatorStep& table(int level);
+  double displacement(const double* values) const;  // sum c_i values_i
+  void free_step();
+  void forced_step();
+  // Solves the collocation equations; false if Newton's method does not converge.
+  bool solve(const OscillatorStep& step, const NodeForces& free, NodeForces& forces,
+             NodeForces& lambda) const;
+  double fourth_derivative_bound() const;
+  bool is_decided(const Ends& ends, double h, double doubt) const;
+
+  ForcedOscillators& oscillators_;
+  ExponentialOptions options_;
+  std::size_t n_;
+  SecondOrderOde::Scales scales_;
+  double unit_;  // length of level 0, s
+  std::map<int, std::unique_ptr<OscillatorStep>> tables_;
+  int level_ = 0;  // of the next step; step length unit / 2^level
+  int first_level_ = 0;
+  bool was_free_ = false;
+  double bound_ = -1.0;  // of |lambda''''| in the present free motion; negative: not known yet
+  ForcePolynomial force_;
+  double force_length_ = 0.0;
+  double lambda1_ = 0.0, rate1_ = 0.0;  // at time()
+  WorkCounts work_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,203 @@
+#include "integrate/oscillator_step.h"
+
+#include <cmath>
+
+#include "integrate/stumpff.h"
+#include "model/lanes.h"
+
+namespace subimpact {
+namespace {
+
+constexpr std::size_t s = n_force_nodes;
+
+// basis[j][m]: coefficient of s^m/m! in the Lagrange polynomial of Gauss point j.
+using Basis = std::array<std::array<double, s>, s>;
+
+Basis make_basis() {
+  const auto& x = gauss_points();
+  Basis basis{};
+  for (std::size_t j = 0; j < s; ++j) {
+    std::array<double, s> product{1.0};
+    std::size_t degree = 0;
+    for (std::size_t k = 0; k < s; ++k) {
+      if (k == j) continue;
+      const double scale = 1.0 / (x[j] - x[k]);
+      std::array<double, s> next{};
+      for (std::size_t m = 0; m <= degree; ++m) {
+        next[m + 1] += scale * product[m];
+        next[m] -= scale * x[k] * product[m];
+      }
+      product = next;
+      ++degree;
+    }
+    double factorial = 1.0;
+    for (std::size_t m = 0; m < s; ++m) {
+      if (m > 0) factorial *= static_cast<double>(m);
+      basis[j][m] = factorial * product[m];
+    }
+  }
+  return basis;
+}
+
+const Basis& basis() {
+  static const Basis values = make_basis();
+  return values;
+}
+
+// Response at time theta h of an oscillator, y = omega h theta, to the unit force at Gauss point j:
+// position in units of h^2, velocity in units of h.
+struct UnitResponse {
+  std::array<double, s> position, velocity;
+};
+
+UnitResponse unit_response(double theta, const std::array<double, 6>& c) {
+  UnitResponse response{};
+  for (std::size_t j = 0; j < s; ++j) {
+    double power = theta;
+    for (std::size_t m = 0; m < s; ++m) {
+      response.velocity[j] += basis()[j][m] * power * c[m + 1];
+      power *= theta;
+      response.position[j] += basis()[j][m] * power * c[m + 2];
+    }
+  }
+  return response;
+}
+
+}  // namespace
+
+const std::array<double, s>& gauss_points() {
+  static const std::array<double, s> points = [] {
+    const double outer = std::sqrt(3.0 / 7.0 + 2.0 / 7.0 * std::sqrt(1.2));
+    const double inner = std::sqrt(3.0 / 7.0 - 2.0 / 7.0 * std::sqrt(1.2));
+    return std::array<double, s>{0.5 - 0.5 * outer, 0.5 - 0.5 * inner, 0.5 + 0.5 * inner,
+                                 0.5 + 0.5 * outer};
+  }();
+  return points;
+}
+
+ForcePolynomial::ForcePolynomial(const NodeForces& values) {
+  for (std::size_t j = 0; j < s; ++j) {
+    for (std::size_t m = 0; m < s; ++m) coefficients_[m] += values[j] * basis()[j][m];
+  }
+}
+
+double ForcePolynomial::operator()(double x) const {
+  return coefficients_[0] +
+         x * (coefficients_[1] + x * (coefficients_[2] / 2.0 + x * coefficients_[3] / 6.0));
+}
+
+OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double length)
+    : n_(oscillators.size()), length_(length) {
+  const auto omega = oscillators.frequencies();
+  const auto load = oscillators.loads();
+  const auto displacement = oscillators.displacements();
+  const double h = length;
+  for (Column* column : {&cosine_, &sine_over_omega_, &minus_omega_sine_}) column->resize(n_);
+  for (std::size_t j = 0; j < s; ++j) {
+    for (auto* columns : {&free_position_, &free_velocity_, &position_, &velocity_}) {
+      (*columns)[j].resize(n_);
+    }
+  }
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double x = omega[k] * h;
+    const auto at_end = stumpff(x);
+    cosine_[k] = at_end[0];
+    sine_over_omega_[k] = h * at_end[1];
+    minus_omega_sine_[k] = -omega[k] * x * at_end[1];
+    const UnitResponse end = unit_response(1.0, at_end);
+    for (std::size_t j = 0; j < s; ++j) {
+      position_[j][k] = load[k] * h * h * end.position[j];
+      velocity_[j][k] = load[k] * h * end.velocity[j];
+    }
+    reach_ += displacement[k] * load[k] * h * h * at_end[2];
+    for (std::size_t i = 0; i < s; ++i) {
+      const double theta = gauss_points()[i];
+      const auto at_node = stumpff(x * theta);
+      free_position_[i][k] = displacement[k] * at_node[0];
+      free_velocity_[i][k] = displacement[k] * theta * h * at_node[1];
+      const UnitResponse node = unit_response(theta, at_node);
+      for (std::size_t j = 0; j < s; ++j) {
+        compliance_[i][j] += displacement[k] * load[k] * h * h * node.position[j];
+      }
+    }
+  }
+  reach_ = std::abs(reach_);
+}
+
+NodeForces OscillatorStep::free_displacements(std::span<const double> y) const {
+  NodeForces result;
+  for (std::size_t i = 0; i < s; ++i) {
+    result[i] = dot(free_position_[i].data(), y.data(), n_) +
+                dot(free_velocity_[i].data(), y.data() + n_, n_);
+  }
+  return result;
+}
+
+void OscillatorStep::advance_freely(std::span<const double> y, std::span<double> end) const {
+  const double* q = y.data();
+  const double* v = q + n_;
+  double* q1 = end.data();
+  double* v1 = q1 + n_;
+  const double* c = cosine_.data();
+  const double* so = sine_over_omega_.data();
+  const double* os = minus_omega_sine_.data();
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < n_; ++k) {
+    q1[k] = c[k] * q[k] + so[k] * v[k];
+    v1[k] = os[k] * q[k] + c[k] * v[k];
+  }
+}
+
+void OscillatorStep::advance(std::span<const double> y, const NodeForces& forces,
+                             std::span<double> end) const {
+  const double* q = y.data();
+  const double* v = q + n_;
+  double* q1 = end.data();
+  double* v1 = q1 + n_;
+  const double* c = cosine_.data();
+  const double* so = sine_over_omega_.data();
+  const double* os = minus_omega_sine_.data();
+  const double* p0 = position_[0].data();
+  const double* p1 = position_[1].data();
+  const double* p2 = position_[2].data();
+  const double* p3 = position_[3].data();
+  const double* r0 = velocity_[0].data();
+  const double* r1 = velocity_[1].data();
+  const double* r2 = velocity_[2].data();
+  const double* r3 = velocity_[3].data();
+  const NodeForces f = forces;
+  static_assert(s == 4);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < n_; ++k) {
+    q1[k] =
+        c[k] * q[k] + so[k] * v[k] + (f[0] * p0[k] + f[1] * p1[k] + f[2] * p2[k] + f[3] * p3[k]);
+    v1[k] =
+        os[k] * q[k] + c[k] * v[k] + (f[0] * r0[k] + f[1] * r1[k] + f[2] * r2[k] + f[3] * r3[k]);
+  }
+}
+
+void flow(const ForcedOscillators& oscillators, std::span<const double> y,
+          const ForcePolynomial& force, double h, double t, std::span<double> result) {
+  const std::size_t n = oscillators.size();
+  const auto omega = oscillators.frequencies();
+  const auto load = oscillators.loads();
+  const auto a = force.coefficients();
+  const double theta = t / h;
+  // The force's coefficients, of t^m/m!, times the powers of t that go with them.
+  const double f0 = a[0] * t;
+  const double f1 = a[1] * theta * t;
+  const double f2 = a[2] * theta * theta * t;
+  const double f3 = a[3] * theta * theta * theta * t;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double x = omega[k] * t;
+    const auto c = stumpff(x);
+    const double position = t * (f0 * c[2] + f1 * c[3] + f2 * c[4] + f3 * c[5]);
+    const double velocity = f0 * c[1] + f1 * c[2] + f2 * c[3] + f3 * c[4];
+    const double q = y[k];
+    const double v = y[n + k];
+    result[k] = c[0] * q + t * c[1] * v + load[k] * position;
+    result[n + k] = -omega[k] * x * c[1] * q + c[0] * v + load[k] * velocity;
+  }
+}
+
+}  // namespace subimpact

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "system/forced_oscillators.h"
+
+namespace subimpact {
+
+/// Number of collocation points of the force in a step: the Gauss points.
+constexpr std::size_t n_force_nodes = 4;
+using NodeForces = std::array<double, n_force_nodes>;
+
+/// Gauss points in (0, 1), ascending.
+const std::array<double, n_force_nodes>& gauss_points();
+
+/// The cubic through values at the Gauss points, by its coefficients of s^m/m!, s in [0, 1].
+class ForcePolynomial {
+ public:
+  ForcePolynomial() = default;
+  explicit ForcePolynomial(const NodeForces& values);
+  double operator()(double s) const;
+  std::span<const double> coefficients() const { return coefficients_; }
+
+ private:
+  std::array<double, n_force_nodes> coefficients_{};
+};
+
+/// Tables of a step of one length h of forced oscillators (ForcedOscillators): all that can be
+/// computed before the state is known. With the force a cubic through F_j at the Gauss points s_i
+/// h,
+///
+///     lambda(s_i h) = free_i . [q, q'] + sum_j G_ij F_j,
+///     q(h)  = q cos(omega h) + q' sin(omega h)/omega + sum_j P_j F_j,
+///     q'(h) = -q omega sin(omega h) + q' cos(omega h) + sum_j V_j F_j
+///
+/// in closed form for every omega h (variation of constants, Stumpff's functions).
+class OscillatorStep {
+ public:
+  OscillatorStep(const ForcedOscillators& oscillators, double length);
+
+  double length() const { return length_; }
+  /// lambda at the Gauss points of the free motion from y = [q, q'].
+  NodeForces free_displacements(std::span<const double> y) const;
+  /// G_ij, m/N.
+  double compliance(std::size_t i, std::size_t j) const { return compliance_[i][j]; }
+  /// What a constant unit force does to lambda over the whole step, m/N (its size).
+  double reach() const { return reach_; }
+  /// The step's end under the forces, or in free motion.
+  void advance(std::span<const double> y, const NodeForces& forces, std::span<double> end) const;
+  void advance_freely(std::span<const double> y, std::span<double> end) const;
+
+ private:
+  std::size_t n_;
+  double length_;
+  double reach_ = 0.0;
+  std::array<std::array<double, n_force_nodes>, n_force_nodes> compliance_{};
+  using Column = std::vector<double>;
+  std::array<Column, n_force_nodes> free_position_, free_velocity_;  // lambda at the Gauss points
+  Column cosine_, sine_over_omega_, minus_omega_sine_;
+  std::array<Column, n_force_nodes> position_, velocity_;  // P_j, V_j
+};
+
+/// The state a time t after y, t within a step of length h over which the force is the polynomial.
+void flow(const ForcedOscillators& oscillators, std::span<const double> y,
+          const ForcePolynomial& force, double h, double t, std::span<double> result);
+
+}  // namespace subimpact

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "model/modal_mesh.h"
+#include "system/forced_oscillators.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// A struck beam on a modal mesh, seen as oscillators driven by the contact force; the striker is
+/// the last of them. Only while no section flows.
+class ModalBeam final : public ForcedOscillators {
+ public:
+  /// `beam`'s mesh must be a ModalMesh (std::bad_cast otherwise); both must outlive this.
+  explicit ModalBeam(const StruckBeam& beam);
+
+  std::span<const double> frequencies() const override { return frequencies_; }
+  std::span<const double> loads() const override { return loads_; }
+  std::span<const double> displacements() const override { return displacements_; }
+  Force force(double lambda) const override;
+  bool is_free() const override { return !beam_.in_contact(); }
+  double critical_displacement() const override { return beam_.residual_indentation(); }
+  SecondOrderOde::Scales scales() const override { return beam_.scales(); }
+
+ private:
+  const StruckBeam& beam_;
+  std::vector<double> frequencies_, loads_, displacements_;
+};
+
+}  // namespace subimpact
