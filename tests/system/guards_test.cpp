@@ -1,0 +1,194 @@
+// Event functions of the struck beam, and the crossings found within a step.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "beam_under_test.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unit = 1.56337e-5;  // yield indentation
+
+TEST(Guards, RatesAreThoseOfTheirValuesAlongTheFlow) {
+  const struct {
+    EventKind kind;
+    ContactBranch branch;
+  } guards[] = {{EventKind::contact_begins, ContactBranch::separated},
+                {EventKind::contact_ends, ContactBranch::elastic},
+                {EventKind::contact_yields, ContactBranch::elastic},
+                {EventKind::contact_unloads, ContactBranch::plastic},
+                {EventKind::section_reverses, ContactBranch::elastic}};
+  for (const Model& model : models()) {
+    for (const auto& [kind, branch] : guards) {
+      for (const double sense : {1.0, -1.0}) {
+        StruckBeam beam = make_beam(model);
+        enter(beam, branch, 2.0 * unit);
+        const Guard guard{kind, beam.mesh().n_sections() / 3, sense};
+        const State y = smooth_state(beam, 5, 2.0, 3.0 * unit, 4.0);
+        const double h = 1e-9;
+        const GuardValue at = beam.evaluate(guard, y);
+        const double before = beam.evaluate(guard, along_the_flow(beam, y, -h)).value;
+        const double behind = beam.evaluate(guard, along_the_flow(beam, y, h)).value;
+        EXPECT_NEAR(at.rate, (behind - before) / (2.0 * h), 1e-5 * std::abs(at.rate))
+            << model.name << ", " << to_string(kind);
+        EXPECT_NE(at.rate, 0.0);
+      }
+    }
+  }
+}
+
+TEST(Guards, AreNegativeBeforeTheirEventAndPositiveAfter) {
+  StruckBeam beam = make_beam(models()[0]);
+  enter(beam, ContactBranch::elastic, 3.0 * unit);
+  const auto value = [&](EventKind kind, double indentation, double rate) {
+    return beam.evaluate({kind}, smooth_state(beam, 1, 0.1, indentation, rate)).value;
+  };
+  EXPECT_LT(value(EventKind::contact_begins, 1.9 * unit, 1.0), 0.0);
+  EXPECT_GT(value(EventKind::contact_begins, 2.1 * unit, 1.0), 0.0);
+  EXPECT_LT(value(EventKind::contact_ends, 2.1 * unit, -1.0), 0.0);
+  EXPECT_GT(value(EventKind::contact_ends, 1.9 * unit, -1.0), 0.0);
+  EXPECT_LT(value(EventKind::contact_yields, 2.9 * unit, 1.0), 0.0);
+  EXPECT_GT(value(EventKind::contact_yields, 3.1 * unit, 1.0), 0.0);
+  EXPECT_LT(value(EventKind::contact_unloads, 3.0 * unit, 1.0), 0.0);
+  EXPECT_GT(value(EventKind::contact_unloads, 3.0 * unit, -1.0), 0.0);
+}
+
+// A beam at rest and the striker alone in motion: the indentation over a step is the cubic through
+// these ends.
+class ContactCrossing : public testing::Test {
+ protected:
+  State state(double indentation, double rate) {
+    return smooth_state(beam_, 1, 1e-9, indentation, rate);
+  }
+  bool find(double lambda0, double rate0, double lambda1, double rate1,
+            const Guard* without = nullptr) {
+    y0_ = state(lambda0, rate0);
+    y1_ = state(lambda1, rate1);
+    beam_.commit(y0_);
+    return beam_.find_crossing({2.0, 2.0 + step_, y0_, y1_}, infinity, without, crossing_);
+  }
+  // Where the striker's motion, uniform in time, is a part of the step.
+  double part() const { return (crossing_.guess - 2.0) / step_; }
+
+  StruckBeam beam_ = make_beam(models()[0]);
+  double step_ = 1e-6;
+  State y0_, y1_;
+  Crossing crossing_;
+};
+
+TEST_F(ContactCrossing, EndOfContactIsWhereTheIndentationMeetsTheResidualOne) {
+  enter(beam_, ContactBranch::elastic, 3.0 * unit);
+  const double rate = -unit / step_;
+  ASSERT_TRUE(find(2.25 * unit, rate, 1.25 * unit, rate));
+  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
+  EXPECT_NEAR(part(), 0.25, 1e-6);
+  EXPECT_LE(crossing_.after, crossing_.guess);
+  EXPECT_GE(crossing_.before, crossing_.guess);
+}
+
+TEST_F(ContactCrossing, YieldIsWhereTheIndentationExceedsTheLargest) {
+  enter(beam_, ContactBranch::elastic, 0.0);
+  const double rate = unit / step_;
+  ASSERT_TRUE(find(0.5 * unit, rate, 1.5 * unit, rate));
+  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_yields);
+  EXPECT_NEAR(part(), 0.5, 1e-4);
+  EXPECT_FALSE(find(0.1 * unit, 0.5 * rate, 0.6 * unit, 0.5 * rate));
+}
+
+TEST_F(ContactCrossing, BeginOfContactIsWhereTheGapCloses) {
+  enter(beam_, ContactBranch::separated, 3.0 * unit);
+  const double rate = unit / step_;
+  ASSERT_TRUE(find(1.6 * unit, rate, 2.6 * unit, rate));
+  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_begins);
+  EXPECT_NEAR(part(), 0.4, 1e-4);
+  EXPECT_FALSE(find(1.0 * unit, 0.5 * rate, 1.5 * unit, 0.5 * rate));
+}
+
+TEST_F(ContactCrossing, UnloadingIsWhereTheIndentationStopsGrowing) {
+  enter(beam_, ContactBranch::plastic, 3.0 * unit);
+  // Rate falls from 3 to -1 units a step: zero at 0.75.
+  ASSERT_TRUE(find(4.0 * unit, 3.0 * unit / step_, 5.0 * unit, -1.0 * unit / step_));
+  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_unloads);
+  EXPECT_NEAR(part(), 0.75, 1e-6);
+  EXPECT_FALSE(find(6.0 * unit, 3.0 * unit / step_, 8.0 * unit, 1.0 * unit / step_));
+}
+
+TEST_F(ContactCrossing, ABranchLeftAndRegainedWithinOneStepIsNotMissed) {
+  enter(beam_, ContactBranch::elastic, 3.0 * unit);
+  // Parabola from 2.1 through 2.1 - 0.25 at half the step: below the residual 2 in between.
+  ASSERT_TRUE(find(2.1 * unit, -1.0 * unit / step_, 2.1 * unit, 1.0 * unit / step_));
+  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
+  EXPECT_NEAR(part(), 0.5 - std::sqrt(0.15), 1e-5);
+  EXPECT_LT(crossing_.before, 2.0 + 0.51 * step_);
+  // Not deep enough.
+  EXPECT_FALSE(find(2.3 * unit, -1.0 * unit / step_, 2.3 * unit, 1.0 * unit / step_));
+}
+
+TEST_F(ContactCrossing, TheEarlierOfTwoIsFound) {
+  enter(beam_, ContactBranch::elastic, 2.1 * unit);  // residual 1.1, yields again at 2.1
+  // First up through 2.1, at the end below 1.1.
+  ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_));
+  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_yields);
+  const Guard yields = crossing_.guard;
+  ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_, &yields));
+  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
+}
+
+TEST_F(ContactCrossing, EventsSwitchTheBranchTheySpeakOf) {
+  const State y = state(3.0 * unit, 1.0);
+  beam_.apply({EventKind::contact_begins}, y);
+  EXPECT_EQ(beam_.contact_branch(), ContactBranch::elastic);
+  beam_.apply({EventKind::contact_yields}, y);
+  EXPECT_EQ(beam_.contact_branch(), ContactBranch::plastic);
+  beam_.apply({EventKind::contact_unloads}, y);
+  EXPECT_EQ(beam_.contact_branch(), ContactBranch::elastic);
+  EXPECT_NEAR(beam_.contact_history().max_indentation, 3.0 * unit, 1e-18);
+  beam_.apply({EventKind::contact_ends}, y);
+  EXPECT_EQ(beam_.contact_branch(), ContactBranch::separated);
+  EXPECT_FALSE(beam_.in_contact());
+}
+
+TEST(SectionCrossing, AFlowingSectionThatTurnsWithinTheStepIsFound) {
+  StruckBeam beam = make_beam(models()[1]);
+  enter(beam, ContactBranch::separated, 0.0);
+  const std::size_t n = beam.n_positions() - 1;
+  // Bending 1.5 to 1.5 yield curvatures, rates 4 and -4 of them a step: peak 1 higher, half way.
+  const double step = 1e-6;
+  State y0 = smooth_state(beam, 6, 1.5, -1e-4, 0.0);
+  for (std::size_t i = 0; i <= n; ++i) y0[n + 1 + i] = 4.0 / 1.5 * y0[i] / step;
+  State y1 = y0;
+  for (std::size_t i = n + 1; i < y1.size(); ++i) y1[i] = -y1[i];
+  beam.commit(y0);
+  Crossing crossing;
+  const double kappa_y = paper_beam().yield_curvature();
+  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, infinity, nullptr, crossing));
+  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, 2.0 * kappa_y, nullptr, crossing));
+  ASSERT_TRUE(beam.find_crossing({0.0, step, y0, y1}, 1e-6 * kappa_y, nullptr, crossing));
+  EXPECT_EQ(crossing.guard.kind, EventKind::section_reverses);
+  EXPECT_NEAR(crossing.guess, 0.5 * step, 1e-6 * step);
+  // The section named did flow outwards: its guard is negative at the start.
+  EXPECT_LT(beam.evaluate(crossing.guard, y0).value, 0.0);
+  EXPECT_GT(beam.evaluate(crossing.guard, y1).value, 0.0);
+}
+
+TEST(SectionCrossing, FirstFlowIsWhenTheFirstSectionLeavesItsWindow) {
+  StruckBeam beam = make_beam(models()[1]);
+  const State y0 = smooth_state(beam, 6, 0.6, 0.0, 0.0);
+  const State y1 = smooth_state(beam, 6, 1.4, 0.0, 0.0);
+  const std::size_t n = beam.n_positions();
+  State a = y0, b = y1;  // uniform motion from one to the other
+  const double step = 1e-6;
+  for (std::size_t i = 0; i < n; ++i) a[n + i] = b[n + i] = (y1[i] - y0[i]) / step;
+  beam.commit(a);
+  const auto first = beam.first_flow({0.0, step, a, b});
+  ASSERT_TRUE(first.has_value());
+  EXPECT_NEAR(*first, 0.5 * step, 1e-6 * step);
+  EXPECT_FALSE(beam.first_flow({0.0, step, a, a}).has_value());
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,185 @@
+// The struck beam's equations: what they conserve, and that they are what the header says.
+
+#include "system/struck_beam.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "beam_under_test.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double lambda_s = 1.56337e-5;
+
+struct Situation {
+  const char* name;
+  ContactBranch branch;
+  double max_indentation, indentation, rate, bending;
+};
+
+const Situation situations[] = {
+    {"apart", ContactBranch::separated, 0.0, -1e-5, 1.0, 0.5},
+    {"first touch", ContactBranch::elastic, 0.0, 0.4 * lambda_s, 9.0, 0.7},
+    {"flowing contact", ContactBranch::plastic, 2.0 * lambda_s, 4.0 * lambda_s, 5.0, 2.0},
+    {"unloading contact", ContactBranch::elastic, 6.0 * lambda_s, 5.5 * lambda_s, -3.0, 3.0},
+};
+
+TEST(StruckBeam, BeginsTouchingWithAllEnergyAndMomentumInTheStriker) {
+  for (const Model& model : models()) {
+    SCOPED_TRACE(model.name);
+    StruckBeam beam = make_beam(model);
+    const State y = beam.initial_state();
+    const Energies energies = beam.energies(y);
+    EXPECT_EQ(energies.total(), energies.striker);
+    EXPECT_NEAR(energies.striker, 25.4074, 0.5e-4);
+    EXPECT_NEAR(beam.momentum(y), 3.1959, 0.5e-4);
+    EXPECT_NEAR(beam.beam_mass(), 0.2260549, 0.5e-7);
+    EXPECT_EQ(beam.indentation(y), 0.0);
+    EXPECT_EQ(beam.indentation_rate(y), 15.9);
+  }
+}
+
+TEST(StruckBeam, AccelerationLeavesTheTotalMomentumAlone) {
+  for (const Model& model : models()) {
+    for (const Situation& now : situations) {
+      for (unsigned seed = 0; seed < 5; ++seed) {
+        StruckBeam beam = make_beam(model);
+        enter(beam, now.branch, now.max_indentation);
+        const State y = smooth_state(beam, seed, now.bending, now.indentation, now.rate);
+        beam.commit(y);
+        const std::size_t n = beam.n_positions();
+        // The momentum of the accelerations as if they were velocities is the momentum's rate.
+        State rates = y;
+        beam.acceleration({y.data(), n}, {rates.data() + n, n});
+        double size = std::abs(beam.contact_force(y));
+        for (std::size_t i = n; i + 1 < 2 * n; ++i) {
+          size += std::abs(rates[i]) * beam.beam_mass() / static_cast<double>(n);
+        }
+        EXPECT_NEAR(beam.momentum(rates), 0.0, 1e-12 * size) << model.name << ", " << now.name;
+      }
+    }
+  }
+}
+
+TEST(StruckBeam, EveryJouleStaysInTheAccountsAlongTheFlow) {
+  for (const Model& model : models()) {
+    for (const Situation& now : situations) {
+      for (unsigned seed = 0; seed < 5; ++seed) {
+        StruckBeam beam = make_beam(model);
+        enter(beam, now.branch, now.max_indentation);
+        // Bent and let be, then somewhere else: sections flow, unload and rest.
+        beam.commit(smooth_state(beam, seed + 70, 0.6 * now.bending, 0.8 * now.indentation, 0.0));
+        const State y = smooth_state(beam, seed, now.bending, now.indentation, now.rate);
+        const double h = 1e-9;
+        const Energies behind = beam.energies(along_the_flow(beam, y, h));
+        const Energies before = beam.energies(along_the_flow(beam, y, -h));
+        const double power = (behind.total() - before.total()) / (2.0 * h);
+        const double exchanged = (std::abs(behind.striker - before.striker) +
+                                  std::abs(behind.beam_kinetic - before.beam_kinetic)) /
+                                 (2.0 * h);
+        EXPECT_NEAR(power, 0.0, 2e-5 * exchanged) << model.name << ", " << now.name << ", " << seed;
+        EXPECT_GT(exchanged, 1.0);
+      }
+    }
+  }
+}
+
+TEST(StruckBeam, CommittingWithinAllWindowsChangesNothing) {
+  for (const Model& model : models()) {
+    StruckBeam beam = make_beam(model);
+    enter(beam, ContactBranch::elastic, 3.0 * lambda_s);
+    const State far = smooth_state(beam, 3, model.yields ? 3.0 : 0.5, 2.5 * lambda_s, 0.0);
+    beam.commit(far);
+    State near = far;
+    for (double& value : near) value *= 1.0 - 1e-3;  // a little back: nothing flows
+    const std::size_t n = beam.n_positions();
+    std::vector<double> a(n), b(n);
+    const State probe = smooth_state(beam, 9, 2.0, 2.2 * lambda_s, 1.0);
+    beam.acceleration({probe.data(), n}, a);
+    const std::size_t n_yielded = beam.sections().n_yielded();
+    EXPECT_FALSE(beam.commit(near)) << model.name;
+    EXPECT_EQ(beam.sections().n_yielded(), n_yielded);
+    beam.acceleration({probe.data(), n}, b);
+    EXPECT_EQ(a, b) << model.name;
+    EXPECT_EQ(n_yielded > 0, model.yields);
+  }
+}
+
+TEST(StruckBeam, AskingForAccelerationsChangesNoHistory) {
+  StruckBeam beam = make_beam(models()[1]);
+  enter(beam, ContactBranch::plastic, 2.0 * lambda_s);
+  const std::size_t n = beam.n_positions();
+  const State probe = smooth_state(beam, 1, 2.0, 3.0 * lambda_s, 1.0);
+  std::vector<double> a(n), b(n), ignored(n);
+  beam.acceleration({probe.data(), n}, a);
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const State wild = smooth_state(beam, seed, 9.0, 9.0 * lambda_s, 1.0);
+    beam.acceleration({wild.data(), n}, ignored);
+    beam.energies(wild);
+  }
+  beam.acceleration({probe.data(), n}, b);
+  EXPECT_EQ(a, b);
+}
+
+TEST(StruckBeam, CommitTellsWhetherASectionFlowed) {
+  StruckBeam beam = make_beam(models()[1]);
+  EXPECT_FALSE(beam.commit(smooth_state(beam, 2, 0.99, 0.0, 1.0)));
+  EXPECT_TRUE(beam.commit(smooth_state(beam, 2, 1.5, 0.0, 1.0)));
+  EXPECT_FALSE(beam.commit(smooth_state(beam, 2, 1.5, 0.0, 1.0)));
+  EXPECT_TRUE(beam.commit(smooth_state(beam, 2, 1.6, 0.0, 1.0)));
+}
+
+TEST(StruckBeam, HalfAndWholeMoveAlike) {
+  for (const bool yields : {false, true}) {
+    StruckBeam whole = make_beam({"", CellMesh::Extent::whole, 0.5, yields});
+    StruckBeam half = make_beam({"", CellMesh::Extent::half, 0.5, yields});
+    enter(whole, ContactBranch::plastic, lambda_s);
+    enter(half, ContactBranch::plastic, lambda_s);
+    const State y = smooth_state(whole, 4, 2.5, 3.0 * lambda_s, 2.0);
+    const State y_half = smooth_state(half, 4, 2.5, 3.0 * lambda_s, 2.0);
+    const std::size_t n = whole.n_positions();
+    const std::size_t n_half = half.n_positions();
+    std::vector<double> a(n), a_half(n_half);
+    whole.acceleration({y.data(), n}, a);
+    half.acceleration({y_half.data(), n_half}, a_half);
+    const double size = *std::max_element(a.begin(), a.end());
+    for (std::size_t i = 0; i + 1 < n_half; ++i) EXPECT_NEAR(a_half[i], a[i], 1e-10 * size) << i;
+    EXPECT_NEAR(a_half.back(), a.back(), 1e-12 * std::abs(a.back()));
+    EXPECT_NEAR(half.energies(y_half).total(), whole.energies(y).total(), 1e-12 * 25.0);
+    EXPECT_NEAR(half.momentum(y_half), whole.momentum(y), 1e-12);
+    EXPECT_NEAR(half.back_stress(y_half), whole.back_stress(y), 1e-3);
+  }
+}
+
+TEST(StruckBeam, SmoothContactGoesOnWhereSwitchingContactLetsGo) {
+  StruckBeam beam = make_beam(models()[0]);
+  enter(beam, ContactBranch::elastic, 3.0 * lambda_s);
+  const State inside = smooth_state(beam, 1, 0.3, 2.5 * lambda_s, 0.0);
+  const State apart = smooth_state(beam, 1, 0.3, 1.5 * lambda_s, 0.0);  // below the residual 2
+  const double force = beam.contact_force(inside);
+  EXPECT_GT(force, 0.0);
+  EXPECT_LT(beam.contact_force(apart), 0.0);
+  beam.set_contact_evaluation(StruckBeam::ContactEvaluation::switching);
+  EXPECT_EQ(beam.contact_force(inside), force);
+  EXPECT_EQ(beam.contact_force(apart), 0.0);
+}
+
+TEST(StruckBeam, MeasuresDisplacementsWhereTheyAreAsked) {
+  StruckBeam beam = make_beam(models()[4]);
+  const std::size_t n = beam.n_positions() - 1;
+  State y(2 * (n + 1), 0.0);
+  const double dx = 0.7112 / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) y[i] = 0.01 + 0.1 * (static_cast<double>(i) + 0.5) * dx;
+  y[n] = 0.5;
+  const StruckBeam::Displacements at = beam.displacements(y);
+  EXPECT_NEAR(at.struck, 0.01 + 0.1 * 0.317 * 0.7112, 1e-15);
+  EXPECT_NEAR(at.first_end, 0.01, 1e-15);
+  EXPECT_EQ(at.striker, 0.5);
+  EXPECT_NEAR(beam.back_stress(y), 0.0, 1e-3);  // straight
+}
+
+}  // namespace
+}  // namespace subimpact
