@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "process.h"
+
+namespace subimpact {
+namespace {
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
+}
+
+TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
+  const Finished finished = run_program({"--help"});
+  EXPECT_EQ(finished.status, 0);
+  for (const char* piece : {"run", "explain", "methods", "keys", "Examples:", "Exit status"}) {
+    expect_in(finished.output, piece);
+  }
+}
+
+TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
+  for (const std::string command : {"run", "explain", "methods", "keys"}) {
+    const Finished finished = run_program({command, "--help"});
+    EXPECT_EQ(finished.status, 0) << command;
+    expect_in(finished.output, "Example");
+    expect_in(finished.output, "\n  subimpact " + command);
+  }
+}
+
+TEST(Version, NamesTheLibraries) {
+  const Finished finished = run_program({"--version"});
+  EXPECT_EQ(finished.status, 0);
+  for (const char* piece : {"subimpact ", "SUNDIALS ", "KLU ", "toml++ "}) {
+    expect_in(finished.output, piece);
+  }
+}
+
+TEST(Methods, AreListedWithTheirTables) {
+  const Finished finished = run_program({"methods"});
+  EXPECT_EQ(finished.status, 0);
+  for (const char* piece : {"central-difference ", "erk ", "dop853 ", "8(5)"}) {
+    expect_in(finished.output, piece);
+  }
+}
+
+TEST(Keys, AreListedByTable) {
+  const Finished finished = run_program({"keys"});
+  EXPECT_EQ(finished.status, 0);
+  for (const char* piece : {"[beam]\n", "youngs_modulus ", "[output]\n", "zone_gap "}) {
+    expect_in(finished.output, piece);
+  }
+}
+
+TEST(Explain, TellsWhatWillBeModelledAndWritesNothing) {
+  const TemporaryDirectory directory;
+  const Finished finished = run_program({"explain", SUBIMPACT_PAPER_CASE}, directory.path);
+  EXPECT_EQ(finished.status, 0);
+  EXPECT_EQ(finished.errors, "");
+  for (const char* piece : {"critical step", "tolerances", "251", "0.0156337 mm", "time"}) {
+    expect_in(finished.output, piece);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path));
+}
+
+TEST(Explain, FollowsOverrides) {
+  const Finished finished =
+      run_program({"explain", SUBIMPACT_PAPER_CASE, "--method", "central-difference", "--set",
+                   "model.segments=101", "--set", "model.symmetry=off"});
+  EXPECT_EQ(finished.status, 0);
+  for (const char* piece : {"central-difference", "101 of the beam", "not used, as asked"}) {
+    expect_in(finished.output, piece);
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

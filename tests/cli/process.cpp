@@ -1,0 +1,77 @@
+#include "process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace subimpact {
+
+namespace fs = std::filesystem;
+
+Finished run_program(const std::vector<std::string>& arguments, const fs::path& working_directory,
+                     int interrupt_after) {
+  const TemporaryDirectory streams;
+  const std::string output = streams.path / "stdout";
+  const std::string errors = streams.path / "stderr";
+  std::vector<std::string> words = {SUBIMPACT_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) {
+    const int out = ::open(output.c_str(), O_WRONLY | O_CREAT, 0600);
+    const int err = ::open(errors.c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(out, STDOUT_FILENO);
+    ::dup2(err, STDERR_FILENO);
+    if (::chdir(working_directory.c_str()) != 0) ::_exit(126);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  if (interrupt_after > 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after));
+    ::kill(child, SIGINT);
+  }
+  int state = 0;
+  ::waitpid(child, &state, 0);
+  Finished finished;
+  finished.status = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
+  finished.output = read_file(output);
+  finished.errors = read_file(errors);
+  return finished;
+}
+
+TemporaryDirectory::TemporaryDirectory() {
+  std::string name = (fs::temp_directory_path() / "subimpact-cli-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed: " + name);
+  path = name;
+}
+
+TemporaryDirectory::~TemporaryDirectory() {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
+std::string TemporaryDirectory::write(const std::string& name, const std::string& content) const {
+  std::ofstream(path / name) << content;
+  return path / name;
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace subimpact

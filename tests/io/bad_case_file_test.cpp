@@ -1,0 +1,238 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "small_case.h"
+#include "subimpact/io/case_file.h"
+
+namespace subimpact {
+namespace {
+
+std::string refusal_of(const std::string& text, const std::vector<Override>& overrides = {}) {
+  try {
+    read_case_text(text, "bad.toml", overrides);
+  } catch (const CaseFileError& error) {
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+void expect_all_in(const std::string& message, const std::vector<std::string>& pieces) {
+  for (const std::string& piece : pieces) {
+    EXPECT_NE(message.find(piece), std::string::npos)
+        << '"' << piece << "\" is not in: " << message;
+  }
+}
+
+/// One way to spoil the small case, and what the message must then contain besides the file: place,
+/// key, what was found and what is allowed.
+struct Spoilt {
+  const char* claim;
+  const char* from;
+  const char* to;
+  std::vector<std::string> message;
+};
+
+void PrintTo(const Spoilt& spoilt, std::ostream* out) { *out << spoilt.claim; }
+
+class SpoiltCaseFile : public testing::TestWithParam<Spoilt> {};
+
+TEST_P(SpoiltCaseFile, IsRefusedWithPlaceKeyFindingAndAllowedValues) {
+  const Spoilt& spoilt = GetParam();
+  expect_all_in(refusal_of(small_case_with(spoilt.from, spoilt.to)), spoilt.message);
+}
+
+const Spoilt spoilt_cases[] = {
+    {"UnknownKey",
+     "length = 0.7112",
+     "lenght = 0.7112",
+     {"bad.toml:2:1: ", "unknown key \"beam.lenght\"", "width, thickness",
+      "did you mean \"beam.length\"?"}},
+    {"KeyOfAnotherTable",
+     "density = 2600",
+     "density = 2600\nrtol = 1e-9",
+     {"bad.toml:6:1: ", "unknown key \"beam.rtol\"", "did you mean \"solver.rtol\"?"}},
+    {"KeyOutsideTables",
+     "[beam]",
+     "lengt = 1\n[beam]",
+     {"bad.toml:1:1: ", "unknown key \"lengt\"", "outside all tables", "title"}},
+    {"UnknownTable",
+     "[time]",
+     "[tiem]",
+     {"bad.toml:11:2: ", "unknown table [tiem]", "[beam], [striker]", "did you mean [time]?"}},
+    {"MissingKey",
+     "mass = 0.201\n",
+     "",
+     {"bad.toml:7:2: ", "striker.mass is missing", "above 0 (kg)", "under [striker]"}},
+    {"MissingTable",
+     "[time]\nend = 2e-5\n",
+     "",
+     {"bad.toml: ", "table [time] is missing", "at least: end"}},
+    {"TextForANumber",
+     "length = 0.7112",
+     "length = \"0.7112\"",
+     {"bad.toml:2:1: ", "beam.length is a text (\"0.7112\")", "a number, finite and above 0 (m)",
+      "without quotes"}},
+    {"NumberForAText",
+     "[time]",
+     "[contact]\nlaw = 3\n[time]",
+     {"bad.toml:12:1: ", "contact.law is a whole number (3)", "\"foundation\""}},
+    {"FloatForACount",
+     "[time]",
+     "[model]\nsegments = 501.0\n[time]",
+     {"bad.toml:12:1: ", "model.segments is a floating-point number",
+      "a whole number, from 5 to 100001", "without decimal point"}},
+    {"DateForANumber",
+     "end = 2e-5",
+     "end = 2024-01-31",
+     {"bad.toml:12:1: ", "time.end is a date", "above 0 (s)"}},
+    {"NumberForAFlag",
+     "[time]",
+     "[solver]\nbeyond_critical = 1\n[time]",
+     {"bad.toml:12:1: ", "solver.beyond_critical is a whole number (1)", "true or false"}},
+    {"TableForANumber",
+     "end = 2e-5",
+     "end.value = 2e-5",
+     {"bad.toml:12:1: ", "time.end is a table", "a number"}},
+    {"ListOfTablesForATable",
+     "[time]",
+     "[[time]]",
+     {"bad.toml:11:3: ", "\"time\" is a list", "allowed: a table"}},
+    {"Negative",
+     "width = 0.0163",
+     "width = -0.0163",
+     {"bad.toml:3:1: ", "beam.width is -0.0163", "above 0 (m)"}},
+    {"Zero", "mass = 0.201", "mass = 0", {"bad.toml:8:1: ", "striker.mass is 0", "above 0 (kg)"}},
+    {"NotANumber",
+     "density = 2600",
+     "density = nan",
+     {"bad.toml:5:1: ", "beam.density is nan", "finite and above 0 (kg/m3)"}},
+    {"InfiniteModulus",
+     "youngs_modulus = 71.96e9",
+     "youngs_modulus = inf",
+     {"bad.toml:6:1: ", "beam.youngs_modulus is inf", "finite and above 0 (Pa)"}},
+    {"NegativeYieldStress",
+     "density = 2600",
+     "density = 2600\nyield_stress = -inf",
+     {"bad.toml:6:1: ", "beam.yield_stress is -inf", "above 0, or inf (Pa)"}},
+    {"StrikeOffTheBeam",
+     "velocity = 15.9",
+     "velocity = 15.9\nposition = 1.5",
+     {"bad.toml:11:1: ", "striker.position is 1.5", "from 0 to 1"}},
+    {"StrikeOutsideTheOutermostCells",
+     "velocity = 15.9",
+     "velocity = 15.9\nposition = 0.0005",
+     {"bad.toml:11:1: ", "striker.position is 0.0005", "501 segments", "0.000998"}},
+    {"HugeSegments",
+     "[time]",
+     "[model]\nsegments = 1000000000000\n[time]",
+     {"bad.toml:12:1: ", "model.segments is 1000000000000", "from 5 to 100001"}},
+    {"OddLayers",
+     "[time]",
+     "[model]\nlayers = 41\n[time]",
+     {"bad.toml:12:1: ", "model.layers is 41", "even, from 2 to 10000"}},
+    {"UnknownLaw",
+     "[time]",
+     "[contact]\nlaw = \"foundaton\"\n[time]",
+     {"bad.toml:12:1: ", "contact.law is \"foundaton\"", "\"foundation\"",
+      "did you mean \"foundation\"?"}},
+    {"UnknownMethod",
+     "[time]",
+     "[solver]\nmethod = \"leapfrog\"\n[time]",
+     {"bad.toml:12:1: ", "solver.method is \"leapfrog\"", "\"central-difference\", \"erk\""}},
+    {"UnknownTableOfCoefficients",
+     "[time]",
+     "[solver]\ntable = \"dop54\"\n[time]",
+     {"bad.toml:12:1: ", "solver.table is \"dop54\"", "\"dop853\", \"dormand-prince\""}},
+    {"UnknownSupport",
+     "density = 2600",
+     "density = 2600\nends = [\"free\", \"glued\"]",
+     {"bad.toml:6:1: ", "beam.ends is \"glued\"", "a list of two out of \"free\""}},
+    {"OneEndOnly",
+     "density = 2600",
+     "density = 2600\nends = [\"free\"]",
+     {"bad.toml:6:1: ", "beam.ends is [\"free\"]", "a list of two"}},
+    {"NumbersForEnds",
+     "density = 2600",
+     "density = 2600\nends = [1, 2]",
+     {"bad.toml:6:1: ", "beam.ends is a list of things that are not texts", "a list of two"}},
+    {"TolerancePastRounding",
+     "[time]",
+     "[solver]\nrtol = 1e-20\n[time]",
+     {"bad.toml:12:1: ", "solver.rtol is 1e-20", "from 1e-14 to 0.1"}},
+    {"EndlessHistory",
+     "[time]",
+     "[output]\ninterval = 1e-15\n[time]",
+     {"bad.toml:12:1: ", "output.interval is 1e-15 s", "at most 5e+06 rows"}},
+    {"SubZonesLongerThanZones",
+     "[time]",
+     "[output]\nsubzone_gap = 0.2\n[time]",
+     {"bad.toml:12:1: ", "output.subzone_gap is 0.2", "output.zone_gap = 0.1"}},
+    {"UnclosedText", "[beam]", "title = \"open\n[beam]", {"bad.toml:1:", "not valid TOML"}},
+    {"KeyTwice",
+     "length = 0.7112",
+     "length = 0.7112\nlength = 0.8",
+     {"bad.toml:3:", "not valid TOML", "length"}},
+    {"NoUtf8", "[beam]", "\xff\xfe[beam]", {"bad.toml:1:1: ", "not valid TOML"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(OfEveryKind, SpoiltCaseFile, testing::ValuesIn(spoilt_cases),
+                         [](const auto& info) { return std::string(info.param.claim); });
+
+TEST(BadCaseFile, EveryProblemIsReportedOnALineOfItsOwn) {
+  std::string text = small_case_with("width = 0.0163", "width = -1");
+  text.replace(text.find("mass = 0.201"), 12, "mass = true ");
+  const std::string message = refusal_of(text);
+  expect_all_in(message, {"bad.toml:3:1: beam.width", "\nbad.toml:8:1: striker.mass"});
+}
+
+TEST(BadCaseFile, AnEmptyFileNamesTheTablesItNeeds) {
+  expect_all_in(refusal_of(""), {"[beam]", "[striker]", "[time]"});
+}
+
+TEST(BadCaseFile, AFileThatIsNotThereIsNamed) {
+  try {
+    read_case_file("/nowhere/case.toml");
+    FAIL() << "a missing file was read";
+  } catch (const CaseFileError& error) {
+    expect_all_in(error.what(), {"/nowhere/case.toml", "cannot be read", "No such file"});
+  }
+}
+
+TEST(BadCaseFile, ADirectoryIsNoCaseFile) {
+  try {
+    read_case_file("/tmp");
+    FAIL() << "a directory was read";
+  } catch (const CaseFileError& error) {
+    expect_all_in(error.what(), {"/tmp", "is a directory"});
+  }
+}
+
+TEST(BadOverride, IsNamedAsTheCommandLineGaveIt) {
+  expect_all_in(refusal_of(small_case_text(), {parse_override("striker.mass=-1")}),
+                {"--set striker.mass=-1: ", "striker.mass is -1", "above 0 (kg)"});
+  expect_all_in(refusal_of(small_case_text(), {parse_override("striker.mas=1")}),
+                {"--set striker.mas=1: ", "unknown key", "did you mean \"striker.mass\"?"});
+  expect_all_in(refusal_of(small_case_text(), {parse_override("striler.mass=1")}),
+                {"--set striler.mass=1: ", "unknown table [striler]", "did you mean [striker]?"});
+  expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=")}),
+                {"--set time.end=: ", "time.end is ''", "above 0 (s)"});
+}
+
+TEST(BadOverride, CannotSmuggleInASecondKey) {
+  expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=1\nother=2")}),
+                {"time.end is", "above 0 (s)"});
+}
+
+TEST(BadOverride, WithoutAnEqualsSignIsNoSetting) {
+  EXPECT_THROW(parse_override("striker.mass"), CaseFileError);
+  EXPECT_THROW(parse_override("=3"), CaseFileError);
+}
+
+TEST(BadOverride, HidesTheFilesOwnMistakeInThatKey) {
+  const std::string text = small_case_with("end = 2e-5", "end = \"soon\"");
+  EXPECT_EQ(refusal_of(text, {parse_override("time.end=1e-3")}), "(accepted)");
+}
+
+}  // namespace
+}  // namespace subimpact

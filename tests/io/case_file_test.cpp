@@ -1,0 +1,120 @@
+#include "subimpact/io/case_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "small_case.h"
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+TEST(CaseFile, GivesEveryValueOfThePapersCase) {
+  const Case read = read_case_file(SUBIMPACT_PAPER_CASE).value;
+  EXPECT_EQ(read.scene.beam.length, 0.7112);
+  EXPECT_EQ(read.scene.beam.width, 0.0163);
+  EXPECT_EQ(read.scene.beam.thickness, 0.0075);
+  EXPECT_EQ(read.scene.beam.density, 2600.0);
+  EXPECT_EQ(read.scene.beam.youngs_modulus, 71.96e9);
+  EXPECT_EQ(read.scene.beam.yield_stress, 150e6);
+  EXPECT_EQ(read.scene.beam.theory, BeamTheory::rayleigh);
+  EXPECT_EQ(read.scene.striker.mass, 0.201);
+  EXPECT_EQ(read.scene.striker.nose_radius, 0.01);
+  EXPECT_EQ(read.scene.striker.velocity, 15.9);
+  EXPECT_EQ(read.scene.striker.position, 0.5);
+  EXPECT_EQ(read.model.segments, 501);
+  EXPECT_EQ(read.model.section, SectionKind::layers);
+  EXPECT_EQ(read.model.layers, 40);
+  EXPECT_EQ(read.end_time, 8e-3);
+  EXPECT_EQ(read.solver.method, Method::erk);
+  EXPECT_EQ(read.output.interval, 1e-6);
+}
+
+TEST(CaseFile, KeysLeftOutKeepTheirDefaults) {
+  const Case read = read_case_text(small_case_text(), "small.toml").value;
+  EXPECT_TRUE(std::isinf(read.scene.beam.yield_stress));
+  EXPECT_EQ(read.model.segments, Case{}.model.segments);
+  EXPECT_EQ(read.solver.rtol, Case{}.solver.rtol);
+  EXPECT_FALSE(read.solver.step.has_value());
+}
+
+TEST(CaseFile, WholeNumbersAreNumbers) {
+  EXPECT_EQ(read_case_text(small_case_text(), "small.toml").value.scene.beam.density, 2600.0);
+}
+
+TEST(CaseFile, AnOverrideGoesBeforeTheFile) {
+  const Case read =
+      read_case_text(small_case_text(), "small.toml",
+                     {parse_override("beam.length=0.5"), parse_override("model.segments = 101")})
+          .value;
+  EXPECT_EQ(read.scene.beam.length, 0.5);
+  EXPECT_EQ(read.model.segments, 101);
+}
+
+TEST(CaseFile, TheLastOfTwoOverridesHolds) {
+  const Case read = read_case_text(small_case_text(), "small.toml",
+                                   {parse_override("time.end=1"), parse_override("time.end=2")})
+                        .value;
+  EXPECT_EQ(read.end_time, 2.0);
+}
+
+TEST(CaseFile, AnOverrideCanSupplyARequiredKey) {
+  const Case read = read_case_text(small_case_with("mass = 0.201\n", ""), "small.toml",
+                                   {parse_override("striker.mass=0.3")})
+                        .value;
+  EXPECT_EQ(read.scene.striker.mass, 0.3);
+}
+
+TEST(CaseFile, AnOverridesTextNeedsNoQuotes) {
+  for (const char* setting : {"model.section=elastic", "model.section=\"elastic\""}) {
+    const Case read =
+        read_case_text(small_case_text(), "small.toml", {parse_override(setting)}).value;
+    EXPECT_EQ(read.model.section, SectionKind::elastic) << setting;
+  }
+}
+
+TEST(CaseFile, AnOverrideTakesAPairWithOrWithoutBrackets) {
+  for (const char* setting : {"beam.ends=free,free", "beam.ends=[\"free\", \"free\"]"}) {
+    EXPECT_NO_THROW(read_case_text(small_case_text(), "small.toml", {parse_override(setting)}))
+        << setting;
+  }
+}
+
+TEST(CaseFile, AnOverridesTextMayHoldAnEqualsSign) {
+  const Case read =
+      read_case_text(small_case_text(), "small.toml", {parse_override("title=a=b")}).value;
+  EXPECT_EQ(read.title, "a=b");
+}
+
+TEST(CaseFile, AnErrorFoundLaterIsGivenThePlaceOfItsKey) {
+  const LoadedCase loaded =
+      read_case_text(small_case_text(), "small.toml", {parse_override("model.segments=501")});
+  EXPECT_EQ(loaded.message(InvalidCase("beam.length", "is odd")),
+            "small.toml:2:1: beam.length is odd");
+  EXPECT_EQ(loaded.message(InvalidCase("model.segments", "is odd")),
+            "--set model.segments=501: model.segments is odd");
+  EXPECT_EQ(loaded.message(InvalidCase("model.layers", "is odd")),
+            "small.toml: model.layers (the default) is odd");
+}
+
+TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
+  Case original = read_case_file(SUBIMPACT_PAPER_CASE).value;
+  original.solver.step = 1e-7;
+  original.solver.max_step = 2e-7;
+  original.solver.table = "dormand-prince";
+  original.solver.events = EventHandling::located;
+  std::vector<Override> all;
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(original);
+    if (value) all.push_back(parse_override(key.name + "=" + to_text(*value)));
+  }
+  ASSERT_GE(all.size(), case_keys().size() - 2);
+  const Case copy = read_case_text("", "empty.toml", all).value;
+  for (const CaseKey& key : case_keys()) {
+    EXPECT_EQ(key.get(copy), key.get(original)) << key.name;
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,228 @@
+#include "subimpact/io/results.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "sample_result.h"
+#include "subimpact/io/case_file.h"
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+using Table = std::vector<std::vector<std::string>>;
+
+Table parse_csv(const std::string& text) {
+  Table rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> cells(1);
+    for (const char c : line) {
+      if (c == ',') {
+        cells.emplace_back();
+      } else {
+        cells.back() += c;
+      }
+    }
+    rows.push_back(cells);
+  }
+  return rows;
+}
+
+double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
+
+Case sample_case() { return read_case_file(SUBIMPACT_PAPER_CASE).value; }
+
+nlohmann::json parsed_summary(const Case& input, const Result& result) {
+  return nlohmann::json::parse(summary_json(input, result));
+}
+
+/// A directory of the test's own, removed at its end.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::string name = (fs::temp_directory_path() / "subimpact-test-XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~TemporaryDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path;
+};
+
+TEST(EventsCsv, HasTheAgreedColumns) {
+  EXPECT_EQ(events_csv({}),
+            "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
+            "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s\n");
+}
+
+TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
+  const Result result = sample_result();
+  const Table rows = parse_csv(events_csv(result.sub_impacts));
+  ASSERT_EQ(rows.size(), 4u);
+  const SubImpact& first = result.sub_impacts[0];
+  EXPECT_EQ(rows[1][0], "1");
+  EXPECT_EQ(number(rows[1][4]), *first.end);
+  EXPECT_EQ(number(rows[1][5]), *first.end - first.start);
+  EXPECT_EQ(number(rows[1][6]), first.peak_force);
+  EXPECT_EQ(number(rows[1][7]), first.impulse);
+  EXPECT_EQ(number(rows[1][8]), first.max_indentation);
+  EXPECT_EQ(number(rows[1][9]), first.residual_indentation);
+  EXPECT_EQ(number(rows[1][10]), first.striker_velocity);
+}
+
+TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
+  const Table rows = parse_csv(events_csv(sample_result().sub_impacts));
+  ASSERT_EQ(rows[3].size(), 11u);
+  EXPECT_EQ(rows[3][4], "");
+  EXPECT_EQ(rows[3][5], "");
+  EXPECT_NE(rows[3][6], "");
+}
+
+TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
+  const Table rows = parse_csv(transitions_csv(sample_result().transitions));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"time_s", "kind", "section", "value"}));
+  EXPECT_EQ(rows[2][1], to_string(EventKind::contact_yields));
+  EXPECT_EQ(rows[2][2], "");
+  EXPECT_EQ(rows[3][2], "17");
+  EXPECT_EQ(number(rows[3][0]), sample_result().transitions[2].time);
+}
+
+TEST(HistoryCsv, HasTheAgreedColumnsAndAsManyInEveryRow) {
+  const Table rows = parse_csv(history_csv(sample_result().history));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{
+                         "time_s", "force_N", "indentation_m", "w_c_m", "w_m_m", "f_c_m", "u_mf_m",
+                         "v_c_m_per_s", "v_m_m_per_s", "stress_back_Pa", "U_m_J", "U_k_J", "U_e_J",
+                         "U_p_J", "U_c_J", "D_c_J", "energy_error", "momentum_error"}));
+  EXPECT_EQ(rows[1].size(), rows[0].size());
+  EXPECT_EQ(number(rows[1][0]), 1e-6 / 3.0);
+  EXPECT_EQ(number(rows[1][1]), 1822.9000000000001);
+  EXPECT_EQ(number(rows[1][17]), -2.2204460492503131e-16);
+}
+
+TEST(SummaryJson, EchoesEveryKeyOfTheCase) {
+  const auto json = parsed_summary(sample_case(), sample_result());
+  for (const CaseKey& key : case_keys()) {
+    const auto& table = key.table().empty() ? json.at("case") : json.at("case").at(key.table());
+    EXPECT_TRUE(table.contains(key.leaf())) << key.name;
+  }
+  EXPECT_EQ(json.at("case").at("beam").at("length"), 0.7112);
+  EXPECT_EQ(json.at("case").at("beam").at("ends"), (std::vector<std::string>{"free", "free"}));
+  EXPECT_EQ(json.at("case").at("solver").at("method"), "erk");
+  EXPECT_TRUE(json.at("case").at("solver").at("step").is_null());
+  EXPECT_EQ(json.at("case_units").at("beam.length"), "m");
+}
+
+TEST(SummaryJson, TellsOutcomeCountsZonesAndCost) {
+  const auto json = parsed_summary(sample_case(), sample_result());
+  EXPECT_EQ(json.at("outcome").at("kind"), "completed");
+  EXPECT_EQ(json.at("outcome").at("time_s"), 8e-3);
+  EXPECT_EQ(json.at("counts").at("sub_impacts"), 3);
+  EXPECT_EQ(json.at("counts").at("zones"), 2);
+  EXPECT_EQ(json.at("counts").at("subzones"), 3);
+  EXPECT_EQ(json.at("zones").size(), 2u);
+  EXPECT_EQ(json.at("zones")[0].at("end_s"), 0.6e-3);
+  EXPECT_TRUE(json.at("zones")[1].at("end_s").is_null());
+  EXPECT_EQ(json.at("work").at("steps"), 1234);
+  EXPECT_EQ(json.at("work").at("wall_s"), 0.25);
+  EXPECT_EQ(json.at("first_yield").at("contact_s"), 1e-6 / 3.0);
+  EXPECT_TRUE(json.at("first_yield").at("section_s").is_null());
+}
+
+TEST(SummaryJson, NamesTheVersionOfEveryLibrary) {
+  const auto json = parsed_summary(sample_case(), sample_result());
+  for (const char* library : {"SUNDIALS", "KLU", "Eigen", "fmt", "nlohmann-json", "toml++"}) {
+    const std::string version = json.at("libraries").at(library);
+    EXPECT_NE(version.find('.'), std::string::npos) << library << ' ' << version;
+  }
+}
+
+TEST(SummaryJson, StaysValidWhenNumbersAreNot) {
+  Case input = sample_case();
+  input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
+  Result result = sample_result();
+  result.max_energy_error = std::numeric_limits<double>::quiet_NaN();
+  result.used.yield_indentation = std::numeric_limits<double>::infinity();
+  const auto json = parsed_summary(input, result);
+  EXPECT_EQ(json.at("case").at("beam").at("yield_stress"), "inf");
+  EXPECT_TRUE(json.at("conservation").at("max_energy_error_relative").is_null());
+  EXPECT_TRUE(json.at("used").at("yield_indentation_m").is_null());
+}
+
+TEST(SummaryJson, StaysValidWhenATitleIsNoUtf8) {
+  Case input = sample_case();
+  input.title = "broken \xff title";
+  EXPECT_NO_THROW(parsed_summary(input, sample_result()));
+}
+
+TEST(SummaryJson, KeepsAllDigits) {
+  Result result = sample_result();
+  result.max_force = 0.1 + 0.2;
+  EXPECT_EQ(parsed_summary(sample_case(), result).at("maxima").at("force_N").get<double>(),
+            0.1 + 0.2);
+}
+
+TEST(WriteResults, LeavesTheFourFilesAndNothingElse) {
+  const TemporaryDirectory directory;
+  prepare_output_directory(directory.path / "new" / "deep");
+  write_results(directory.path / "new" / "deep", sample_case(), sample_result());
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory.path / "new" / "deep")) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"events.csv", "history.csv", "summary.json",
+                                             "transitions.csv"}));
+}
+
+TEST(WriteResults, ReplacesAnEarlierRun) {
+  const TemporaryDirectory directory;
+  write_results(directory.path, sample_case(), sample_result());
+  Result later = sample_result();
+  later.sub_impacts.clear();
+  write_results(directory.path, sample_case(), later);
+  std::ifstream file(directory.path / "events.csv");
+  std::ostringstream text;
+  text << file.rdbuf();
+  EXPECT_EQ(text.str(), events_csv({}));
+}
+
+TEST(WriteResults, NamesTheFileItCannotWrite) {
+  const TemporaryDirectory directory;
+  fs::create_directories(directory.path / "events.csv" / "occupied");
+  try {
+    write_results(directory.path, sample_case(), sample_result());
+    FAIL() << "a directory was overwritten by a file";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("events.csv: cannot be written"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_FALSE(fs::exists(directory.path / "events.csv.partial"));
+}
+
+TEST(PrepareOutputDirectory, RefusesAPlaceThatIsAFile) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path / "file") << "x";
+  EXPECT_THROW(prepare_output_directory(directory.path / "file"), OutputError);
+  EXPECT_THROW(prepare_output_directory(directory.path / "file" / "below"), OutputError);
+}
+
+TEST(PrepareOutputDirectory, LeavesNoTrace) {
+  const TemporaryDirectory directory;
+  prepare_output_directory(directory.path);
+  EXPECT_TRUE(fs::is_empty(directory.path));
+}
+
+}  // namespace
+}  // namespace subimpact
