@@ -43,11 +43,13 @@ void solve_linear(std::array<NodeForces, n_force_nodes>& a, NodeForces& b) {
 
 }  // namespace
 
-Exponential::Exponential(ForcedOscillators& oscillators, const ExponentialOptions& options)
-    : oscillators_(oscillators),
+Exponential::Exponential(std::unique_ptr<ForcedOscillators> oscillators,
+                         const ExponentialOptions& options)
+    : owned_(std::move(oscillators)),
+      oscillators_(*owned_),
       options_(options),
-      n_(oscillators.size()),
-      scales_(oscillators.scales()),
+      n_(oscillators_.size()),
+      scales_(oscillators_.scales()),
       unit_(scales_.position / scales_.velocity) {
   if (options_.fixed_step) {
     unit_ = *options_.fixed_step;

@@ -33,7 +33,7 @@ struct ExponentialOptions {
 /// state_at gives the flow under the step's force: exact but for the cubic.
 class Exponential final : public Integrator {
  public:
-  Exponential(ForcedOscillators& oscillators, const ExponentialOptions& options);
+  Exponential(std::unique_ptr<ForcedOscillators> oscillators, const ExponentialOptions& options);
 
   void restart(double t, const State& y) override;
   void step() override;
@@ -54,6 +54,7 @@ class Exponential final : public Integrator {
   double fourth_derivative_bound() const;
   bool is_decided(const Ends& ends, double h, double doubt) const;
 
+  std::unique_ptr<ForcedOscillators> owned_;
   ForcedOscillators& oscillators_;
   ExponentialOptions options_;
   std::size_t n_;

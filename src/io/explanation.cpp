@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "simulate/case_choices.h"
 #include "subimpact/io/report.h"
 #include "subimpact/simulate/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
@@ -43,8 +44,9 @@ std::string section_text(const Case& input, const Used& used) {
 }
 
 std::string method_text(const Case& input, const Used& used) {
-  return fmt::format("{}{}", to_string(input.solver.method),
-                     used.table ? ", table " + *used.table : "");
+  return fmt::format("{}{}{}", to_string(input.solver.method),
+                     used.table ? ", table " + *used.table : "",
+                     used.max_order ? fmt::format(", order up to {}", *used.max_order) : "");
 }
 
 std::string step_text(const Case& input, const Used& used) {
@@ -107,6 +109,7 @@ std::string explanation(const Case& input, const Used& used,
                      used.position_tolerance, used.velocity_tolerance, input.solver.rtol));
   }
   line("events", std::string(to_string(used.events)));
+  line("section reversals", name_of(used.reversals));
   line("end", duration_text(input.end_time));
   head("Expected cost (rough: yielding and repeated contact cannot be foreseen)");
   if (cost) {
@@ -144,9 +147,10 @@ std::string method_listing() {
   for (const Choice& method : find_case_key("solver.method")->choices) {
     fmt::format_to(out, "  {:<20} {}\n", method.name, method.note);
   }
-  fmt::format_to(out,
-                 "\nTables (solver.table): order(order of the error estimate), right-hand sides a "
-                 "step\n");
+  fmt::format_to(
+      out,
+      "\nTables (solver.table): order(order of the error estimate), stages or right-hand "
+      "sides a step\n");
   for (const MethodTable& table : method_tables()) {
     fmt::format_to(out, "  {:<10} {:<20} {}({}) {:>3}  {}\n", to_string(table.method), table.name,
                    table.order, table.embedded_order, table.evaluations, table.note);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "simulate/case_choices.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/versions.h"
 #include "subimpact/simulate/case_keys.h"
@@ -62,6 +63,8 @@ Json what_was_used(const Case& input, const Used& used) {
       {"position_tolerance_m", adaptive ? number(used.position_tolerance) : Json(nullptr)},
       {"velocity_tolerance_m_per_s", adaptive ? number(used.velocity_tolerance) : Json(nullptr)},
       {"events", to_string(used.events)},
+      {"reversals", name_of(used.reversals)},
+      {"max_order", used.max_order ? Json(*used.max_order) : Json(nullptr)},
       {"contact_stiffness_N_per_m1.5", number(used.contact_stiffness)},
       {"yield_indentation_m", number(used.yield_indentation)},
       {"yield_curvature_per_m", number(used.yield_curvature)},
@@ -115,6 +118,8 @@ Json work_counts(const Work& work) {
       {"jacobians", work.jacobians},
       {"factorisations", work.factorisations},
       {"roots", work.roots},
+      {"nonlinear_iterations", work.nonlinear_iterations},
+      {"nonlinear_failures", work.nonlinear_failures},
       {"setup_s", number(work.setup_seconds)},
       {"wall_s", number(work.wall_seconds)},
   };

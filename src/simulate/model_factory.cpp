@@ -7,14 +7,11 @@
 #include <cmath>
 #include <utility>
 
-#include "integrate/arkode_ark.h"
-#include "integrate/arkode_erk.h"
-#include "integrate/central_difference.h"
 #include "integrate/cvode.h"
 #include "integrate/klu_mass_solver.h"
-#include "integrate/nystrom.h"
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
+#include "model/modal_mesh.h"
 #include "subimpact/simulate/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
 
@@ -110,6 +107,9 @@ bool uses_symmetry(const Case& input) {
 
 StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage) {
   std::unique_ptr<BeamMesh> mesh = make_mesh(input);
+  if (input.solver.method == Method::exponential) {
+    mesh = std::make_unique<ModalMesh>(std::move(mesh), input.scene.beam.bending_stiffness());
+  }
   SectionField sections = make_sections(input, mesh->n_sections(), storage);
   std::unique_ptr<MassSolver> solver;
   if (input.solver.mass_solver == MassSolverKind::klu) {
@@ -134,6 +134,12 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.yield_curvature = scene.beam.yield_curvature();
   used.first_period = 2.0 * M_PI / free_free_frequencies(scene.beam, 1).front();
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
+  if (input.solver.method == Method::exponential && beam.sections().can_yield()) {
+    throw InvalidCase(
+        "solver.method",
+        "is \"exponential\", which needs a beam that does not yield; set model.section = "
+        "\"elastic\", or use \"nystrom\" for a yielding one");
+  }
   used.table = table_used(input);
   const bool central = input.solver.method == Method::central_difference;
   used.events =
@@ -168,49 +174,6 @@ Used describe(const Case& input, const StruckBeam& beam) {
     }
   }
   return used;
-}
-
-std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used, StruckBeam& beam) {
-  if (input.solver.method == Method::central_difference) {
-    return std::make_unique<CentralDifference>(beam, *used.step);
-  }
-  if (input.solver.method == Method::nystrom) {
-    NystromOptions options;
-    options.table = *used.table;
-    options.relative_tolerance = input.solver.rtol;
-    options.fixed_step = input.solver.step;
-    options.max_step = input.solver.max_step;
-    return std::make_unique<Nystrom>(beam, options);
-  }
-  const VectorOperations vector_operations =
-      input.solver.vector_operations == VectorOperationsKind::library ? VectorOperations::library
-                                                                      : VectorOperations::project;
-  if (is_multistep(input.solver.method)) {
-    CvodeOptions options;
-    options.max_order = *used.max_order;
-    options.relative_tolerance = input.solver.rtol;
-    options.max_step = input.solver.max_step;
-    options.vector_operations = vector_operations;
-    return input.solver.method == Method::adams ? make_cvode_adams(beam, options)
-                                                : make_cvode_bdf(beam, options);
-  }
-  if (input.solver.method == Method::dirk || input.solver.method == Method::imex) {
-    ArkOptions options;
-    options.table = *used.table;
-    options.relative_tolerance = input.solver.rtol;
-    options.fixed_step = input.solver.step;
-    options.max_step = input.solver.max_step;
-    options.vector_operations = vector_operations;
-    return input.solver.method == Method::dirk ? make_arkode_dirk(beam, options)
-                                               : make_arkode_imex(beam, options);
-  }
-  ErkOptions options;
-  options.table = *used.table;
-  options.relative_tolerance = input.solver.rtol;
-  options.fixed_step = input.solver.step;
-  options.max_step = input.solver.max_step;
-  options.vector_operations = vector_operations;
-  return make_arkode_erk(beam, options);
 }
 
 }  // namespace subimpact

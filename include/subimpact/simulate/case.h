@@ -31,7 +31,7 @@ struct ModelOptions {
   SymmetryUse symmetry = SymmetryUse::automatic;
 };
 
-enum class Method { central_difference, erk, nystrom, dirk, imex, adams, bdf };
+enum class Method { central_difference, erk, nystrom, dirk, imex, adams, bdf, exponential };
 
 /// Who solves with the mass matrix.
 enum class MassSolverKind { tridiagonal, klu };
