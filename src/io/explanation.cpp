@@ -131,7 +131,9 @@ std::string key_listing() {
   for (const CaseKey& key : case_keys()) {
     if (key.table() != table) fmt::format_to(out, "\n[{}]\n", table = key.table());
     fmt::format_to(out, "{:<18} {}\n", key.leaf(), key.meaning);
-    fmt::format_to(out, "{:<18} {}; {}\n", "", allowed_values(key),
+    const std::string allowed =
+        key.type == KeyType::choice ? "one of those below" : allowed_values(key);
+    fmt::format_to(out, "{:<18} {}; {}\n", "", allowed,
                    key.required ? "required" : "default " + key.default_text);
     for (const Choice& choice : key.choices) {
       fmt::format_to(out, "{:<20} {:<18} {}\n", "", choice.name, choice.note);
@@ -152,8 +154,9 @@ std::string method_listing() {
       "\nTables (solver.table): order(order of the error estimate), stages or right-hand "
       "sides a step\n");
   for (const MethodTable& table : method_tables()) {
-    fmt::format_to(out, "  {:<10} {:<20} {}({}) {:>3}  {}\n", to_string(table.method), table.name,
-                   table.order, table.embedded_order, table.evaluations, table.note);
+    fmt::format_to(out, "  {:<10} {:<20} {:>6} {:>3}  {}\n", to_string(table.method), table.name,
+                   fmt::format("{}({})", table.order, table.embedded_order), table.evaluations,
+                   table.note);
   }
   return fmt::to_string(text);
 }
