@@ -41,6 +41,8 @@ struct SubImpact {
   double striker_velocity = 0.0;      ///< m/s, at its end
   int zone = 0;                       ///< numbered from 1
   int subzone = 0;                    ///< numbered from 1 within the zone
+  std::optional<double> start_error;  ///< s, estimated error of start, if asked for
+  std::optional<double> end_error;    ///< s, estimated error of end
 };
 
 /// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before

@@ -86,6 +86,16 @@ struct Work {
   double wall_seconds = 0.0;  ///< whole, set-up included
 };
 
+/// How far the event times of a result can be trusted.
+struct Trust {
+  std::string companion;  ///< the run it was compared with, in words
+  /// The first sub-impact (from 0) whose existence or place in the order the companion run does not
+  /// confirm; none if all are confirmed.
+  std::optional<std::size_t> first_undecided;
+  std::string reason;          ///< why it is undecided
+  double largest_error = 0.0;  ///< s, of the times before that
+};
+
 struct Result {
   Outcome outcome;
   Used used;
@@ -102,6 +112,7 @@ struct Result {
   double beam_mean_velocity = 0.0;            ///< m/s, at the end: beam momentum over beam mass
   double max_energy_error = 0.0;  ///< largest relative error over the rows and at the end
   double max_momentum_error = 0.0;
+  std::optional<Trust> trust;  ///< with error bars
   Work work;
 };
 

@@ -13,6 +13,15 @@
 namespace subimpact {
 namespace {
 
+// Newton's method. Sections that begin to flow or turn back change the stiffness from one stage to the
+// next, and with a matrix kept over many steps the iteration then fails until the step is cut beyond
+// recovery: the matrix is made anew each step (a twentieth of the step's cost), and ten iterations
+// are allowed. The estimate of the rate of convergence starts from 1 then, and has to be allowed to
+// fall as fast as it does, or linear stages are solved twice.
+constexpr int steps_per_matrix = 1;
+constexpr int max_iterations = 10;
+constexpr double fastest_fall_of_rate = 1e-3;
+
 using Part = MechanicalSystem::Part;
 
 struct DirkOptions : ArkOptions {};
@@ -94,6 +103,10 @@ class ArkSolver : private SolverFrame {
     // No dense output is asked for, and Lagrange interpolation costs no evaluation.
     check(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
     check(ARKStepSetMaxNumSteps(memory, -1), "ARKStepSetMaxNumSteps");
+    check(ARKStepSetLSetupFrequency(memory, steps_per_matrix), "ARKStepSetLSetupFrequency");
+    check(ARKStepSetJacEvalFrequency(memory, steps_per_matrix), "ARKStepSetJacEvalFrequency");
+    check(ARKStepSetMaxNonlinIters(memory, max_iterations), "ARKStepSetMaxNonlinIters");
+    check(ARKStepSetNonlinCRDown(memory, fastest_fall_of_rate), "ARKStepSetNonlinCRDown");
     if (options.max_step) {
       check(ARKStepSetMaxStep(memory, *options.max_step), "ARKStepSetMaxStep");
     }

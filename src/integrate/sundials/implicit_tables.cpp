@@ -25,19 +25,15 @@ const Entry entries[] = {
     {"esdirk437", ARKODE_ESDIRK437L2SA_7_3_4, ARKODE_ERK_NONE, "Kennedy and Carpenter 2019, ESDIRK4(3)7L[2]SA: least damping of its order"},
     {"esdirk436", ARKODE_ESDIRK436L2SA_6_3_4, ARKODE_ERK_NONE, "Kennedy and Carpenter 2016, ESDIRK4(3)6L[2]SA"},
     {"esdirk325", ARKODE_ESDIRK325L2SA_5_2_3, ARKODE_ERK_NONE, "Kennedy and Carpenter 2016, ESDIRK3(2)5L[2]SA"},
-    {"esdirk324", ARKODE_ESDIRK324L2SA_4_2_3, ARKODE_ERK_NONE, "Kennedy and Carpenter 2016, ESDIRK3(2)4L[2]SA"},
     {"ark548b", ARKODE_ARK548L2SAb_DIRK_8_4_5, ARKODE_ARK548L2SAb_ERK_8_4_5, "Kennedy and Carpenter 2019, ARK5(4)8L[2]SAb"},
     {"ark548", ARKODE_ARK548L2SA_DIRK_8_4_5, ARKODE_ARK548L2SA_ERK_8_4_5, "Kennedy and Carpenter 2003, ARK5(4)8L[2]SA"},
     {"ark437", ARKODE_ARK437L2SA_DIRK_7_3_4, ARKODE_ARK437L2SA_ERK_7_3_4, "Kennedy and Carpenter 2019, ARK4(3)7L[2]SA"},
     {"ark436", ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4, "Kennedy and Carpenter 2003, ARK4(3)6L[2]SA"},
     {"ark324", ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3, "Kennedy and Carpenter 2003, ARK3(2)4L[2]SA"},
-    {"kvaerno-745", ARKODE_KVAERNO_7_4_5, ARKODE_ERK_NONE, "Kvaerno 2004, ESDIRK5/4"},
-    {"kvaerno-534", ARKODE_KVAERNO_5_3_4, ARKODE_ERK_NONE, "Kvaerno 2004, ESDIRK4/3"},
-    {"kvaerno-423", ARKODE_KVAERNO_4_2_3, ARKODE_ERK_NONE, "Kvaerno 2004, ESDIRK3/2"},
-    {"sdirk-534", ARKODE_SDIRK_5_3_4, ARKODE_ERK_NONE, "Hairer and Wanner, SDIRK4: five implicit stages"},
-    {"cash-534", ARKODE_CASH_5_3_4, ARKODE_ERK_NONE, "Cash 1979, SDIRK4(3)"},
+    {"kvaerno-7-4-5", ARKODE_KVAERNO_7_4_5, ARKODE_ERK_NONE, "Kvaerno 2004, ESDIRK5/4"},
+    {"sdirk-5-3-4", ARKODE_SDIRK_5_3_4, ARKODE_ERK_NONE, "Hairer and Wanner, SDIRK4: five implicit stages"},
     {"trbdf2", ARKODE_TRBDF2_3_3_2, ARKODE_ERK_NONE, "Bank et al. 1985: trapezoidal rule, then BDF2"},
-    {"sdirk-212", ARKODE_SDIRK_2_1_2, ARKODE_ERK_NONE, "two implicit stages: the cheapest step"},
+    {"sdirk-2-1-2", ARKODE_SDIRK_2_1_2, ARKODE_ERK_NONE, "two implicit stages: the cheapest step"},
 };
 // clang-format on
 

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "subimpact/simulate/simulate.h"
+#include "subimpact/study/match.h"
+
+namespace subimpact {
+
+/// One method's run, set beside the reference run.
+struct ComparedRun {
+  std::string name;  ///< as asked for: "erk", "erk:dormand-prince"
+  Case input;
+  Result result;
+  std::vector<MatchedPair> pairs;       ///< reference (first) against this run (second)
+  std::size_t n_corresponding = 0;      ///< leading sub-impacts that correspond
+  double max_start_difference = 0.0;    ///< s, over the corresponding ones
+  double max_end_difference = 0.0;      ///< s
+  double max_peak_difference = 0.0;     ///< relative
+  double max_impulse_difference = 0.0;  ///< relative to the largest impulse
+  std::string
+      remark;  ///< in words: how count and order differ from the reference, and from where on
+};
+
+struct Comparison {
+  Case reference_input;
+  Result reference;  ///< with error bars
+  std::vector<ComparedRun> runs;
+};
+
+/// Runs a scene by several methods ("central-difference", "erk", or with a table "erk:verner"),
+/// each with the case's tolerance or its default step, beside a reference run: nystrom at rtol =
+/// 1e-11 with its own error bars. History rows are left out. Throws InvalidCase, also for unknown
+/// methods.
+Comparison compare(const Case& input, const std::vector<std::string>& methods,
+                   const std::function<void(const std::string& name)>& announce = {});
+
+}  // namespace subimpact

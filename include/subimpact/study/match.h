@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "subimpact/events/records.h"
+
+namespace subimpact {
+
+/// A sub-impact of one run and the one of another run that corresponds to it; one of them may be
+/// missing.
+struct MatchedPair {
+  std::optional<std::size_t> first, second;  ///< indices into the two lists
+};
+
+/// Pairs the sub-impacts of two runs of one scene, in order of time. Two correspond if each
+/// overlaps the other more than it overlaps any other one, and their starts or ends are closer than
+/// half of the longer duration.
+std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
+                                           const std::vector<SubImpact>& second);
+
+/// How many leading sub-impacts of the two lists correspond one to one.
+std::size_t n_leading_matches(const std::vector<MatchedPair>& pairs);
+
+}  // namespace subimpact

@@ -1,0 +1,103 @@
+#include "subimpact/study/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "subimpact/simulate/case_keys.h"
+#include "subimpact/study/error_bars.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double reference_tolerance = 1e-11;
+
+Case with_method(const Case& input, const std::string& name) {
+  Case chosen = input;
+  chosen.output.interval = 0.0;
+  chosen.solver.table.reset();
+  chosen.solver.max_order.reset();
+  const std::size_t colon = name.find(':');
+  assign(chosen, *find_case_key("solver.method"), name.substr(0, colon));
+  if (colon != std::string::npos) {
+    assign(chosen, *find_case_key("solver.table"), name.substr(colon + 1));
+  } else if (chosen.solver.method == input.solver.method) {
+    chosen.solver.table = input.solver.table;
+    chosen.solver.max_order = input.solver.max_order;
+  }
+  const bool fixed = chosen.solver.method == Method::central_difference;
+  if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
+  return chosen;
+}
+
+std::string remark_on(const ComparedRun& run, const Result& reference) {
+  const std::size_t here = run.result.sub_impacts.size();
+  const std::size_t there = reference.sub_impacts.size();
+  if (!run.result.outcome.completed()) return run.result.outcome.message;
+  if (run.n_corresponding == there && here == there) return "every sub-impact corresponds";
+  std::string text = fmt::format("{} sub-impacts instead of {}; the first {} correspond", here,
+                                 there, run.n_corresponding);
+  if (run.n_corresponding < run.pairs.size()) {
+    const MatchedPair& odd = run.pairs[run.n_corresponding];
+    const SubImpact& sub_impact =
+        odd.first ? reference.sub_impacts[*odd.first] : run.result.sub_impacts[*odd.second];
+    text += fmt::format("; at {:.3f} us {} a sub-impact of {:.3f} us that {}",
+                        1e6 * sub_impact.start, odd.first ? "the reference has" : "it has",
+                        1e6 * (sub_impact.end.value_or(sub_impact.start) - sub_impact.start),
+                        odd.first ? "is missing or merged here" : "the reference does not have");
+  }
+  return text;
+}
+
+void set_beside(ComparedRun& run, const Result& reference) {
+  const auto& there = reference.sub_impacts;
+  const auto& here = run.result.sub_impacts;
+  run.pairs = match_sub_impacts(there, here);
+  run.n_corresponding = n_leading_matches(run.pairs);
+  double largest_impulse = 0.0;
+  for (const SubImpact& s : there) largest_impulse = std::max(largest_impulse, s.impulse);
+  for (std::size_t i = 0; i < run.n_corresponding; ++i) {
+    run.max_start_difference =
+        std::max(run.max_start_difference, std::abs(here[i].start - there[i].start));
+    if (here[i].end && there[i].end) {
+      run.max_end_difference =
+          std::max(run.max_end_difference, std::abs(*here[i].end - *there[i].end));
+    }
+    run.max_peak_difference =
+        std::max(run.max_peak_difference, std::abs(here[i].peak_force / there[i].peak_force - 1.0));
+    run.max_impulse_difference = std::max(
+        run.max_impulse_difference, std::abs(here[i].impulse - there[i].impulse) / largest_impulse);
+  }
+  run.remark = remark_on(run, reference);
+}
+
+}  // namespace
+
+Comparison compare(const Case& input, const std::vector<std::string>& methods,
+                   const std::function<void(const std::string&)>& announce) {
+  // Refused before anything is run.
+  std::vector<ComparedRun> runs;
+  for (const std::string& name : methods) {
+    ComparedRun run;
+    run.name = name;
+    run.input = with_method(input, name);
+    explain(run.input);
+    runs.push_back(std::move(run));
+  }
+  Comparison comparison;
+  comparison.reference_input = with_method(input, "nystrom");
+  comparison.reference_input.solver.step.reset();
+  comparison.reference_input.solver.rtol = reference_tolerance;
+  if (announce) announce("reference");
+  comparison.reference = simulate_with_error_bars(comparison.reference_input);
+  for (ComparedRun& run : runs) {
+    if (announce) announce(run.name);
+    run.result = simulate(run.input);
+    set_beside(run, comparison.reference);
+    comparison.runs.push_back(std::move(run));
+  }
+  return comparison;
+}
+
+}  // namespace subimpact
