@@ -85,9 +85,13 @@ void EventLoop::locate_events() {
   // looked at again, in case an estimate had the order wrong.
   std::optional<Guard> event;
   Crossing crossing;
-  while (beam_.find_crossing({t0, t1, y0, *y1}, options_.reversal_tolerance,
-                             event ? &*event : nullptr, crossing)) {
-    t1 = locate(crossing, {t0, t1, y0, *y1});
+  dealt_with_.clear();
+  while (
+      beam_.find_crossing({t0, t1, y0, *y1}, options_.reversal_tolerance, dealt_with_, crossing)) {
+    const StepEnds step{t0, t1, y0, *y1};
+    dealt_with_.push_back(crossing.guard);
+    if (crossing.in_doubt && !confirm(crossing, step)) continue;
+    t1 = locate(crossing, step);
     std::swap(event_state_, trial_state_);
     y1 = &event_state_;
     event = crossing.guard;
@@ -104,6 +108,25 @@ void EventLoop::locate_events() {
   state_ = &integrator_.state();
 }
 
+bool EventLoop::confirm(Crossing& crossing, const StepEnds& step) {
+  // The top of the hump is where the indentation turns: from growing, or from falling for the end
+  // of contact.
+  const double sense = crossing.guard.kind == EventKind::contact_ends ? -1.0 : 1.0;
+  const Guard turn{EventKind::contact_unloads, 0, sense};
+  RootOptions options;
+  options.tolerance = root_tolerance * step.t1;
+  const double top = find_rise(
+      [&](double t) {
+        integrator_.state_at(t, trial_state_);
+        return beam_.evaluate(turn, trial_state_);
+      },
+      step.t0, step.t1, crossing.guess, options);
+  if (!(beam_.evaluate(crossing.guard, trial_state_).value > 0.0)) return false;
+  crossing.before = top;
+  crossing.guess = 0.5 * (crossing.after + top);
+  return true;
+}
+
 double EventLoop::locate(const Crossing& crossing, const StepEnds& step) {
   if (!(crossing.before > step.t0)) {  // it happened at the start
     trial_state_ = step.y0;
@@ -113,12 +136,20 @@ double EventLoop::locate(const Crossing& crossing, const StepEnds& step) {
                        crossing.guard.kind == EventKind::contact_unloads;
   RootOptions options;
   options.tolerance = is_turn ? turn_tolerance * step.length() : root_tolerance * step.t1;
-  return find_rise(
-      [&](double t) {
-        integrator_.state_at(t, trial_state_);
-        return beam_.evaluate(crossing.guard, trial_state_);
-      },
-      crossing.after, crossing.before, crossing.guess, options);
+  const auto guard_at = [&](double t) {
+    integrator_.state_at(t, trial_state_);
+    return beam_.evaluate(crossing.guard, trial_state_);
+  };
+  double after = crossing.after;
+  double before = crossing.before;
+  double guess = crossing.guess;
+  // Where the cubic put the guard's lowest point it may already have been crossed again.
+  if (after > step.t0 && guard_at(after).value > 0.0) {
+    before = after;
+    after = step.t0;
+    guess = 0.5 * (after + before);
+  }
+  return find_rise(guard_at, after, before, guess, options);
 }
 
 void EventLoop::report(const Guard& guard, double time, const State& y, bool switch_branch) {

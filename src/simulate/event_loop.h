@@ -59,7 +59,10 @@ class EventLoop {
  private:
   void locate_events();
   void interpolate_events();
+  // The instant of a crossing, its state in trial_state_.
   double locate(const Crossing& crossing, const StepEnds& step);
+  // Whether a doubtful crossing happens; if so, narrows it to the time before the hump's top.
+  bool confirm(Crossing& crossing, const StepEnds& step);
   void report(const Guard& guard, double time, const State& y, bool switch_branch);
   void check_state(const State& y);
 
@@ -70,6 +73,7 @@ class EventLoop {
   double time_ = 0.0;
   const State* state_ = nullptr;
   State end_state_, event_state_, trial_state_;
+  GuardList dealt_with_;  // in the step being looked at
   double initial_energy_ = 0.0;
   long n_events_ = 0;
   long n_steps_ = 0;

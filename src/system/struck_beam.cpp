@@ -14,6 +14,16 @@ namespace {
 // step is not an event: it is below the rounding of the displacements themselves.
 constexpr double negligible_excursion = 1e-13;
 
+// A cubic through a step's ends is trusted to know the height of a hump between them to this part
+// of it; a hump that comes closer to zero is looked at on the trajectory.
+constexpr double doubtful_share = 0.5;
+
+bool contains(const GuardList& guards, EventKind kind, std::size_t section) {
+  return std::any_of(guards.begin(), guards.end(), [&](const Guard& guard) {
+    return guard.kind == kind && guard.section == section;
+  });
+}
+
 }  // namespace
 
 StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
@@ -143,7 +153,7 @@ GuardValue StruckBeam::evaluate(const Guard& guard, const State& y) {
   if (guard.kind == EventKind::contact_unloads) {
     acceleration({y.data(), n_ + 1}, trial_);
     const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
-    return {-indentation_rate(y), -second};
+    return {-guard.sense * indentation_rate(y), -guard.sense * second};
   }
   if (guard.kind == EventKind::section_reverses) {
     acceleration({y.data(), n_ + 1}, trial_);
@@ -155,7 +165,7 @@ GuardValue StruckBeam::evaluate(const Guard& guard, const State& y) {
 }
 
 bool StruckBeam::find_crossing(const StepEnds& step, double reversal_tolerance,
-                               const Guard* without, Crossing& earliest) {
+                               const GuardList& without, Crossing& earliest) {
   earliest.guess = std::numeric_limits<double>::infinity();
   bool found = find_contact_crossing(step, without, earliest);
   if (sections_.can_yield() && std::isfinite(reversal_tolerance)) {
@@ -164,7 +174,7 @@ bool StruckBeam::find_crossing(const StepEnds& step, double reversal_tolerance,
   return found;
 }
 
-bool StruckBeam::find_contact_crossing(const StepEnds& step, const Guard* without,
+bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& without,
                                        Crossing& earliest) {
   const double lambda0 = indentation(step.y0);
   const double lambda1 = indentation(step.y1);
@@ -172,11 +182,10 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const Guard* withou
   const double rate1 = indentation_rate(step.y1);
   bool found = false;
   const auto consider = [&](EventKind kind) {
-    if (without && without->kind == kind) return;
+    if (contains(without, kind, 0)) return;
     const GuardValue g0 = contact_guard(kind, lambda0, rate0);
     const GuardValue g1 = contact_guard(kind, lambda1, rate1);
     double after = 0.0;
-    double before = 1.0;
     double guess = 0.0;
     if (kind == EventKind::contact_unloads) {
       if (!(g1.value > 0.0)) return;
@@ -198,17 +207,22 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const Guard* withou
       } else {
         // Not beyond at the end; was it in between?
         if (!(g0.rate > 0.0 && g1.rate < 0.0)) return;
-        before = path.peak();
-        if (!(path(before) > negligible_excursion * scales_.position)) return;
+        const double peak = path.peak();
+        const double height = path(peak) - std::max(g0.value, g1.value);
+        if (!(path(peak) > negligible_excursion * scales_.position - doubtful_share * height))
+          return;
+        const double time = step.t0 + peak * step.length();
+        if (time < earliest.guess) {
+          earliest = {{kind}, step.t0, step.t1, time, true};
+          found = true;
+        }
+        return;
       }
-      guess = path.rise(after, before);
+      guess = path.rise(after, 1.0);
     }
     const double t_guess = step.t0 + guess * step.length();
     if (t_guess < earliest.guess) {
-      earliest = {{kind},
-                  step.t0 + after * step.length(),
-                  before == 1.0 ? step.t1 : step.t0 + before * step.length(),
-                  t_guess};
+      earliest = {{kind}, step.t0 + after * step.length(), step.t1, t_guess};
       found = true;
     }
   };
@@ -227,7 +241,7 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const Guard* withou
   return found;
 }
 
-bool StruckBeam::find_reversal(const StepEnds& step, double tolerance, const Guard* without,
+bool StruckBeam::find_reversal(const StepEnds& step, double tolerance, const GuardList& without,
                                Crossing& earliest) {
   read_kinematics(step.y1, end_);
   const double h = step.length();
@@ -240,7 +254,7 @@ bool StruckBeam::find_reversal(const StepEnds& step, double tolerance, const Gua
   bool found = false;
   const auto consider = [&](std::size_t i) {
     const double sense = r0[i] > 0.0 ? 1.0 : -1.0;
-    if (without && without->kind == EventKind::section_reverses && without->section == i) return;
+    if (contains(without, EventKind::section_reverses, i)) return;
     const HermiteCubic path(sense * k0[i], sense * r0[i], sense * k1[i], sense * r1[i], h);
     const double at = path.peak();
     const double edge = sense > 0.0 ? high[i] : -low[i];

@@ -35,7 +35,7 @@ struct Energies {
 struct Guard {
   EventKind kind;
   std::size_t section = 0;
-  double sense = 1.0;  ///< of a section's flow
+  double sense = 1.0;  ///< of a section's flow; of the indentation's motion before contact_unloads
 };
 
 /// A guard found to have been crossed within a step.
@@ -44,7 +44,13 @@ struct Crossing {
   double after = 0.0;   ///< time at which the guard still holds
   double before = 0.0;  ///< time by which it has been crossed
   double guess = 0.0;   ///< estimate of the instant
+  /// The guard holds at both ends of the step and comes close to being crossed in between, near
+  /// `guess`: whether it is has to be seen on the trajectory.
+  bool in_doubt = false;
 };
+
+/// Guards left out of a search, because they have been dealt with in the step.
+using GuardList = std::vector<Guard>;
 
 /// One step as the integrator took it.
 struct StepEnds {
@@ -110,10 +116,11 @@ class StruckBeam final : public MechanicalSystem {
 
   // --- events ------------------------------------------------------------------------------------
   /// The earliest crossing within a step that began at the last committed state, if any: the end of
-  /// the contact's branch (also when it would be left and regained within the step), or a section
-  /// that flowed and turned back by more than `reversal_tolerance` (1/m of curvature; infinite:
-  /// reversals are not looked for). Earliest by estimate; `without` is not considered.
-  bool find_crossing(const StepEnds& step, double reversal_tolerance, const Guard* without,
+  /// the contact's branch (also when it may be left and regained within the step: `in_doubt`), or a
+  /// section that flowed and turned back by more than `reversal_tolerance` (1/m of curvature;
+  /// infinite: reversals are not looked for). Earliest by estimate; those in `without` are left
+  /// out.
+  bool find_crossing(const StepEnds& step, double reversal_tolerance, const GuardList& without,
                      Crossing& earliest);
   /// A guard's value and rate at a state; costs an acceleration for the guards on a rate.
   GuardValue evaluate(const Guard& guard, const State& y);
@@ -147,8 +154,8 @@ class StruckBeam final : public MechanicalSystem {
   std::span<const double> beam_velocities(const State& y) const { return {y.data() + n_ + 1, n_}; }
   double force(double indentation) const;
   double force_slope(double indentation) const;
-  bool find_contact_crossing(const StepEnds& step, const Guard* without, Crossing& earliest);
-  bool find_reversal(const StepEnds& step, double tolerance, const Guard* without,
+  bool find_contact_crossing(const StepEnds& step, const GuardList& without, Crossing& earliest);
+  bool find_reversal(const StepEnds& step, double tolerance, const GuardList& without,
                      Crossing& earliest);
   GuardValue contact_guard(EventKind kind, double indentation, double rate) const;
   double curvature(const Guard& guard, std::span<const double> unknowns);

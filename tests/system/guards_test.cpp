@@ -65,7 +65,7 @@ class ContactCrossing : public testing::Test {
     return smooth_state(beam_, 1, 1e-9, indentation, rate);
   }
   bool find(double lambda0, double rate0, double lambda1, double rate1,
-            const Guard* without = nullptr) {
+            const GuardList& without = {}) {
     y0_ = state(lambda0, rate0);
     y1_ = state(lambda1, rate1);
     beam_.commit(y0_);
