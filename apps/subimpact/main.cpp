@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  subimpact explain case.toml\n"
       "  subimpact run case.toml --out out/first\n"
+      "  subimpact compare case.toml --methods central-difference,erk,exponential\n"
       "  subimpact run --help\n"
       "Exit status: 0 done, 2 bad command line or case file, 3 the solver failed.");
   program.set_version_flag("--version", version_text,
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.failure_message(usage_error);
   app::add_run(program, status);
+  app::add_compare(program, status);
   app::add_explain(program, status);
   app::add_methods(program, status);
   app::add_keys(program, status);

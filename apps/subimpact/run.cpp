@@ -10,6 +10,7 @@
 #include "progress.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/study/error_bars.h"
 
 namespace subimpact::app {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 struct RunOptions {
   CaseOptions input;
   std::string directory;
+  bool error_bars = false;
   bool quiet = false;
 };
 
@@ -40,10 +42,11 @@ int exit_status(OutcomeKind kind) {
   return failed;
 }
 
-Result simulate_with_progress(const LoadedCase& loaded, bool quiet) {
-  ProgressDisplay progress(loaded.value.end_time, quiet);
+Result simulate_with_progress(const LoadedCase& loaded, const RunOptions& options) {
+  ProgressDisplay progress(loaded.value.end_time, options.quiet);
   try {
-    return simulate(loaded.value, std::ref(progress));
+    return options.error_bars ? simulate_with_error_bars(loaded.value, std::ref(progress))
+                              : simulate(loaded.value, std::ref(progress));
   } catch (const InvalidCase& error) {
     throw CaseFileError(loaded.message(error));
   }
@@ -58,7 +61,7 @@ int run(const RunOptions& options) {
   }
   const std::filesystem::path directory = output_directory(options);
   prepare_output_directory(directory);
-  const Result result = simulate_with_progress(loaded, options.quiet);
+  const Result result = simulate_with_progress(loaded, options);
   int status = exit_status(result.outcome.kind);
   std::string unwritten;
   try {
@@ -91,11 +94,15 @@ void add_run(CLI::App& program, int& status) {
       "Directory for events.csv, transitions.csv, history.csv and summary.json; made "
       "if missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
+  command->add_flag("--error-bars", options->error_bars,
+                    "Run a more accurate companion too and state the error of every start and end; "
+                    "about doubles the time or more");
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->footer(
       "Examples:\n"
       "  subimpact run case.toml\n"
       "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"
+      "  subimpact run case.toml --error-bars\n"
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "

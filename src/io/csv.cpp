@@ -1,48 +1,17 @@
-#include <fmt/format.h>
+#include <algorithm>
+#include <string>
 
-#include <iterator>
-
+#include "io/csv_text.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
-namespace {
-
-/// A row after the other, numbers with the 17 digits that determine a double.
-class CsvText {
- public:
-  explicit CsvText(std::string_view header) { text_.append(header); }
-
-  CsvText& number(double value) { return put("{:.17g}", value); }
-  CsvText& number(const std::optional<double>& value) { return value ? number(*value) : empty(); }
-  CsvText& whole(std::size_t value) { return put("{}", value); }
-  CsvText& word(std::string_view value) { return put("{}", value); }
-  CsvText& empty() { return word(""); }
-  CsvText& end_row() {
-    text_.push_back('\n');
-    at_start_ = true;
-    return *this;
-  }
-  std::string str() const { return fmt::to_string(text_); }
-
- private:
-  template <class T>
-  CsvText& put(fmt::format_string<const T&> format, const T& value) {
-    if (!at_start_) text_.push_back(',');
-    at_start_ = false;
-    fmt::format_to(std::back_inserter(text_), format, value);
-    return *this;
-  }
-
-  fmt::memory_buffer text_;
-  bool at_start_ = true;
-};
-
-}  // namespace
-
 std::string events_csv(const std::vector<SubImpact>& sub_impacts) {
-  CsvText csv(
-      "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,max_indentation_m,"
-      "residual_indentation_m,striker_velocity_m_per_s\n");
+  const bool with_errors =
+      std::any_of(sub_impacts.begin(), sub_impacts.end(),
+                  [](const SubImpact& s) { return s.start_error.has_value(); });
+  CsvText csv(std::string("index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
+                          "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s") +
+              (with_errors ? ",start_error_s,end_error_s\n" : "\n"));
   std::size_t index = 0;
   for (const SubImpact& s : sub_impacts) {
     const std::optional<double> duration =
@@ -52,7 +21,9 @@ std::string events_csv(const std::vector<SubImpact>& sub_impacts) {
         .whole(static_cast<std::size_t>(s.subzone));
     csv.number(s.start).number(s.end).number(duration);
     csv.number(s.peak_force).number(s.impulse).number(s.max_indentation);
-    csv.number(s.residual_indentation).number(s.striker_velocity).end_row();
+    csv.number(s.residual_indentation).number(s.striker_velocity);
+    if (with_errors) csv.number(s.start_error).number(s.end_error);
+    csv.end_row();
   }
   return csv.str();
 }

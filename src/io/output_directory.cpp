@@ -64,4 +64,9 @@ void write_results(const fs::path& directory, const Case& input, const Result& r
   write_file(directory / "summary.json", summary_json(input, result));
 }
 
+void write_comparison(const fs::path& directory, const Comparison& comparison) {
+  write_file(directory / "comparison.csv", comparison_csv(comparison));
+  write_file(directory / "matches.csv", matches_csv(comparison));
+}
+
 }  // namespace subimpact

@@ -28,6 +28,23 @@ std::string zone_text(const std::vector<ZoneSummary>& zones) {
   return fmt::to_string(text);
 }
 
+// Which sub-impacts the error bars vouch for.
+std::string trust_text(const Result& result) {
+  const Trust& trust = *result.trust;
+  const std::string companion = fmt::format("(companion: {})", trust.companion);
+  if (!trust.first_undecided) {
+    return fmt::format("all times to {:.1e} us {}", trust.largest_error * us, companion);
+  }
+  const std::size_t i = *trust.first_undecided;
+  const std::string when = i < result.sub_impacts.size()
+                               ? fmt::format(" at {:.3f} us", result.sub_impacts[i].start * us)
+                               : std::string(", which this run does not have");
+  return fmt::format(
+      "times to {:.1e} us before sub-impact {}{}; from there on count and order are "
+      "uncertain: {} {}",
+      trust.largest_error * us, i + 1, when, trust.reason, companion);
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -37,15 +54,27 @@ std::string duration_text(double seconds) {
 }
 
 std::string sub_impact_table(const Result& result) {
+  const bool with_errors = result.trust.has_value();
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:>4} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12} {:>11}\n", "",
-                 "start", "end", "duration", "peak force", "impulse", "indentation", "residual",
-                 "striker");
-  fmt::format_to(out, "{:>4} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12} {:>11}\n", "no.",
-                 "us", "us", "us", "N", "N s", "max, mm", "mm", "m/s");
+  const auto heading = [&](auto... names) {
+    fmt::format_to(out, "{:>4} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12} {:>11}", names...);
+  };
+  // The two last columns, with error bars, and the line's end.
+  const auto errors = [&](const std::string& start, const std::string& end) {
+    if (with_errors) fmt::format_to(out, " {:>10} {:>10}", start, end);
+    fmt::format_to(out, "\n");
+  };
+  heading("", "start", "end", "duration", "peak force", "impulse", "indentation", "residual",
+          "striker");
+  errors("+- start", "+- end");
+  heading("no.", "us", "us", "us", "N", "N s", "max, mm", "mm", "m/s");
+  errors("us", "us");
   int zone = 0, subzone = 0;
   std::size_t index = 0;
+  const auto error_text = [](const std::optional<double>& error) {
+    return error ? fmt::format("{:.1e}", *error * us) : std::string("?");
+  };
   for (const SubImpact& s : result.sub_impacts) {
     if (s.zone != zone) {
       fmt::format_to(out, "zone {}\n", s.zone);
@@ -57,9 +86,10 @@ std::string sub_impact_table(const Result& result) {
     const std::string end = s.end ? fmt::format("{:.4f}", *s.end * us) : "(open)";
     const std::string duration = s.end ? fmt::format("{:.4f}", (*s.end - s.start) * us) : "";
     fmt::format_to(
-        out, "{:>4} {:>13.4f} {:>13} {:>11} {:>11.2f} {:>11.6f} {:>12.7f} {:>12.7f} {:>11.6f}\n",
+        out, "{:>4} {:>13.4f} {:>13} {:>11} {:>11.2f} {:>11.6f} {:>12.7f} {:>12.7f} {:>11.6f}",
         ++index, s.start * us, end, duration, s.peak_force, s.impulse, s.max_indentation * mm,
         s.residual_indentation * mm, s.striker_velocity);
+    errors(error_text(s.start_error), error_text(s.end_error));
   }
   return fmt::to_string(text);
 }
@@ -92,6 +122,7 @@ std::string run_summary(const Case& input, const Result& result) {
                                        result.striker_velocity, result.beam_mean_velocity));
   line("conservation", fmt::format("energy to {:.1e}, momentum to {:.1e}, relative",
                                    result.max_energy_error, result.max_momentum_error));
+  if (result.trust) line("error bars", trust_text(result));
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));
   line("work", fmt::format("{} steps, {} rejected, {} right-hand sides, {} events; {}", work.steps,

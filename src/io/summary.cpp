@@ -125,6 +125,17 @@ Json work_counts(const Work& work) {
   };
 }
 
+Json trust_in_times(const std::optional<Trust>& trust) {
+  if (!trust) return nullptr;
+  return {
+      {"companion", trust->companion},
+      {"max_time_error_s", number(trust->largest_error)},
+      {"first_undecided_index",
+       trust->first_undecided ? Json(*trust->first_undecided + 1) : Json(nullptr)},
+      {"reason", trust->reason.empty() ? Json(nullptr) : Json(trust->reason)},
+  };
+}
+
 }  // namespace
 
 std::string_view to_string(OutcomeKind kind) {
@@ -186,6 +197,7 @@ std::string summary_json(const Case& input, const Result& result) {
       {"conservation",
        {{"max_energy_error_relative", number(result.max_energy_error)},
         {"max_momentum_error_relative", number(result.max_momentum_error)}}},
+      {"error_bars", trust_in_times(result.trust)},
       {"work", work_counts(result.work)},
   };
   // A title may hold bytes that are no UTF-8; they are replaced rather than the file lost.

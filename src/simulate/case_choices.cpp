@@ -70,8 +70,8 @@ std::span<const Named<Method>> names_of(Method) {
       {Method::adams, "adams",
        "Adams-Moulton of variable order (CVODE): two evaluations a step, begins anew at events"},
       {Method::bdf, "bdf",
-       "backward differentiation with error control (CVODE): shows what damping takes away from a "
-       "beam that has none"},
+       "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser ones orders "
+       "above 2 (solver.max_order) blow up, as they do on any undamped oscillation"},
   };
   return names;
 }

@@ -8,6 +8,7 @@
 #include "subimpact/simulate/case.h"
 #include "subimpact/simulate/cost.h"
 #include "subimpact/simulate/result.h"
+#include "subimpact/study/compare.h"
 
 namespace subimpact {
 
@@ -19,6 +20,9 @@ std::string run_summary(const Case& input, const Result& result);
 
 /// For a run that did not reach its end: one line with time, mode, method, last event, cause.
 std::string failure_message(const Case& input, const Result& result);
+
+/// One line a method beside the reference, and what differs in words.
+std::string comparison_table(const Comparison& comparison);
 
 /// What a case will be modelled as, and why.
 std::string explanation(const Case& input, const Used& used,

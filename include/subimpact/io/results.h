@@ -11,6 +11,7 @@
 
 #include "subimpact/simulate/case.h"
 #include "subimpact/simulate/result.h"
+#include "subimpact/study/compare.h"
 
 namespace subimpact {
 
@@ -27,8 +28,13 @@ void prepare_output_directory(const std::filesystem::path& directory);
 /// at all: it is written under another name and then moved into place. Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
-/// The contents of those files. Numbers in CSV carry 17 significant digits, enough to read the same
-/// double back; a sub-impact that has not ended has empty end and duration columns.
+/// Writes comparison.csv (a row a method) and matches.csv (a row a method and sub-impact).
+void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
+std::string comparison_csv(const Comparison& comparison);
+std::string matches_csv(const Comparison& comparison);
+
+/// The contents of the files of a run. Numbers in CSV carry 17 significant digits, enough to read
+/// the same double back; a sub-impact that has not ended has empty end and duration columns.
 std::string events_csv(const std::vector<SubImpact>& sub_impacts);
 std::string transitions_csv(const std::vector<Transition>& transitions);
 std::string history_csv(const std::vector<HistoryRow>& history);

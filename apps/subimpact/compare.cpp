@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/study/compare.h"
+
+namespace subimpact::app {
+namespace {
+
+struct CompareOptions {
+  CaseOptions input;
+  std::vector<std::string> methods;
+  std::string directory;
+};
+
+int run_comparison(const CompareOptions& options) {
+  const LoadedCase loaded = options.input.load();
+  if (!options.directory.empty()) prepare_output_directory(options.directory);
+  const bool shown = isatty(STDERR_FILENO) != 0;
+  Comparison comparison;
+  try {
+    comparison = compare(loaded.value, options.methods, [&](const std::string& name) {
+      if (shown) fmt::print(stderr, "\r\033[Krunning {} ...", name);
+    });
+  } catch (const InvalidCase& error) {
+    if (shown) fmt::print(stderr, "\r\033[K");
+    throw CaseFileError(loaded.message(error));
+  }
+  if (shown) fmt::print(stderr, "\r\033[K");
+  if (!options.directory.empty()) write_comparison(options.directory, comparison);
+  fmt::print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+             comparison_table(comparison));
+  if (!options.directory.empty()) {
+    fmt::print("\ncomparison.csv and matches.csv in {}\n", options.directory);
+  }
+  for (const ComparedRun& run : comparison.runs) {
+    if (!run.result.outcome.completed()) return failed;
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, int& status) {
+  CLI::App* command = program.add_subcommand("compare", "Run one scene by several methods");
+  auto options = std::make_shared<CompareOptions>();
+  options->input.add_to(*command);
+  command
+      ->add_option("--methods", options->methods,
+                   "Methods to compare, separated by commas; a method's table after a colon")
+      ->delimiter(',')
+      ->required();
+  command->add_option("--out", options->directory,
+                      "Directory for comparison.csv and matches.csv; made if missing. Without it "
+                      "nothing is written");
+  command->footer(
+      "Every method runs at the case's solver.rtol, fixed-step methods at their default step or "
+      "solver.step. They are compared with nystrom at rtol 1e-11, whose own error is stated; "
+      "sub-impacts are matched one to one.\n"
+      "Examples:\n"
+      "  subimpact compare case.toml --methods central-difference,erk,dirk,imex,adams,bdf\n"
+      "  subimpact compare case.toml --methods erk:dop853,erk:dormand-prince --out out/tables\n"
+      "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
+      "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed.");
+  command->callback([options, &status] { status = run_comparison(*options); });
+}
+
+}  // namespace subimpact::app
