@@ -119,6 +119,15 @@ TEST(Run, ThatLeavesTheModelsValidityEndsWithStatus2AndKeepsItsFiles) {
   EXPECT_EQ(summary_in(directory.path / "here").at("outcome").at("kind"), "left-validity");
 }
 
+TEST(Run, WhoseResultsCannotBeWrittenEndsWithStatus3AndStillPrintsThem) {
+  const TemporaryDirectory directory;
+  fs::create_directories(directory.path / "here" / "history.csv" / "occupied");
+  const Finished finished = run_program(short_run({"--out", "here"}), directory.path);
+  EXPECT_EQ(finished.status, 3);
+  expect_in(finished.errors, "history.csv: cannot be written");
+  expect_in(finished.output, "zone 1");
+}
+
 TEST(Run, InterruptedKeepsWhatItHasComputed) {
   const TemporaryDirectory directory;
   const Finished finished =
