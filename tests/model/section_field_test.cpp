@@ -95,7 +95,8 @@ TEST_P(SectionFieldOfBothLaws, CountsTheSectionsThatHaveYieldedAndNoOthers) {
   curvatures[7] = 1.001 * first_yield;
   curvatures[39] = -3.0 * first_yield;
   EXPECT_EQ(field.commit(curvatures), 2u);
-  EXPECT_EQ(field.commit(curvatures), 0u);  // reached already
+  for (double& curvature : curvatures) curvature *= 1.0 - 1e-12;
+  EXPECT_EQ(field.commit(curvatures), 0u);  // reached already, to rounding
   EXPECT_EQ(field.n_yielded(), 2u);
   for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(field.has_yielded(i), i == 7 || i == 39) << i;
   curvatures[7] = 2.0 * first_yield;
