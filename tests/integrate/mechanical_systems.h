@@ -1,0 +1,176 @@
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "test_systems.h"
+
+namespace subimpact {
+
+/// Mass q'' = f(q) of known motion, small enough to be written as full matrices.
+class KnownSystem : public MechanicalSystem {
+ public:
+  using Vector = Eigen::VectorXd;
+  using Matrix = Eigen::MatrixXd;
+
+  virtual State exact(double t) const = 0;
+  State initial() const { return exact(0.0); }
+  double error(double t, const State& y) const {
+    const State right = exact(t);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      largest = std::fmax(largest, std::abs(y[i] - right[i]));
+    }
+    return largest;
+  }
+
+  std::size_t n_positions() const override { return static_cast<std::size_t>(mass_.rows()); }
+  Scales scales() const override { return {1.0, 1.0}; }
+  void acceleration(std::span<const double> q, std::span<double> a) override {
+    write(mass_.ldlt().solve(force_at(read(q), Part::all)), a);
+  }
+  void force(std::span<const double> q, Part part, std::span<double> result) override {
+    write(force_at(read(q), part), result);
+  }
+  const SparsityPattern& pattern() const override { return pattern_; }
+  void mass_entries(std::span<double> values) const override { write(mass_.reshaped(), values); }
+  void stiffness_entries(std::span<const double> q, Part part, std::span<double> values) override {
+    write(stiffness_at(read(q), part).reshaped(), values);
+  }
+
+ protected:
+  explicit KnownSystem(Matrix mass) : mass_(std::move(mass)) {
+    const std::size_t n = n_positions();
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t i = 0; i < n; ++i) pattern_.rows.push_back(i);
+      pattern_.column_starts.push_back(pattern_.n_entries());
+    }
+  }
+  virtual Vector force_at(const Vector& q, Part part) const = 0;
+  virtual Matrix stiffness_at(const Vector& q, Part part) const = 0;
+
+  Matrix mass_;
+
+ private:
+  static Vector read(std::span<const double> q) {
+    return Eigen::Map<const Vector>(q.data(), static_cast<Eigen::Index>(q.size()));
+  }
+  static void write(const Vector& from, std::span<double> to) {
+    std::copy(from.begin(), from.end(), to.begin());
+  }
+  SparsityPattern pattern_;
+};
+
+/// Equal elements of a bar between two walls: tridiagonal stiffness and consistent mass, all modes
+/// excited. The last spring counts as the part that is not stiff.
+class ElasticBar final : public KnownSystem {
+ public:
+  explicit ElasticBar(std::size_t n) : KnownSystem(tridiagonal(n, 2.0 / 3.0, 1.0 / 6.0)) {}
+
+  State exact(double t) const override {
+    const std::size_t n = n_positions();
+    State y(2 * n, 0.0);
+    for (std::size_t k = 1; k <= n; ++k) {
+      const double angle = static_cast<double>(k) * std::numbers::pi / static_cast<double>(n + 1);
+      const double omega =
+          std::sqrt((2.0 - 2.0 * std::cos(angle)) / ((2.0 + std::cos(angle)) / 3.0));
+      for (std::size_t i = 0; i < n; ++i) {
+        const double shape = std::sin(angle * static_cast<double>(i + 1)) / static_cast<double>(n);
+        y[i] += shape * std::cos(omega * t + static_cast<double>(k));
+        y[n + i] -= omega * shape * std::sin(omega * t + static_cast<double>(k));
+      }
+    }
+    return y;
+  }
+
+ private:
+  static Matrix tridiagonal(std::size_t size, double diagonal, double beside) {
+    const auto n = static_cast<Eigen::Index>(size);
+    Matrix matrix = Matrix::Zero(n, n);
+    matrix.diagonal().setConstant(diagonal);
+    matrix.diagonal(1).setConstant(beside);
+    matrix.diagonal(-1).setConstant(beside);
+    return matrix;
+  }
+  Matrix stiffness_at(const Vector& q, Part part) const override {
+    const Eigen::Index last = q.size() - 1;
+    Matrix rest = Matrix::Zero(q.size(), q.size());
+    rest(last, last) = 1.0;
+    const Matrix all = tridiagonal(n_positions(), 2.0, -1.0);
+    if (part == Part::rest) return rest;
+    return part == Part::all ? all : Matrix(all - rest);
+  }
+  Vector force_at(const Vector& q, Part part) const override { return -stiffness_at(q, part) * q; }
+};
+
+/// CurvedMotion under a mass matrix that couples all unknowns: f = Mass a(q). The cubic terms are
+/// the part that is not stiff.
+class CurvedSystem final : public KnownSystem {
+ public:
+  CurvedSystem()
+      : KnownSystem(Eigen::Matrix3d{{2.0, 0.5, -0.3}, {0.5, 1.5, 0.4}, {-0.3, 0.4, 1.0}}) {}
+  State exact(double t) const override { return CurvedMotion().exact(t); }
+
+ private:
+  // Of the scalar oscillators: s'' = linear s + cubic s^3.
+  inline static const Eigen::Vector3d linear{-1.0, 0.0, -1.3};
+  inline static const Eigen::Vector3d cubic{-1.0, -1.0, 0.6};
+  // Columns of CurvedMotion's rotation.
+  inline static const Eigen::Matrix3d mix = Eigen::Matrix3d{{2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0},
+                                                            {2.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0},
+                                                            {-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0}};
+
+  Vector force_at(const Vector& q, Part part) const override {
+    const Eigen::Array3d s = (mix.transpose() * q).array();
+    Eigen::Array3d rate = Eigen::Array3d::Zero();
+    if (part != Part::rest) rate += linear.array() * s;
+    if (part != Part::stiff) rate += cubic.array() * s.cube();
+    return mass_ * (mix * rate.matrix());
+  }
+  Matrix stiffness_at(const Vector& q, Part part) const override {
+    const Eigen::Array3d s = (mix.transpose() * q).array();
+    Eigen::Array3d slope = Eigen::Array3d::Zero();
+    if (part != Part::rest) slope += linear.array();
+    if (part != Part::stiff) slope += 3.0 * cubic.array() * s.square();
+    return -mass_ * mix * slope.matrix().asDiagonal() * mix.transpose();
+  }
+};
+
+/// Independent oscillators of given frequencies and amplitudes, all with unit mass and all stiff.
+class Oscillators final : public KnownSystem {
+ public:
+  Oscillators(Vector frequencies, Vector amplitudes)
+      : KnownSystem(Matrix::Identity(frequencies.size(), frequencies.size())),
+        frequencies_(std::move(frequencies)),
+        amplitudes_(std::move(amplitudes)) {}
+  State exact(double t) const override {
+    const std::size_t n = n_positions();
+    State y(2 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double omega = frequencies_(static_cast<Eigen::Index>(i));
+      const double amplitude = amplitudes_(static_cast<Eigen::Index>(i));
+      y[i] = amplitude * std::cos(omega * t);
+      y[n + i] = -omega * amplitude * std::sin(omega * t);
+    }
+    return y;
+  }
+  /// Of oscillator i.
+  double amplitude(const State& y, std::size_t i) const {
+    return std::hypot(y[i], y[n_positions() + i] / frequencies_(static_cast<Eigen::Index>(i)));
+  }
+
+ private:
+  Vector force_at(const Vector& q, Part part) const override { return -stiffness_at(q, part) * q; }
+  Matrix stiffness_at(const Vector& q, Part part) const override {
+    if (part == Part::rest) return Matrix::Zero(q.size(), q.size());
+    return frequencies_.array().square().matrix().asDiagonal();
+  }
+  Vector frequencies_, amplitudes_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,147 @@
+// The implicit and multistep methods on the paper's example, and what they refuse.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "paper_case.h"
+
+namespace subimpact {
+namespace {
+
+struct Setting {
+  const char* name;
+  Method method;
+  std::optional<std::string> table;
+  std::optional<int> max_order;
+  double rtol;
+  double bound_us;  // on starts and ends of the first four sub-impacts
+
+  Case on(SectionKind section, double end_time) const {
+    Case input = paper_case(section, end_time);
+    input.solver.method = method;
+    input.solver.table = table;
+    input.solver.max_order = max_order;
+    input.solver.rtol = rtol;
+    return input;
+  }
+};
+
+std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
+
+class AMethod : public testing::TestWithParam<Setting> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    , AMethod,
+    testing::Values(Setting{"dirk", Method::dirk, {}, {}, 1e-6, 2e-3},
+                    Setting{"dirk_esdirk437", Method::dirk, "esdirk437", {}, 1e-6, 2e-2},
+                    Setting{"imex", Method::imex, {}, {}, 1e-6, 2e-2},
+                    Setting{"adams", Method::adams, {}, {}, 1e-8, 5e-4},
+                    Setting{"bdf", Method::bdf, {}, {}, 1e-8, 5e-4},
+                    Setting{"bdf2", Method::bdf, {}, 2, 1e-6, 0.2}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+double worst_of_first_four(const Result& result, const std::string& table) {
+  const std::vector<ReferenceEvent> reference = reference_table(table);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    worst = std::max({worst, std::abs(start_us(result.sub_impacts[i]) - reference[i].start_us),
+                      std::abs(end_us(result.sub_impacts[i]) - reference[i].end_us)});
+  }
+  return worst;
+}
+
+TEST_P(AMethod, FindsTheFirstFourSubImpacts) {
+  const Setting& setting = GetParam();
+  const Result result = simulate(setting.on(SectionKind::elastic, 0.35e-3));
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_EQ(result.sub_impacts.size(), 4u);
+  const double worst = worst_of_first_four(result, "seed_elastic");
+  std::printf("%s: largest time difference %.2e us, %ld steps, %ld right-hand sides\n",
+              setting.name, worst, result.work.steps, result.work.right_hand_sides);
+  EXPECT_LT(worst, setting.bound_us);
+  // Work of the kind the method does.
+  const bool newton = setting.method != Method::adams;
+  EXPECT_EQ(result.work.jacobians > 0, newton);
+  EXPECT_EQ(result.work.factorisations > 10, newton);
+  EXPECT_GT(result.work.nonlinear_iterations, result.work.steps);
+  EXPECT_GE(result.work.right_hand_sides, result.work.nonlinear_iterations);
+}
+
+TEST_P(AMethod, GoesThroughAYieldingBeam) {
+  const Setting& setting = GetParam();
+  const Result result = simulate(setting.on(SectionKind::exact, 0.3e-3));
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_EQ(result.sub_impacts.size(), 3u);
+  EXPECT_NEAR(end_us(result.sub_impacts[0]), reference_table("seed_exact")[0].end_us,
+              20.0 * setting.bound_us);
+  EXPECT_EQ(result.used.reversals, setting.method == Method::dirk || setting.method == Method::imex
+                                       ? ReversalHandling::located
+                                       : ReversalHandling::step_end);
+}
+
+TEST(ImplicitMethods, ConserveEnergyToTheirTolerance) {
+  Case input = Setting{"", Method::dirk, {}, {}, 1e-6, 0.0}.on(SectionKind::elastic, 0.3e-3);
+  const double coarse = simulate(input).max_energy_error;
+  input.solver.rtol = 1e-8;
+  const double fine = simulate(input).max_energy_error;
+  std::printf("energy error %.1e at 1e-6, %.1e at 1e-8\n", coarse, fine);
+  EXPECT_LT(coarse, 1e-5);
+  EXPECT_LT(fine, 0.1 * coarse);
+}
+
+TEST(ImplicitMethods, TakeAFixedStepAboveTheCriticalOne) {
+  Case input = Setting{"", Method::dirk, {}, {}, 1e-6, 0.0}.on(SectionKind::elastic, 0.3e-3);
+  input.solver.step = 4e-7;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_GT(*result.used.step, 1.4 * result.used.critical_step);
+  EXPECT_NEAR(end_us(result.sub_impacts.at(0)), reference_table("seed_elastic")[0].end_us, 0.05);
+}
+
+// The key an invalid case complains of, and its message.
+InvalidCase refusal_of(const Case& input) {
+  try {
+    explain(input);
+  } catch (const InvalidCase& refusal) {
+    return refusal;
+  }
+  ADD_FAILURE() << "accepted";
+  return {"", ""};
+}
+
+TEST(Refused, AFixedStepOfAMultistepMethod) {
+  for (const Method method : {Method::adams, Method::bdf}) {
+    Case input = paper_case(SectionKind::elastic, 1e-3);
+    input.solver.method = method;
+    input.solver.step = 1e-7;
+    const InvalidCase refusal = refusal_of(input);
+    EXPECT_EQ(refusal.key, "solver.step");
+    EXPECT_NE(std::string(refusal.what()).find("max_step"), std::string::npos);
+  }
+}
+
+TEST(Refused, AnOrderTheMethodDoesNotHave) {
+  Case input = paper_case(SectionKind::elastic, 1e-3);
+  input.solver.method = Method::bdf;
+  input.solver.max_order = 6;
+  EXPECT_EQ(refusal_of(input).key, "solver.max_order");
+  input.solver.method = Method::dirk;
+  input.solver.max_order = 3;
+  EXPECT_EQ(refusal_of(input).key, "solver.max_order");
+}
+
+TEST(Refused, ATableOfAnotherMethod) {
+  Case input = paper_case(SectionKind::elastic, 1e-3);
+  input.solver.method = Method::imex;
+  input.solver.table = "esdirk547";
+  EXPECT_EQ(refusal_of(input).key, "solver.table");
+  input.solver.method = Method::bdf;
+  EXPECT_EQ(refusal_of(input).key, "solver.table");
+}
+
+}  // namespace
+}  // namespace subimpact
