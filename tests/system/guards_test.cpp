@@ -85,6 +85,7 @@ TEST_F(ContactCrossing, EndOfContactIsWhereTheIndentationMeetsTheResidualOne) {
   const double rate = -unit / step_;
   ASSERT_TRUE(find(2.25 * unit, rate, 1.25 * unit, rate));
   EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
+  EXPECT_FALSE(crossing_.in_doubt);
   EXPECT_NEAR(part(), 0.25, 1e-6);
   EXPECT_LE(crossing_.after, crossing_.guess);
   EXPECT_GE(crossing_.before, crossing_.guess);
@@ -119,13 +120,15 @@ TEST_F(ContactCrossing, UnloadingIsWhereTheIndentationStopsGrowing) {
 
 TEST_F(ContactCrossing, ABranchLeftAndRegainedWithinOneStepIsNotMissed) {
   enter(beam_, ContactBranch::elastic, 3.0 * unit);
-  // Parabola from 2.1 through 2.1 - 0.25 at half the step: below the residual 2 in between.
-  ASSERT_TRUE(find(2.1 * unit, -1.0 * unit / step_, 2.1 * unit, 1.0 * unit / step_));
+  // A parabola that dips by 0.25 at half the step: below the residual 2, barely above, far above.
+  const double rate = unit / step_;
+  ASSERT_TRUE(find(2.1 * unit, -rate, 2.1 * unit, rate));
   EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
-  EXPECT_NEAR(part(), 0.5 - std::sqrt(0.15), 1e-5);
-  EXPECT_LT(crossing_.before, 2.0 + 0.51 * step_);
-  // Not deep enough.
-  EXPECT_FALSE(find(2.3 * unit, -1.0 * unit / step_, 2.3 * unit, 1.0 * unit / step_));
+  EXPECT_TRUE(crossing_.in_doubt);
+  EXPECT_NEAR(part(), 0.5, 1e-5);
+  ASSERT_TRUE(find(2.2501 * unit, -rate, 2.2501 * unit, rate));
+  EXPECT_TRUE(crossing_.in_doubt);
+  EXPECT_FALSE(find(2.9 * unit, -rate, 2.9 * unit, rate));
 }
 
 TEST_F(ContactCrossing, TheEarlierOfTwoIsFound) {
@@ -133,8 +136,8 @@ TEST_F(ContactCrossing, TheEarlierOfTwoIsFound) {
   // First up through 2.1, at the end below 1.1.
   ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_));
   EXPECT_EQ(crossing_.guard.kind, EventKind::contact_yields);
-  const Guard yields = crossing_.guard;
-  ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_, &yields));
+  const GuardList yields{crossing_.guard};
+  ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_, yields));
   EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
 }
 
@@ -165,9 +168,9 @@ TEST(SectionCrossing, AFlowingSectionThatTurnsWithinTheStepIsFound) {
   beam.commit(y0);
   Crossing crossing;
   const double kappa_y = paper_beam().yield_curvature();
-  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, infinity, nullptr, crossing));
-  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, 2.0 * kappa_y, nullptr, crossing));
-  ASSERT_TRUE(beam.find_crossing({0.0, step, y0, y1}, 1e-6 * kappa_y, nullptr, crossing));
+  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, infinity, {}, crossing));
+  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, 2.0 * kappa_y, {}, crossing));
+  ASSERT_TRUE(beam.find_crossing({0.0, step, y0, y1}, 1e-6 * kappa_y, {}, crossing));
   EXPECT_EQ(crossing.guard.kind, EventKind::section_reverses);
   EXPECT_NEAR(crossing.guess, 0.5 * step, 1e-6 * step);
   // The section named did flow outwards: its guard is negative at the start.
