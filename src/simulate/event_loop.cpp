@@ -32,12 +32,17 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
 }
 
 void EventLoop::start() {
+  const State y = beam_.initial_state();
+  beam_.commit(y);
+  report({EventKind::contact_begins}, 0.0, y, true);
+  start_from(y);
+}
+
+void EventLoop::start_from(const State& y) {
   time_ = 0.0;
-  end_state_ = beam_.initial_state();
-  initial_energy_ = beam_.energies(end_state_).total();
-  beam_.commit(end_state_);
-  report({EventKind::contact_begins}, 0.0, end_state_, true);
-  integrator_.restart(0.0, end_state_);
+  initial_energy_ = beam_.energies(y).total();
+  beam_.commit(y);
+  integrator_.restart(0.0, y);
   state_ = &integrator_.state();
 }
 
@@ -121,7 +126,9 @@ bool EventLoop::confirm(Crossing& crossing, const StepEnds& step) {
         return beam_.evaluate(turn, trial_state_);
       },
       step.t0, step.t1, crossing.guess, options);
-  if (!(beam_.evaluate(crossing.guard, trial_state_).value > 0.0)) return false;
+  if (!(beam_.evaluate(crossing.guard, trial_state_).value > beam_.negligible_excursion())) {
+    return false;
+  }
   crossing.before = top;
   crossing.guess = 0.5 * (crossing.after + top);
   return true;
@@ -132,8 +139,7 @@ double EventLoop::locate(const Crossing& crossing, const StepEnds& step) {
     trial_state_ = step.y0;
     return step.t0;
   }
-  const bool is_turn = crossing.guard.kind == EventKind::section_reverses ||
-                       crossing.guard.kind == EventKind::contact_unloads;
+  const bool is_turn = crossing.guard.kind == EventKind::section_reverses;
   RootOptions options;
   options.tolerance = is_turn ? turn_tolerance * step.length() : root_tolerance * step.t1;
   const auto guard_at = [&](double t) {

@@ -47,6 +47,8 @@ class EventLoop {
 
   /// Puts the beam at t = 0 with the contact just begun.
   void start();
+  /// Puts the beam at t = 0 in another state, with the contact as it is (see set_contact).
+  void start_from(const State& y);
   /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure
   /// or RunStopped.
   void advance();

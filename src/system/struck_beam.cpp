@@ -12,7 +12,7 @@ namespace {
 
 // A branch that is left and regained by less than this part of the displacement scale within one
 // step is not an event: it is below the rounding of the displacements themselves.
-constexpr double negligible_excursion = 1e-13;
+constexpr double negligible_part = 1e-13;
 
 // A cubic through a step's ends is trusted to know the height of a hump between them to this part
 // of it; a hump that comes closer to zero is looked at on the trajectory.
@@ -149,6 +149,8 @@ double StruckBeam::curvature(const Guard& guard, std::span<const double> unknown
   return curvatures_[guard.section];
 }
 
+double StruckBeam::negligible_excursion() const { return negligible_part * scales_.position; }
+
 GuardValue StruckBeam::evaluate(const Guard& guard, const State& y) {
   if (guard.kind == EventKind::contact_unloads) {
     acceleration({y.data(), n_ + 1}, trial_);
@@ -193,7 +195,7 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& wi
     } else {
       const HermiteCubic path(g0.value, g0.rate, g1.value, g1.rate, step.length());
       if (g1.value > 0.0) {
-        if (g0.value > 0.0 && g0.rate > 0.0 && g1.rate > 0.0) {
+        if (g0.value >= 0.0 && g0.rate > 0.0 && g1.rate > 0.0) {
           // Beyond from the start on: it happened at the start.
           earliest = {{kind}, step.t0, step.t0, step.t0};
           found = true;
@@ -209,8 +211,7 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& wi
         if (!(g0.rate > 0.0 && g1.rate < 0.0)) return;
         const double peak = path.peak();
         const double height = path(peak) - std::max(g0.value, g1.value);
-        if (!(path(peak) > negligible_excursion * scales_.position - doubtful_share * height))
-          return;
+        if (!(path(peak) > negligible_excursion() - doubtful_share * height)) return;
         const double time = step.t0 + peak * step.length();
         if (time < earliest.guess) {
           earliest = {{kind}, step.t0, step.t1, time, true};

@@ -104,6 +104,11 @@ class StruckBeam final : public MechanicalSystem {
 
   // --- contact -----------------------------------------------------------------------------------
   void set_contact_evaluation(ContactEvaluation how) { contact_evaluation_ = how; }
+  /// Puts the contact into a state of its own, to start from one that is not at rest.
+  void set_contact(ContactBranch branch, ContactHistory history) {
+    contact_branch_ = branch;
+    contact_history_ = history;
+  }
   ContactBranch contact_branch() const { return contact_branch_; }
   ContactHistory contact_history() const { return contact_history_; }
   bool in_contact() const { return contact_branch_ != ContactBranch::separated; }
@@ -122,6 +127,9 @@ class StruckBeam final : public MechanicalSystem {
   /// out.
   bool find_crossing(const StepEnds& step, double reversal_tolerance, const GuardList& without,
                      Crossing& earliest);
+  /// By how much a guard must be crossed within a step, and held again at its end, to count (m):
+  /// less is below the rounding of the displacements.
+  double negligible_excursion() const;
   /// A guard's value and rate at a state; costs an acceleration for the guards on a rate.
   GuardValue evaluate(const Guard& guard, const State& y);
   /// Takes an event as having happened at y: switches the contact's branch. Call after commit(y).

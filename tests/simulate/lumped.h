@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "integrate/arkode_erk.h"
+#include "integrate/nystrom.h"
+#include "simulate/event_loop.h"
+#include "simulate/recorder.h"
+
+namespace subimpact {
+
+/// A "beam" of one unknown: a mass, tied to the ground by a spring (stiffness 0: free).
+class LumpedMesh final : public BeamMesh {
+ public:
+  explicit LumpedMesh(double mass) : BeamMesh(1, 0, false) {
+    mass_.at(0, 0) = mass;
+    weights_ = {1.0};
+    positions_ = {0.0};
+    struck_point_.terms = {{0, 1.0}};
+    first_end_.terms = {{0, 1.0}};
+    translation_ = {1.0};
+  }
+  void curvatures(std::span<const double> w, std::span<double> kappa) const override {
+    kappa[0] = w[0];
+  }
+  void bending_forces(std::span<const double> moments, std::span<double> forces) const override {
+    forces[0] = -moments[0];
+  }
+  SectionStencil section_stencil(std::size_t) const override { return {0, one_}; }
+  double highest_frequency(double stiffness) const override {
+    return std::sqrt(stiffness / mass_.at(0, 0));
+  }
+  std::string description() const override { return "one mass"; }
+
+ private:
+  std::vector<double> one_{1.0};
+};
+
+/// Two bodies and the law between them.
+struct TwoBodies {
+  double striker_mass = 1.0;
+  double target_mass = 1.0;
+  double spring = 0.0;              ///< of the target, N/m
+  double contact_stiffness = 1e8;   ///< K, N/m^1.5
+  double yield_indentation = 1e30;  ///< lambda_s, m
+  double velocity = 1.0;            ///< of the striker, m/s
+
+  double reduced_mass() const { return striker_mass * target_mass / (striker_mass + target_mass); }
+  /// d_max of an elastic impact on a free target.
+  double largest_indentation() const {
+    return std::pow(1.25 * reduced_mass() * velocity * velocity / contact_stiffness, 0.4);
+  }
+  /// Duration of an elastic impact on a free target.
+  double duration() const { return 2.943275184 * largest_indentation() / velocity; }
+
+  StruckBeam make() const {
+    Scene scene;  // whose contact law has these two constants: b = h = 1 m, R = 1/2 m
+    scene.beam.length = scene.beam.width = scene.beam.thickness = 1.0;
+    scene.beam.density = target_mass;
+    scene.beam.youngs_modulus = 0.75 * contact_stiffness;
+    scene.beam.yield_stress = yield_indentation * scene.beam.youngs_modulus;
+    scene.striker = {striker_mass, 0.5, velocity, 0.5};
+    auto mesh = std::make_unique<LumpedMesh>(target_mass);
+    auto solver = std::make_unique<BandedSolver>(mesh->mass());
+    return StruckBeam(scene, std::move(mesh), SectionField(1, spring), std::move(solver));
+  }
+};
+
+/// How a two-body problem is integrated.
+struct Way {
+  std::string table = "dop853";  ///< of erk or nystrom
+  double rtol = 1e-10;
+  std::optional<double> fixed_step;
+  EventHandling events = EventHandling::located;
+
+  std::unique_ptr<Integrator> make(StruckBeam& beam) const {
+    if (table.rfind("dprkn", 0) == 0) {
+      return std::make_unique<Nystrom>(beam, NystromOptions{table, rtol, fixed_step, {}});
+    }
+    ErkOptions options;
+    options.table = table;
+    options.relative_tolerance = rtol;
+    options.fixed_step = fixed_step;
+    return make_arkode_erk(beam, options);
+  }
+};
+
+/// Runs from a state [w, w_m, v, v_m], or from the first touch if it is empty.
+inline Result run_two_bodies(StruckBeam& beam, const Way& way, double end_time,
+                             const State& from = {}) {
+  const auto integrator = way.make(beam);
+  Result result;
+  const State initial = from.empty() ? beam.initial_state() : from;
+  Recorder recorder(beam, initial, 0.0, way.events, result);
+  EventLoop loop(beam, *integrator, recorder,
+                 {end_time, way.events, std::numeric_limits<double>::infinity(), 1e30});
+  if (from.empty()) {
+    loop.start();
+  } else {
+    loop.start_from(from);
+  }
+  while (!loop.finished()) loop.advance();
+  recorder.finish(loop.time(), loop.state(), beam);
+  return result;
+}
+
+}  // namespace subimpact
