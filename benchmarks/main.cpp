@@ -52,8 +52,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   const std::map<std::string, Clock> clocks{{"processor", Clock::processor}, {"wall", Clock::wall}};
   app.add_option("--clock", settings.clock, "processor (default): time on the processor; wall")
-      ->transform(CLI::CheckedTransformer(clocks));
-  CLI11_PARSE(app, argc, argv);
+      ->transform(CLI::CheckedTransformer(clocks).description(""))
+      ->type_name("CLOCK");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
 
   fmt::print("Seconds are medians of {} alternating runs, {} time of one thread.\n",
              settings.repeats, settings.clock == Clock::processor ? "processor" : "wall");
