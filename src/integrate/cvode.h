@@ -12,13 +12,6 @@ namespace subimpact {
 constexpr int adams_order_limit = 12;
 constexpr int bdf_order_limit = 5;
 
-struct CvodeOptions {
-  int max_order = 0;  ///< 1 to the limit above
-  double relative_tolerance = 1e-8;
-  std::optional<double> max_step;  ///< s
-  VectorOperations vector_operations = VectorOperations::project;
-};
-
 /// SUNDIALS CVODE's multistep methods on y' = [v, a(q)], order and step chosen by error control
 /// with the constant weights of `erk`.
 ///
@@ -26,10 +19,16 @@ struct CvodeOptions {
 /// as its order. A multistep method remembers steps, so a restart forgets them all (CVodeReInit):
 /// it begins again at order one with a step of its own estimate, and builds both up anew. There is
 /// no fixed step.
+struct CvodeOptions {
+  int max_order = 0;  ///< 1 to the limit above
+  double relative_tolerance = 1e-8;
+  std::optional<double> max_step;  ///< s
+  VectorOperations vector_operations = VectorOperations::project;
+};
 
-/// Adams-Moulton, orders 1 to 12, corrected by fixed-point iteration; no matrices. Stable for
-/// frequencies omega with omega h up to about 1 at most, less at high orders: for accuracy, not for
-/// long steps.
+/// Adams-Moulton, orders 1 to 12, corrected by fixed-point iteration; no matrices. For accuracy,
+/// not for long steps: the iteration converges for omega h below about 1, and orders above 2 let
+/// undamped oscillations grow at steps that tolerances looser than 1e-6 choose.
 std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const CvodeOptions& options);
 
 /// Backward differentiation formulas, orders 1 to 5, corrected by Newton's method. On an undamped

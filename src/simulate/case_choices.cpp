@@ -68,7 +68,9 @@ std::span<const Named<Method>> names_of(Method) {
       {Method::imex, "imex",
        "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler systems"},
       {Method::adams, "adams",
-       "Adams-Moulton of variable order (CVODE): two evaluations a step, begins anew at events"},
+       "Adams-Moulton of variable order (CVODE): two evaluations a step; for tolerances of 1e-7 "
+       "and "
+       "below"},
       {Method::bdf, "bdf",
        "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser ones orders "
        "above 2 (solver.max_order) blow up, as they do on any undamped oscillation"},
