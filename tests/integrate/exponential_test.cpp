@@ -1,0 +1,137 @@
+// The exponential method's parts against quadrature and closed forms.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "integrate/exponential.h"
+#include "integrate/stumpff.h"
+
+namespace subimpact {
+namespace {
+
+TEST(StumpffFunctions, AreTheirSeriesAndTheirIntegrals) {
+  for (const double y : {0.0, 1e-8, 1e-3, 0.3, 0.999, 1.0, 1.001, 2.5, 10.0, 300.0}) {
+    const auto c = stumpff(y);
+    // C_{k+2} is the k-fold repeated integral; here by Simpson's rule on
+    // m! C_{m+2}(y) = integral_0^1 sin(y (1 - s))/y s^m ds.
+    constexpr int n = 20000;
+    for (int m = 0; m <= 3; ++m) {
+      double sum = 0.0;
+      for (int i = 0; i <= n; ++i) {
+        const double s = static_cast<double>(i) / n;
+        const double x = y * (1.0 - s);
+        const double kernel = y > 0.0 ? std::sin(x) / y : 1.0 - s;
+        sum += (i == 0 || i == n ? 1.0 : i % 2 ? 4.0 : 2.0) * kernel * std::pow(s, m);
+      }
+      const double factorial = m == 3 ? 6.0 : m == 2 ? 2.0 : 1.0;
+      const double expected = sum / (3.0 * n) / factorial;
+      EXPECT_NEAR(c[static_cast<std::size_t>(m + 2)], expected, 1e-13) << "y " << y << " m " << m;
+    }
+    EXPECT_NEAR(c[0], std::cos(y), 1e-15);
+    EXPECT_NEAR(c[1], y > 0.0 ? std::sin(y) / y : 1.0, 1e-15);
+  }
+}
+
+TEST(StumpffFunctions, AreContinuousWhereTheFormulaChanges) {
+  const auto below = stumpff(std::nextafter(1.0, 0.0));
+  const auto above = stumpff(1.0);
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(below[k], above[k], 4e-15) << k;
+}
+
+// A body and an oscillator with a spring between them that stiffens: F = k lambda + c lambda^3.
+class Pair final : public ForcedOscillators {
+ public:
+  std::span<const double> frequencies() const override { return frequencies_; }
+  std::span<const double> loads() const override { return loads_; }
+  std::span<const double> displacements() const override { return displacements_; }
+  Force force(double x) const override {
+    if (free) return {0.0, 0.0};
+    return {4.0 * x + 2.0 * x * x * x, 4.0 + 6.0 * x * x};
+  }
+  bool is_free() const override { return free; }
+  double critical_displacement() const override { return free ? 1e3 : -1e3; }
+  SecondOrderOde::Scales scales() const override { return {1.0, 1.0}; }
+
+  bool free = false;
+
+ private:
+  std::vector<double> frequencies_{3.0, 0.0};
+  std::vector<double> loads_{0.5, -1.0};
+  std::vector<double> displacements_{-1.0, 1.0};
+};
+
+State integrate_pair(const ExponentialOptions& options, double end_time, bool free = false) {
+  auto pair = std::make_unique<Pair>();
+  pair->free = free;
+  Exponential method(std::move(pair), options);
+  method.restart(0.0, {0.1, -0.2, 0.3, 1.0});
+  while (method.time() < end_time) method.step();
+  State y;
+  method.state_at(end_time, y);
+  return y;
+}
+
+double distance(const State& a, const State& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+TEST(TheExponentialMethod, IsOfOrderEightAtStepEndsOfASmoothForce) {
+  // Collocation at four Gauss points.
+  const double end = 2.0;
+  const State exact = integrate_pair({1e-8, end / 512.0, {}}, end);
+  double previous = 0.0;
+  for (const int n : {8, 16, 32}) {
+    const double error = distance(integrate_pair({1e-8, end / n, {}}, end), exact);
+    const double order = previous > 0.0 ? std::log2(previous / error) : 8.0;
+    printf("%3d steps: error %.2e, order %.2f\n", n, error, order);
+    EXPECT_GT(order, 7.3);
+    EXPECT_LT(order, 8.7);
+    previous = error;
+  }
+}
+
+TEST(TheExponentialMethod, HoldsItsTolerance) {
+  const State exact = integrate_pair({1e-8, 2.0 / 512.0, {}}, 2.0);
+  double previous = 1.0;
+  for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    const double error = distance(integrate_pair({rtol, {}, {}}, 2.0), exact);
+    printf("rtol %.0e: error %.2e\n", rtol, error);
+    EXPECT_LT(error, 10.0 * rtol);
+    EXPECT_LT(error, previous);
+    previous = error;
+  }
+}
+
+TEST(TheExponentialMethod, MovesFreeBodiesAndOscillatorsExactly) {
+  const State y = integrate_pair({1e-4, 0.7, {}}, 100.0, true);
+  const double w = 3.0;
+  EXPECT_NEAR(y[0], 0.1 * std::cos(w * 100.0) + 0.3 / w * std::sin(w * 100.0), 1e-12);
+  EXPECT_NEAR(y[1], -0.2 + 100.0, 1e-11);
+  EXPECT_NEAR(y[3], 1.0, 1e-15);
+}
+
+TEST(TheExponentialMethod, HasNoStepLimitFromFrequencies) {
+  // A step of 300 radians of the oscillator under a force it cannot follow stays bounded.
+  const State y = integrate_pair({1e-4, 100.0, {}}, 1e5, true);
+  EXPECT_LT(std::abs(y[0]), 0.2);
+}
+
+TEST(AStateInsideAStep, AgreesWithItsEnds) {
+  Exponential method(std::make_unique<Pair>(), {1e-8, {}, {}});
+  method.restart(0.0, {0.1, -0.2, 0.3, 1.0});
+  for (int i = 0; i < 20; ++i) {
+    method.step();
+    State y;
+    method.state_at(method.time(), y);
+    EXPECT_LT(distance(y, method.state()), 1e-13);
+    method.state_at(method.start_time(), y);
+    EXPECT_LT(distance(y, method.start_state()), 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,158 @@
+// Natural modes in closed form against a dense decomposition, and a beam in their coordinates.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/cell_mesh.h"
+#include "model/flexural_frequencies.h"
+#include "model/modal_mesh.h"
+#include "paper_scene.h"
+
+namespace subimpact {
+namespace {
+
+struct Chain {
+  std::size_t n_cells;
+  CellMesh::Extent extent;
+  BeamTheory theory;
+};
+
+class ModesOfCells : public testing::TestWithParam<Chain> {
+ protected:
+  CellMesh mesh() const { return {beam(), 0.5, GetParam().n_cells, GetParam().extent}; }
+  Beam beam() const {
+    Beam beam = paper_beam();
+    beam.theory = GetParam().theory;
+    return beam;
+  }
+};
+
+TEST_P(ModesOfCells, InClosedFormHaveTheDenseDecompositionsFrequencies) {
+  const CellMesh chain = mesh();
+  const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
+  const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
+  ASSERT_EQ(closed.size(), chain.n_unknowns());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < closed.size(); ++k) {
+    if (dense.frequencies[k] == 0.0) {
+      EXPECT_EQ(closed.frequencies[k], 0.0) << k;
+    } else {
+      worst = std::max(worst, std::abs(closed.frequencies[k] / dense.frequencies[k] - 1.0));
+    }
+  }
+  EXPECT_LT(worst, 1e-12);
+}
+
+TEST_P(ModesOfCells, AreOrthonormalInTheMassMatrix) {
+  const CellMesh chain = mesh();
+  const NaturalModes modes = chain.natural_modes(beam().bending_stiffness());
+  std::vector<double> product(modes.size());
+  double worst = 0.0;
+  for (std::size_t j = 0; j < modes.size(); ++j) {
+    chain.mass().multiply(modes.shape(j), product);
+    for (std::size_t k = 0; k <= j; ++k) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < modes.size(); ++i) sum += product[i] * modes.shape(k)[i];
+      worst = std::max(worst, std::abs(sum - (j == k ? 1.0 : 0.0)));
+    }
+  }
+  EXPECT_LT(worst, 1e-12);
+}
+
+TEST_P(ModesOfCells, SatisfyTheEquationsOfMotion) {
+  // K phi = omega^2 Mass phi, against the size of the highest mode's terms.
+  const CellMesh chain = mesh();
+  const double stiffness = beam().bending_stiffness();
+  const NaturalModes modes = chain.natural_modes(stiffness);
+  std::vector<double> kappa(chain.n_sections());
+  std::vector<double> force(modes.size());
+  std::vector<double> inertia(modes.size());
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    chain.curvatures(modes.shape(k), kappa);
+    for (double& x : kappa) x *= stiffness;
+    chain.bending_forces(kappa, force);
+    chain.mass().multiply(modes.shape(k), inertia);
+    const double w2 = modes.frequencies[k] * modes.frequencies[k];
+    double residual = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      residual = std::max(residual, std::abs(force[i] + w2 * inertia[i]));
+      size = std::max(size, std::abs(inertia[i]));
+    }
+    const double highest = modes.frequencies.back() * modes.frequencies.back();
+    EXPECT_LT(residual, 5e-13 * highest * size) << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , ModesOfCells,
+    testing::Values(Chain{5, CellMesh::Extent::half, BeamTheory::rayleigh},
+                    Chain{6, CellMesh::Extent::whole, BeamTheory::rayleigh},
+                    Chain{101, CellMesh::Extent::half, BeamTheory::rayleigh},
+                    Chain{101, CellMesh::Extent::half, BeamTheory::euler_bernoulli},
+                    Chain{100, CellMesh::Extent::whole, BeamTheory::rayleigh},
+                    Chain{101, CellMesh::Extent::whole, BeamTheory::euler_bernoulli},
+                    Chain{501, CellMesh::Extent::half, BeamTheory::rayleigh},
+                    Chain{501, CellMesh::Extent::whole, BeamTheory::euler_bernoulli}),
+    [](const auto& info) {
+      return std::to_string(info.param.n_cells) +
+             (info.param.extent == CellMesh::Extent::half ? "_half" : "_whole") +
+             (info.param.theory == BeamTheory::rayleigh ? "_rayleigh" : "_euler_bernoulli");
+    });
+
+class ModalCoordinates : public testing::Test {
+ protected:
+  Beam beam_ = paper_beam();
+  CellMesh physical_{beam_, 0.3, 100, CellMesh::Extent::whole};
+  ModalMesh modal_{std::make_unique<CellMesh>(beam_, 0.3, 100, CellMesh::Extent::whole),
+                   beam_.bending_stiffness()};
+  std::vector<double> q_ = [this] {
+    std::vector<double> q(physical_.n_unknowns());
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      q[i] = 1e-3 * std::sin(0.1 * static_cast<double>(i)) + 1e-5 * static_cast<double>(i);
+    }
+    return q;
+  }();
+};
+
+TEST_F(ModalCoordinates, AndBackIsTheSameField) {
+  std::vector<double> z(q_.size());
+  std::vector<double> back(q_.size());
+  modal_.to_modal(q_, z);
+  modal_.to_physical(z, back);
+  for (std::size_t i = 0; i < q_.size(); ++i) EXPECT_NEAR(back[i], q_[i], 1e-15);
+}
+
+TEST_F(ModalCoordinates, KeepEnergiesCurvaturesAndFunctionals) {
+  std::vector<double> z(q_.size());
+  modal_.to_modal(q_, z);
+  const double kinetic = physical_.mass().quadratic_form(q_);
+  EXPECT_NEAR(modal_.mass().quadratic_form(z), kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(modal_.struck_point()(z), physical_.struck_point()(q_), 1e-15);
+  EXPECT_NEAR(modal_.first_end()(z), physical_.first_end()(q_), 1e-15);
+  std::vector<double> here(modal_.n_sections());
+  std::vector<double> there(modal_.n_sections());
+  modal_.curvatures(z, here);
+  physical_.curvatures(q_, there);
+  for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], 1e-10);
+}
+
+TEST_F(ModalCoordinates, MakeTheElasticForceDiagonal) {
+  std::vector<double> z(q_.size());
+  modal_.to_modal(q_, z);
+  std::vector<double> moments(modal_.n_sections());
+  modal_.curvatures(z, moments);
+  for (double& m : moments) m *= beam_.bending_stiffness();
+  std::vector<double> force(q_.size());
+  modal_.bending_forces(moments, force);
+  double largest = 0.0;
+  for (const double f : force) largest = std::max(largest, std::abs(f));
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const double w = modal_.frequencies()[k];
+    EXPECT_NEAR(force[k], -w * w * z[k], 1e-9 * largest) << k;
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

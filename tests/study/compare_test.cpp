@@ -1,0 +1,51 @@
+#include "subimpact/study/compare.h"
+
+#include <gtest/gtest.h>
+
+#include "paper_scene.h"
+
+namespace subimpact {
+namespace {
+
+Case elastic_case(double end_time) {
+  Case input;
+  input.scene = paper_scene();
+  input.model.section = SectionKind::elastic;
+  input.end_time = end_time;
+  return input;
+}
+
+TEST(ComparedMethods, AllFindTheSameSubImpactsOfAnElasticBeam) {
+  const Comparison comparison =
+      compare(elastic_case(0.6e-3), {"central-difference", "erk", "erk:dormand-prince", "nystrom",
+                                     "exponential", "adams", "bdf"});
+  ASSERT_EQ(comparison.runs.size(), 7u);
+  EXPECT_EQ(comparison.reference.sub_impacts.size(), 8u);
+  for (const ComparedRun& run : comparison.runs) {
+    EXPECT_EQ(run.n_corresponding, 8u) << run.name << ": " << run.remark;
+    EXPECT_EQ(run.remark, "every sub-impact corresponds");
+    const bool accurate =
+        run.name.rfind("erk", 0) == 0 || run.name == "nystrom" || run.name == "exponential";
+    EXPECT_LT(1e6 * run.max_end_difference, accurate ? 1e-3 : 0.5) << run.name;
+    EXPECT_GT(run.result.work.steps, 0) << run.name;
+  }
+}
+
+TEST(AMethodThatMissesASubImpact, IsToldFromWhereOn) {
+  Case input = elastic_case(8e-3);
+  const Comparison comparison = compare(input, {"central-difference"});
+  const ComparedRun& run = comparison.runs.front();
+  EXPECT_EQ(comparison.reference.sub_impacts.size(), 26u);
+  EXPECT_NE(run.result.sub_impacts.size(), 26u);
+  EXPECT_LT(run.n_corresponding, 26u);
+  EXPECT_NE(run.remark.find("instead of 26"), std::string::npos) << run.remark;
+  EXPECT_NE(run.remark.find(" us"), std::string::npos) << run.remark;
+}
+
+TEST(AnUnknownMethodOrTable, IsRefusedBeforeAnythingRuns) {
+  EXPECT_THROW(compare(elastic_case(1e-5), {"erk", "leapfrog"}), InvalidCase);
+  EXPECT_THROW(compare(elastic_case(1e-5), {"erk:dprkn8"}), InvalidCase);
+}
+
+}  // namespace
+}  // namespace subimpact
