@@ -15,7 +15,7 @@
 namespace subimpact::benchmarks {
 
 std::span<const Part> all_parts() {
-  static constexpr std::array<Part, 6> parts{{
+  static constexpr std::array<Part, 8> parts{{
       {"naive", "central-difference against the same scheme done naively", measure_naive},
       {"vectors", "own vector operations against the SUNDIALS library's", measure_vectors},
       {"evaluation",
@@ -24,6 +24,10 @@ std::span<const Part> all_parts() {
       {"mass", "tridiagonal mass solver against KLU", measure_mass},
       {"reversals", "section turns located against history advanced at step ends",
        measure_reversals},
+      {"events", "finding every event and stating its error, against the runs alone",
+       measure_events},
+      {"exponential", "the exponential method against erk and nystrom on an elastic beam",
+       measure_exponential},
       {"tables", "every table of erk and nystrom: work, time, error", measure_tables},
   }};
   return parts;

@@ -21,6 +21,8 @@ void measure_vectors(const Settings& settings);
 void measure_evaluation(const Settings& settings);
 void measure_mass(const Settings& settings);
 void measure_reversals(const Settings& settings);
+void measure_events(const Settings& settings);
+void measure_exponential(const Settings& settings);
 void measure_tables(const Settings& settings);
 
 }  // namespace subimpact::benchmarks

@@ -43,6 +43,7 @@ Result simulate(const Case& input, const Progress& progress) {
   StruckBeam beam = make_struck_beam(input);
   Result result;
   result.used = describe(input, beam);
+  beam.set_pair_detection(input.solver.pair_detection);
   const auto integrator = make_integrator(input, result.used, beam);
   Recorder recorder(beam, beam.initial_state(), input.output.interval, result.used.events, result);
   LoopOptions options;

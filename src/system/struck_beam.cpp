@@ -208,7 +208,7 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& wi
         }
       } else {
         // Not beyond at the end; was it in between?
-        if (!(g0.rate > 0.0 && g1.rate < 0.0)) return;
+        if (!pair_detection_ || !(g0.rate > 0.0 && g1.rate < 0.0)) return;
         const double peak = path.peak();
         const double height = path(peak) - std::max(g0.value, g1.value);
         if (!(path(peak) > negligible_excursion() - doubtful_share * height)) return;

@@ -127,6 +127,9 @@ class StruckBeam final : public MechanicalSystem {
   /// out.
   bool find_crossing(const StepEnds& step, double reversal_tolerance, const GuardList& without,
                      Crossing& earliest);
+  /// Whether a branch left and regained within one step is looked for; off only to show what is
+  /// then missed.
+  void set_pair_detection(bool on) { pair_detection_ = on; }
   /// By how much a guard must be crossed within a step, and held again at its end, to count (m):
   /// less is below the rounding of the displacements.
   double negligible_excursion() const;
@@ -180,6 +183,7 @@ class StruckBeam final : public MechanicalSystem {
   std::vector<double> momentum_functional_;
 
   ContactEvaluation contact_evaluation_ = ContactEvaluation::smooth;
+  bool pair_detection_ = true;
   ContactBranch contact_branch_ = ContactBranch::separated;
   ContactHistory contact_history_;
 

@@ -60,6 +60,7 @@ struct SolverOptions {
   std::optional<EventHandling>
       events;  ///< empty: interpolated for central-difference, else located
   std::optional<ReversalHandling> reversals;  ///< empty: located, by adams and bdf step_end
+  bool pair_detection = true;  ///< look for contacts that open and close again within one step
   std::optional<int> max_order;               ///< adams and bdf; empty: default of the method
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
   bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
