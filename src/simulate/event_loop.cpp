@@ -126,7 +126,8 @@ bool EventLoop::confirm(Crossing& crossing, const StepEnds& step) {
         return beam_.evaluate(turn, trial_state_);
       },
       step.t0, step.t1, crossing.guess, options);
-  if (!(beam_.evaluate(crossing.guard, trial_state_).value > beam_.negligible_excursion())) {
+  if (!(beam_.evaluate(crossing.guard, trial_state_).value >
+        beam_.negligible_excursion(trial_state_))) {
     return false;
   }
   crossing.before = top;

@@ -10,10 +10,6 @@
 namespace subimpact {
 namespace {
 
-// A branch that is left and regained by less than this part of the displacement scale within one
-// step is not an event: it is below the rounding of the displacements themselves.
-constexpr double negligible_part = 1e-13;
-
 // A cubic through a step's ends is trusted to know the height of a hump between them to this part
 // of it; a hump that comes closer to zero is looked at on the trajectory.
 constexpr double doubtful_share = 0.5;
@@ -149,7 +145,10 @@ double StruckBeam::curvature(const Guard& guard, std::span<const double> unknown
   return curvatures_[guard.section];
 }
 
-double StruckBeam::negligible_excursion() const { return negligible_part * scales_.position; }
+double StruckBeam::negligible_excursion(const State& y) const {
+  const double size = std::abs(y[n_]) + std::abs(mesh_->struck_point()(beam_positions(y)));
+  return 8.0 * std::numeric_limits<double>::epsilon() * size;
+}
 
 GuardValue StruckBeam::evaluate(const Guard& guard, const State& y) {
   if (guard.kind == EventKind::contact_unloads) {
@@ -211,7 +210,7 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& wi
         if (!pair_detection_ || !(g0.rate > 0.0 && g1.rate < 0.0)) return;
         const double peak = path.peak();
         const double height = path(peak) - std::max(g0.value, g1.value);
-        if (!(path(peak) > negligible_excursion() - doubtful_share * height)) return;
+        if (!(path(peak) > negligible_excursion(step.y1) - doubtful_share * height)) return;
         const double time = step.t0 + peak * step.length();
         if (time < earliest.guess) {
           earliest = {{kind}, step.t0, step.t1, time, true};

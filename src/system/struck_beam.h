@@ -130,9 +130,9 @@ class StruckBeam final : public MechanicalSystem {
   /// Whether a branch left and regained within one step is looked for; off only to show what is
   /// then missed.
   void set_pair_detection(bool on) { pair_detection_ = on; }
-  /// By how much a guard must be crossed within a step, and held again at its end, to count (m):
-  /// less is below the rounding of the displacements.
-  double negligible_excursion() const;
+  /// By how much a guard must be crossed within a step that ends at y, and held again at its end,
+  /// to count (m): less is below the rounding of the displacements.
+  double negligible_excursion(const State& y) const;
   /// A guard's value and rate at a state; costs an acceleration for the guards on a rate.
   GuardValue evaluate(const Guard& guard, const State& y);
   /// Takes an event as having happened at y: switches the contact's branch. Call after commit(y).
