@@ -10,9 +10,8 @@
 namespace subimpact {
 namespace {
 
-// Roots of values are found to rounding. For a turn, what is lost by a time error d is of order
-// d^2; a hundred-thousandth of the step makes that nothing, and costs one partial step more than a
-// hundredth.
+// Roots are found to rounding. A section's turn is good enough when the curvature is within the
+// reversal tolerance of its turning point, or when its time is known to a small part of the step.
 constexpr double root_tolerance = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr double turn_tolerance = 1e-5;
 
@@ -143,6 +142,7 @@ double EventLoop::locate(const Crossing& crossing, const StepEnds& step) {
   const bool is_turn = crossing.guard.kind == EventKind::section_reverses;
   RootOptions options;
   options.tolerance = is_turn ? turn_tolerance * step.length() : root_tolerance * step.t1;
+  if (is_turn) options.turn_tolerance = options_.reversal_tolerance;
   const auto guard_at = [&](double t) {
     integrator_.state_at(t, trial_state_);
     return beam_.evaluate(crossing.guard, trial_state_);

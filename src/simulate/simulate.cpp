@@ -13,17 +13,14 @@
 namespace subimpact {
 namespace {
 
-// A turn that overshoots by less than this part of the yield curvature times rtol is left to the
-// step's end.
-constexpr double negligible_overshoot = 0.1;
-
 constexpr long progress_interval = 512;  // steps
 
 double reversal_tolerance(const Case& input, const Used& used) {
   if (used.reversals == ReversalHandling::step_end || used.events == EventHandling::interpolated) {
     return std::numeric_limits<double>::infinity();
   }
-  return negligible_overshoot * input.solver.rtol * used.yield_curvature;
+  // What a turn overshoots by less than this is left to the step's end.
+  return input.solver.rtol * used.yield_curvature;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {

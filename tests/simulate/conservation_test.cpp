@@ -54,7 +54,7 @@ Audit audited(const Case& input) {
   LoopOptions options;
   options.end_time = input.end_time;
   options.events = used.events;
-  options.reversal_tolerance = 0.1 * input.solver.rtol * used.yield_curvature;
+  options.reversal_tolerance = input.solver.rtol * used.yield_curvature;
   options.largest_indentation = input.scene.beam.thickness;
   EventLoop loop(beam, *integrator, audit, options);
   loop.start();
