@@ -63,7 +63,6 @@ class Exponential final : public Integrator {
   std::map<int, std::unique_ptr<OscillatorStep>> tables_;
   int level_ = 0;  // of the next step; step length unit / 2^level
   int first_level_ = 0;
-  bool was_free_ = false;
   double bound_ = -1.0;  // of |lambda''''| in the present free motion; negative: not known yet
   ForcePolynomial force_;
   double force_length_ = 0.0;
