@@ -179,6 +179,7 @@ void Exponential::forced_step() {
   const double tolerance = options_.relative_tolerance * scales_.position;
   for (;; ++level_) {
     if (level_ > deepest_level) {
+      undo_step();
       throw IntegrationFailure(t0_, "exponential", "step size too small",
                                "the force does not become smooth on any scale");
     }
@@ -212,6 +213,7 @@ void Exponential::forced_step() {
         return;
       }
     } else if (options_.fixed_step) {
+      undo_step();
       throw IntegrationFailure(t0_, "exponential", "no convergence",
                                "the collocation equations have no solution at this solver.step");
     }

@@ -47,7 +47,8 @@ class Integrator {
   virtual void restart(double t, const State& y) = 0;
 
   /// Takes one accepted step from time() on. May pass any event: the acceleration is then that of
-  /// the branch in force, continued. Throws IntegrationFailure.
+  /// the branch in force, continued. Throws IntegrationFailure; time() and state() are then still
+  /// those of the last accepted step.
   virtual void step() = 0;
 
   // The last step's ends; both are the present state before the first step after a restart.
@@ -63,6 +64,12 @@ class Integrator {
   virtual WorkCounts work() const = 0;
 
  protected:
+  /// For a step that failed after its start became (t0_, y0_): back to that start.
+  void undo_step() {
+    t1_ = t0_;
+    y1_ = y0_;
+  }
+
   double t0_ = 0.0, t1_ = 0.0;
   State y0_, y1_;
 };

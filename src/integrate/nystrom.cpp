@@ -15,6 +15,8 @@ constexpr double largest_growth = 4.0;
 constexpr double largest_cut = 0.2;
 constexpr double integral_part = 0.4;
 constexpr int most_rejections = 40;
+// A step shorter than this part of the time it starts at advances by little but rounding.
+constexpr double shortest_step = 16.0 * std::numeric_limits<double>::epsilon();
 
 // The nonzero terms of a row of coefficients.
 struct Terms {
@@ -128,6 +130,13 @@ void Nystrom::step() {
   y1_.resize(y0_.size());
   for (int rejections = 0;; ++rejections) {
     const double h = std::min(next_step_, max_step_);
+    const bool too_short = !fixed_step_ && !(h > shortest_step * std::abs(t0_));
+    if (too_short || rejections > most_rejections) {
+      undo_step();
+      throw IntegrationFailure(t0_, "nystrom", "step size too small",
+                               "the error estimate stays above the tolerance, or is not a number, "
+                               "however short the step");
+    }
     advance(h, stages_, y1_);
     t1_ = t0_ + h;
     if (fixed_step_) break;
@@ -142,10 +151,6 @@ void Nystrom::step() {
       break;
     }
     ++work_.rejected_steps;
-    if (rejections == most_rejections || !(t0_ + h > t0_)) {
-      throw IntegrationFailure(t0_, "nystrom", "step size too small",
-                               "the error estimate stays above the tolerance");
-    }
     const double factor = std::isfinite(error) ? safety * std::pow(error, -exponent) : largest_cut;
     next_step_ = h * std::max(factor, largest_cut);
   }

@@ -215,8 +215,14 @@ TEST_P(EveryAdaptiveMethod, AnAccelerationThatIsNoLongerANumberEndsInAFailureTha
   });
   const auto integrator = GetParam().with_tolerance(motion, 1e-8);
   integrator->restart(0.0, {0.0, 1.0});
+  double reached = 0.0;
+  State there;
   try {
-    for (int i = 0; i < 10000; ++i) integrator->step();
+    for (int i = 0; i < 10000; ++i) {
+      reached = integrator->time();
+      there = integrator->state();
+      integrator->step();
+    }
     FAIL() << "went on to t = " << integrator->time();
   } catch (const IntegrationFailure& failure) {
     const std::string message = failure.what();
@@ -226,7 +232,24 @@ TEST_P(EveryAdaptiveMethod, AnAccelerationThatIsNoLongerANumberEndsInAFailureTha
     EXPECT_NE(message.find(failure.flag), std::string::npos) << message;
     EXPECT_GT(failure.time, 0.0);
     EXPECT_TRUE(std::isfinite(failure.time));
+    // The state is still that of the last accepted step.
+    EXPECT_EQ(integrator->time(), reached);
+    EXPECT_EQ(integrator->state(), there);
   }
+}
+
+// q'' = 1/(1 - q)^2, drawn into a wall that it reaches with infinite velocity: steps shrink without
+// an end, each of them accepted.
+TEST_P(EveryAdaptiveMethod, StepsThatShrinkForEverEndInAFailure) {
+  AnyMotion motion(1, [](std::span<const double> q, std::span<double> a) {
+    a[0] =
+        q[0] < 1.0 ? 1.0 / ((1.0 - q[0]) * (1.0 - q[0])) : std::numeric_limits<double>::quiet_NaN();
+  });
+  const auto integrator = GetParam().with_tolerance(motion, 1e-6);
+  integrator->restart(1.0, {0.0, 0.0});
+  EXPECT_THROW(for (int i = 0; i < 20000; ++i) integrator->step(), IntegrationFailure);
+  EXPECT_LT(integrator->state()[0], 1.0);
+  EXPECT_TRUE(std::isfinite(integrator->state()[1]));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "integrate/integrator.h"
@@ -33,7 +35,17 @@ class OneStepIntegrator final : public Integrator {
   void step() override {
     std::swap(y0_, y1_);
     t0_ = t1_;
-    t1_ = main_.step(y1_);
+    try {
+      t1_ = main_.step(y1_);
+      // The library goes on even where a step no longer moves the time; the bound is nystrom's.
+      if (!(t1_ - t0_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_))) {
+        throw IntegrationFailure(t0_, "ARKODE", "step size too small",
+                                 "the step has shrunk to the rounding of the time");
+      }
+    } catch (...) {
+      undo_step();
+      throw;
+    }
     ++steps_;
   }
 
