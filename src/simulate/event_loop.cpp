@@ -1,8 +1,10 @@
 #include "simulate/event_loop.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "events/hermite.h"
 #include "events/root.h"
@@ -15,8 +17,8 @@ namespace {
 constexpr double root_tolerance = 8.0 * std::numeric_limits<double>::epsilon();
 constexpr double turn_tolerance = 1e-5;
 
-// How often the energy is looked at, in steps, and by which part of the initial energy it may be
-// off before the run is called unstable.
+// How often the energy is looked at, in steps (and at the end), and by which part of the initial
+// energy it may be off before the run is called unstable.
 constexpr long energy_check_interval = 512;
 constexpr double tolerated_energy_gain = 0.5;
 
@@ -41,6 +43,8 @@ void EventLoop::start_from(const State& y) {
   time_ = 0.0;
   initial_energy_ = beam_.energies(y).total();
   beam_.commit(y);
+  end_state_ = y;
+  state_ = &end_state_;  // where the run stands if the integrator cannot even begin
   integrator_.restart(0.0, y);
   state_ = &integrator_.state();
 }
@@ -48,6 +52,7 @@ void EventLoop::start_from(const State& y) {
 void EventLoop::advance() {
   integrator_.step();
   ++n_steps_;
+  state_ = &integrator_.start_state();  // until the step's end is found good
   check_state(integrator_.state());
   if (options_.events == EventHandling::located) {
     locate_events();
@@ -59,7 +64,8 @@ void EventLoop::advance() {
 void EventLoop::check_state(const State& y) {
   const double indentation = beam_.indentation(y);
   const bool too_deep = indentation >= options_.largest_indentation;
-  const bool looked_at = too_deep || n_steps_ % energy_check_interval == 0;
+  const bool last = integrator_.time() >= options_.end_time;
+  const bool looked_at = too_deep || last || n_steps_ % energy_check_interval == 0;
   const double energy = looked_at ? beam_.energies(y).total() : initial_energy_;
   if (!std::isfinite(indentation) || !std::isfinite(energy) ||
       energy > (1.0 + tolerated_energy_gain) * initial_energy_) {
@@ -75,16 +81,22 @@ void EventLoop::check_state(const State& y) {
   }
 }
 
-void EventLoop::locate_events() {
-  const State& y0 = integrator_.start_state();
-  const double t0 = integrator_.start_time();
-  double t1 = integrator_.time();
+StepEnds EventLoop::step_to_end_time() {
+  const double end = std::min(integrator_.time(), options_.end_time);
   const State* y1 = &integrator_.state();
-  if (t1 > options_.end_time) {
-    t1 = options_.end_time;
-    integrator_.state_at(t1, end_state_);
+  if (end < integrator_.time()) {
+    integrator_.state_at(end, end_state_);
     y1 = &end_state_;
   }
+  return {integrator_.start_time(), end, integrator_.start_state(), *y1};
+}
+
+void EventLoop::locate_events() {
+  const StepEnds whole = step_to_end_time();
+  const State& y0 = whole.y0;
+  const double t0 = whole.t0;
+  double t1 = whole.t1;
+  const State* y1 = &whole.y1;
   // The earliest event by estimate is located; the step then ends there, and what remains of it is
   // looked at again, in case an estimate had the order wrong.
   std::optional<Guard> event;
@@ -175,32 +187,23 @@ void EventLoop::report(const Guard& guard, double time, const State& y, bool swi
 }
 
 void EventLoop::interpolate_events() {
-  const State& y0 = integrator_.start_state();
-  const double t0 = integrator_.start_time();
-  double t1 = integrator_.time();
-  const State* y1 = &integrator_.state();
-  if (t1 > options_.end_time) {
-    t1 = options_.end_time;
-    integrator_.state_at(t1, end_state_);
-    y1 = &end_state_;
-  }
-  const StepEnds step{t0, t1, y0, *y1};
+  const StepEnds step = step_to_end_time();
   observer_.on_step(step, beam_, integrator_);
 
   const ContactBranch before = beam_.contact_branch();
   const double threshold = beam_.contact_law().yield_threshold(beam_.contact_history());
   const double residual = beam_.residual_indentation();
-  beam_.follow_branch(*y1);
+  beam_.follow_branch(step.y1);
   const ContactBranch after = beam_.contact_branch();
   if (before != after) {
-    const double h = t1 - t0;
-    const double lambda0 = beam_.indentation(y0);
-    const double lambda1 = beam_.indentation(*y1);
-    const double rate0 = beam_.indentation_rate(y0);
-    const double rate1 = beam_.indentation_rate(*y1);
+    const double h = step.length();
+    const double lambda0 = beam_.indentation(step.y0);
+    const double lambda1 = beam_.indentation(step.y1);
+    const double rate0 = beam_.indentation_rate(step.y0);
+    const double rate1 = beam_.indentation_rate(step.y1);
     const auto event_at = [&](EventKind kind, double s) {
-      integrator_.state_at(t0 + s * h, event_state_);
-      report({kind}, t0 + s * h, event_state_, false);
+      integrator_.state_at(step.t0 + s * h, event_state_);
+      report({kind}, step.t0 + s * h, event_state_, false);
     };
     const auto rise = [&](EventKind kind, double level, double sign) {
       const HermiteCubic path(sign * (lambda0 - level), sign * rate0, sign * (lambda1 - level),
@@ -215,9 +218,9 @@ void EventLoop::interpolate_events() {
     if (after == ContactBranch::plastic) rise(EventKind::contact_yields, threshold, 1.0);
     if (after == ContactBranch::separated) rise(EventKind::contact_ends, residual, -1.0);
   }
-  beam_.commit(*y1);
-  time_ = t1;
-  state_ = y1;
+  beam_.commit(step.y1);
+  time_ = step.t1;
+  state_ = &step.y1;
 }
 
 }  // namespace subimpact

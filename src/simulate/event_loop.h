@@ -50,7 +50,7 @@ class EventLoop {
   /// Puts the beam at t = 0 in another state, with the contact as it is (see set_contact).
   void start_from(const State& y);
   /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure
-  /// or RunStopped.
+  /// or RunStopped; time() and state() are then those before the step.
   void advance();
 
   bool finished() const { return time_ >= options_.end_time; }
@@ -59,6 +59,8 @@ class EventLoop {
   long n_events() const { return n_events_; }
 
  private:
+  // The last step, cut short where it passes the end time.
+  StepEnds step_to_end_time();
   void locate_events();
   void interpolate_events();
   // The instant of a crossing, its state in trial_state_.

@@ -1,7 +1,5 @@
 #include "subimpact/simulate/simulate.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <limits>
 
@@ -25,6 +23,12 @@ double reversal_tolerance(const Case& input, const Used& used) {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What helps when the integrator could not go on.
+std::string remedy(const Case& input) {
+  return input.solver.step ? "use a smaller solver.step or another solver.method"
+                           : "use a larger solver.rtol or another solver.method";
 }
 
 }  // namespace
@@ -67,7 +71,7 @@ Result simulate(const Case& input, const Progress& progress) {
     result.outcome.message = stop.what();
   } catch (const IntegrationFailure& failure) {
     result.outcome.kind = OutcomeKind::solver_failed;
-    result.outcome.message = failure.what();
+    result.outcome.message = failure.what() + ("; " + remedy(input));
   }
   result.outcome.time = loop.time();
   recorder.finish(loop.time(), loop.state(), beam);
