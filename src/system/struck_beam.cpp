@@ -2,25 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "events/hermite.h"
-#include "model/lanes.h"
+#include <utility>
 
 namespace subimpact {
-namespace {
-
-// A cubic through a step's ends is trusted to know the height of a hump between them to this part
-// of it; a hump that comes closer to zero is looked at on the trajectory.
-constexpr double doubtful_share = 0.5;
-
-bool contains(const GuardList& guards, EventKind kind, std::size_t section) {
-  return std::any_of(guards.begin(), guards.end(), [&](const Guard& guard) {
-    return guard.kind == kind && guard.section == section;
-  });
-}
-
-}  // namespace
 
 StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
                        std::unique_ptr<MassSolver> mass_solver)
@@ -124,177 +108,7 @@ double StruckBeam::indentation_rate(const State& y) const {
 
 double StruckBeam::contact_force(const State& y) const { return force(indentation(y)); }
 
-// --- events
-// ----------------------------------------------------------------------------------------
-
-GuardValue StruckBeam::contact_guard(EventKind kind, double indentation, double rate) const {
-  switch (kind) {
-    case EventKind::contact_begins:
-      return {indentation - residual_indentation(), rate};
-    case EventKind::contact_ends:
-      return {residual_indentation() - indentation, -rate};
-    case EventKind::contact_yields:
-      return {indentation - contact_law_.yield_threshold(contact_history_), rate};
-    default:
-      return {-rate, 0.0};  // unloads
-  }
-}
-
-double StruckBeam::curvature(const Guard& guard, std::span<const double> unknowns) {
-  mesh_->curvatures(unknowns, curvatures_);
-  return curvatures_[guard.section];
-}
-
-double StruckBeam::negligible_excursion(const State& y) const {
-  const double size = std::abs(y[n_]) + std::abs(mesh_->struck_point()(beam_positions(y)));
-  return 8.0 * std::numeric_limits<double>::epsilon() * size;
-}
-
-GuardValue StruckBeam::evaluate(const Guard& guard, const State& y) {
-  if (guard.kind == EventKind::contact_unloads) {
-    acceleration({y.data(), n_ + 1}, trial_);
-    const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
-    return {-guard.sense * indentation_rate(y), -guard.sense * second};
-  }
-  if (guard.kind == EventKind::section_reverses) {
-    acceleration({y.data(), n_ + 1}, trial_);
-    const double second = curvature(guard, {trial_.data(), n_});
-    const double rate = curvature(guard, beam_velocities(y));
-    return {-guard.sense * rate, -guard.sense * second};
-  }
-  return contact_guard(guard.kind, indentation(y), indentation_rate(y));
-}
-
-bool StruckBeam::find_crossing(const StepEnds& step, double reversal_tolerance,
-                               const GuardList& without, Crossing& earliest) {
-  earliest.guess = std::numeric_limits<double>::infinity();
-  bool found = find_contact_crossing(step, without, earliest);
-  if (sections_.can_yield() && std::isfinite(reversal_tolerance)) {
-    found = find_reversal(step, reversal_tolerance, without, earliest) || found;
-  }
-  return found;
-}
-
-bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& without,
-                                       Crossing& earliest) {
-  const double lambda0 = indentation(step.y0);
-  const double lambda1 = indentation(step.y1);
-  const double rate0 = indentation_rate(step.y0);
-  const double rate1 = indentation_rate(step.y1);
-  bool found = false;
-  const auto consider = [&](EventKind kind) {
-    if (contains(without, kind, 0)) return;
-    const GuardValue g0 = contact_guard(kind, lambda0, rate0);
-    const GuardValue g1 = contact_guard(kind, lambda1, rate1);
-    double after = 0.0;
-    double guess = 0.0;
-    if (kind == EventKind::contact_unloads) {
-      if (!(g1.value > 0.0)) return;
-      guess = g0.value < 0.0 ? g0.value / (g0.value - g1.value) : 0.0;
-    } else {
-      const HermiteCubic path(g0.value, g0.rate, g1.value, g1.rate, step.length());
-      if (g1.value > 0.0) {
-        if (g0.value >= 0.0 && g0.rate > 0.0 && g1.rate > 0.0) {
-          // Beyond from the start on: it happened at the start.
-          earliest = {{kind}, step.t0, step.t0, step.t0};
-          found = true;
-          return;
-        }
-        // A guard still at zero from the event before first falls: look behind its lowest point.
-        if (g0.rate < 0.0) {
-          const HermiteCubic mirrored(-g0.value, -g0.rate, -g1.value, -g1.rate, step.length());
-          if (g1.rate > 0.0) after = mirrored.peak();
-        }
-      } else {
-        // Not beyond at the end; was it in between?
-        if (!pair_detection_ || !(g0.rate > 0.0 && g1.rate < 0.0)) return;
-        const double peak = path.peak();
-        const double height = path(peak) - std::max(g0.value, g1.value);
-        if (!(path(peak) > negligible_excursion(step.y1) - doubtful_share * height)) return;
-        const double time = step.t0 + peak * step.length();
-        if (time < earliest.guess) {
-          earliest = {{kind}, step.t0, step.t1, time, true};
-          found = true;
-        }
-        return;
-      }
-      guess = path.rise(after, 1.0);
-    }
-    const double t_guess = step.t0 + guess * step.length();
-    if (t_guess < earliest.guess) {
-      earliest = {{kind}, step.t0 + after * step.length(), step.t1, t_guess};
-      found = true;
-    }
-  };
-  switch (contact_branch_) {
-    case ContactBranch::separated:
-      consider(EventKind::contact_begins);
-      break;
-    case ContactBranch::elastic:
-      consider(EventKind::contact_ends);
-      consider(EventKind::contact_yields);
-      break;
-    case ContactBranch::plastic:
-      consider(EventKind::contact_unloads);
-      break;
-  }
-  return found;
-}
-
-bool StruckBeam::find_reversal(const StepEnds& step, double tolerance, const GuardList& without,
-                               Crossing& earliest) {
-  read_kinematics(step.y1, end_);
-  const double h = step.length();
-  const double* k0 = start_.curvatures.data();
-  const double* k1 = end_.curvatures.data();
-  const double* r0 = start_.rates.data();
-  const double* r1 = end_.rates.data();
-  const double* low = sections_.window_low().data();
-  const double* high = sections_.window_high().data();
-  bool found = false;
-  const auto consider = [&](std::size_t i) {
-    const double sense = r0[i] > 0.0 ? 1.0 : -1.0;
-    if (contains(without, EventKind::section_reverses, i)) return;
-    const HermiteCubic path(sense * k0[i], sense * r0[i], sense * k1[i], sense * r1[i], h);
-    const double at = path.peak();
-    const double edge = sense > 0.0 ? high[i] : -low[i];
-    if (path(at) - std::max(edge, sense * k1[i]) <= tolerance) return;
-    const double guess = step.t0 + at * h;
-    if (guess < earliest.guess) {
-      earliest = {{EventKind::section_reverses, i, sense}, step.t0, step.t1, guess};
-      found = true;
-    }
-  };
-  // A cubic exceeds its ends by at most 4/27 of the step times each end's rate.
-  const double reach = 4.0 / 27.0 * h;
-  for_each_found(
-      sections_.size(),
-      [=](std::size_t i) {
-        const Lanes start = lanes_at(r0 + i);
-        const Lanes end = lanes_at(r1 + i);
-        const Lanes up = start > 0.0 ? start : -start;
-        const Lanes down = end > 0.0 ? end : -end;
-        const Lanes margin = reach * (up + down);
-        const Lanes a = lanes_at(k0 + i);
-        const Lanes b = lanes_at(k1 + i);
-        const Lanes upper = a > b ? a : b;
-        const Lanes lower = a > b ? b : a;
-        return (start * end < 0.0) &
-               ((upper + margin > lanes_at(high + i)) | (lower - margin < lanes_at(low + i)));
-      },
-      [=](std::size_t i) {
-        const double margin = reach * (std::abs(r0[i]) + std::abs(r1[i]));
-        return r0[i] * r1[i] < 0.0 && (std::max(k0[i], k1[i]) + margin > high[i] ||
-                                       std::min(k0[i], k1[i]) - margin < low[i]);
-      },
-      consider);
-  return found;
-}
-
-double StruckBeam::event_value(const Guard& guard, const State& y) {
-  return guard.kind == EventKind::section_reverses ? curvature(guard, beam_positions(y))
-                                                   : indentation(y);
-}
+// --- memory -------------------------------------------------------------------------------------
 
 void StruckBeam::apply(const Guard& guard, const State& y) {
   switch (guard.kind) {
@@ -335,8 +149,7 @@ void StruckBeam::read_kinematics(const State& y, Kinematics& at) const {
   mesh_->curvatures(beam_velocities(y), at.rates);
 }
 
-// --- accounts
-// --------------------------------------------------------------------------------------
+// --- accounts -----------------------------------------------------------------------------------
 
 Energies StruckBeam::energies(const State& y) {
   Energies sum;
@@ -376,24 +189,6 @@ double StruckBeam::beam_mass() const {
 StruckBeam::Displacements StruckBeam::displacements(const State& y) const {
   const auto unknowns = beam_positions(y);
   return {mesh_->struck_point()(unknowns), y[n_], mesh_->first_end()(unknowns)};
-}
-
-std::optional<double> StruckBeam::first_flow(const StepEnds& step) {
-  read_kinematics(step.y1, end_);
-  std::optional<double> first;
-  for (std::size_t i = 0; i < sections_.size(); ++i) {
-    const double high = sections_.window_high()[i];
-    const double low = sections_.window_low()[i];
-    const double k1 = end_.curvatures[i];
-    if (k1 >= low && k1 <= high) continue;
-    const double sense = k1 > high ? 1.0 : -1.0;
-    const double edge = sense > 0.0 ? high : -low;
-    const HermiteCubic path(sense * start_.curvatures[i] - edge, sense * start_.rates[i],
-                            sense * k1 - edge, sense * end_.rates[i], step.length());
-    const double time = step.t0 + path.rise(0.0, 1.0) * step.length();
-    if (!first || time < *first) first = time;
-  }
-  return first;
 }
 
 double StruckBeam::back_stress(const State& y) {
