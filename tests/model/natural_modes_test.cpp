@@ -18,6 +18,8 @@ struct Chain {
   BeamTheory theory;
 };
 
+void PrintTo(const Chain& chain, std::ostream* out) { *out << chain.n_cells << " cells"; }
+
 class ModesOfCells : public testing::TestWithParam<Chain> {
  protected:
   CellMesh mesh() const { return {beam(), 0.5, GetParam().n_cells, GetParam().extent}; }

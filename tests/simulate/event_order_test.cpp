@@ -50,6 +50,8 @@ struct Order {
   double low, high;
 };
 
+void PrintTo(const Order& order, std::ostream* out) { *out << order.table; }
+
 class EventTimes : public testing::TestWithParam<Order> {};
 
 TEST_P(EventTimes, HaveTheExpectedOrderInTheStep) {

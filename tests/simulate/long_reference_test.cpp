@@ -17,6 +17,8 @@ struct Bound {
   double before_2ms_us;  // absolute, before 2 ms
 };
 
+void PrintTo(const Bound& bound, std::ostream* out) { *out << bound.table; }
+
 class TheWholeStrike : public testing::TestWithParam<Bound> {};
 
 TEST_P(TheWholeStrike, AgreesWithTheTableWithinItsErrors) {

@@ -15,6 +15,8 @@ struct Table {
   std::size_t count;     // over 8 ms
 };
 
+void PrintTo(const Table& table, std::ostream* out) { *out << table.name; }
+
 class AgainstTheReference : public testing::TestWithParam<Table> {};
 
 TEST_P(AgainstTheReference, AllSubImpactsBeforeTwoMillisecondsAreFoundAtTheirTimes) {

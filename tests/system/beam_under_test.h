@@ -24,6 +24,8 @@ struct Model {
   std::size_t n_cells = 31;
 };
 
+inline void PrintTo(const Model& model, std::ostream* out) { *out << model.name; }
+
 inline std::vector<Model> models() {
   return {{"whole, elastic", CellMesh::Extent::whole, 0.5, false},
           {"whole, yielding", CellMesh::Extent::whole, 0.5, true},

@@ -20,6 +20,8 @@ struct Contact {
   double largest, now;  // indentations in units of the yield indentation
 };
 
+void PrintTo(const Contact& contact, std::ostream* out) { *out << contact.name; }
+
 class Tangent : public testing::TestWithParam<Contact> {
  protected:
   std::vector<double> force(StruckBeam& beam, const State& y) {
