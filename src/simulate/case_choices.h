@@ -2,6 +2,7 @@
 
 #include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "subimpact/simulate/case.h"
 

@@ -15,8 +15,7 @@
 namespace subimpact {
 namespace {
 
-// --- what a member's type implies
-// -----------------------------------------------------------------
+// --- what a member's type implies ---------------------------------------------------------------
 
 template <class T>
 struct Member {  // an enumeration
@@ -76,8 +75,7 @@ struct RemoveOptional<std::optional<T>> {
   static constexpr bool is_optional = true;
 };
 
-// --- the parts of a row
-// -----------------------------------------------------------------------------
+// --- the parts of a row -------------------------------------------------------------------------
 
 struct Range {
   const char* words = "";
@@ -219,8 +217,7 @@ std::vector<CaseKey> make_case_keys() {
 // clang-format on
 #undef AT
 
-// --- checks across keys
-// -----------------------------------------------------------------------------
+// --- checks across keys -------------------------------------------------------------------------
 
 // A row takes 144 bytes in memory and some 400 in the file.
 constexpr double most_history_rows = 5e6;

@@ -1,4 +1,4 @@
-#include <utility>
+#include <memory>
 
 #include "integrate/arkode_ark.h"
 #include "integrate/arkode_erk.h"

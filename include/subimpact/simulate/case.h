@@ -53,15 +53,15 @@ enum class VectorOperationsKind { project, library };
 struct SolverOptions {
   Method method = Method::erk;
   double rtol = 1e-8;          ///< relative to the scene's own scales of displacement and velocity
-  std::optional<double> step;  ///< s; central-difference: 0.9 of critical if empty; erk: adaptive
+  std::optional<double> step;  ///< s; empty: 0.9 of critical (central-difference), else adaptive
   std::optional<double> max_step;    ///< s; adaptive methods
   std::optional<std::string> table;  ///< coefficients of a Runge-Kutta method; its first if empty
   MassSolverKind mass_solver = MassSolverKind::tridiagonal;
   std::optional<EventHandling>
       events;  ///< empty: interpolated for central-difference, else located
   std::optional<ReversalHandling> reversals;  ///< empty: located, by adams and bdf step_end
-  bool pair_detection = true;  ///< look for contacts that open and close again within one step
-  std::optional<int> max_order;               ///< adams and bdf; empty: default of the method
+  bool pair_detection = true;    ///< look for contacts that open and close again within one step
+  std::optional<int> max_order;  ///< adams and bdf; empty: default of the method
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
   bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
 };

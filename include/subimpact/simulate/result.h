@@ -2,6 +2,7 @@
 
 /// What a simulation returns.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,7 +46,7 @@ enum class OutcomeKind {
 struct Outcome {
   OutcomeKind kind = OutcomeKind::completed;
   double time = 0.0;    ///< s, reached
-  std::string message;  ///< one line; for failures: time, mode, cause, what to do
+  std::string message;  ///< one line: for failures, cause and what to do
   bool completed() const { return kind == OutcomeKind::completed; }
 };
 
@@ -102,8 +103,7 @@ struct Result {
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
   std::vector<HistoryRow> history;
-  std::optional<double>
-      first_section_yield;  ///< s, end of the step in which a section first flowed
+  std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
   std::size_t n_yielded_sections = 0;         ///< of the sections modelled
   double max_force = 0.0;                     ///< N

@@ -3,6 +3,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "subimpact/simulate/case.h"
 #include "subimpact/simulate/result.h"
