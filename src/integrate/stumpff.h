@@ -14,7 +14,7 @@ namespace subimpact {
 ///     integral_0^t cos(omega (t - s))       s^m ds = m! t^(m+1) C_{m+1}(y),
 ///
 /// for every y >= 0: by their series below 1 and by C_{k+2} = (1/k! - C_k)/y^2 above, where that
-/// recurrence loses at most a few digits of the last place.
+/// recurrence loses at most the last two digits.
 inline std::array<double, 6> stumpff(double y) {
   const double y2 = y * y;
   std::array<double, 6> c;

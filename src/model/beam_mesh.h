@@ -84,7 +84,7 @@ class BeamMesh {
   virtual NaturalModes natural_modes(double bending_stiffness) const {
     return dense_natural_modes(*this, bending_stiffness);
   }
-  /// "501 cells, half of them by symmetry", for people.
+  /// "501 cells, one half by symmetry", for people.
   virtual std::string description() const = 0;
 
  protected:
