@@ -24,6 +24,8 @@ struct NystromTable {
   std::size_t n_stages() const { return c.size(); }
   /// Whether the last stage is the acceleration at the step's end, and so the next step's first.
   bool first_same_as_last() const;
+  /// Accelerations an accepted step costs.
+  int evaluations() const { return static_cast<int>(n_stages()) - (first_same_as_last() ? 1 : 0); }
 };
 
 /// All tables; the first is the default.

@@ -14,9 +14,8 @@ const std::vector<MethodTable>& method_tables() {
                       table.note});
     }
     for (const NystromTable& table : nystrom_tables()) {
-      const int stages = static_cast<int>(table.n_stages());
       list.push_back({Method::nystrom, table.name, table.order, table.embedded_order,
-                      table.first_same_as_last() ? stages - 1 : stages, table.note});
+                      table.evaluations(), table.note});
     }
     for (const ImplicitTable& table : dirk_tables()) {
       list.push_back(

@@ -126,7 +126,6 @@ TEST_P(EveryMethod, WorksInMicrosecondsAsInYears) {
 }
 
 TEST_P(EveryMethod, CostsTheEvaluationsItsTableClaims) {
-  if (GetParam().evaluations == 0) GTEST_SKIP() << "no claim";
   CurvedMotion motion;
   const auto integrator = GetParam().with_step(motion, 0.02);
   integrator->restart(0.0, motion.initial());

@@ -17,7 +17,7 @@ struct ExplicitMethod {
   std::string name;
   int order;
   double order_band;  ///< observed orders this far off are still its own
-  int evaluations;    ///< an accepted step's; 0: not claimed
+  int evaluations;    ///< an accepted step's
   using Make = std::function<std::unique_ptr<Integrator>(SecondOrderOde&, double)>;
   Make with_step;
   Make with_tolerance;  ///< empty: fixed steps only
@@ -54,7 +54,7 @@ inline std::vector<ExplicitMethod> adaptive_methods() {
     };
     // Of the highest orders double precision shows little: rounding is soon reached.
     methods.push_back(
-        {"nystrom_" + table.name, table.order, table.order > 8 ? 1.0 : 0.5, 0,
+        {"nystrom_" + table.name, table.order, table.order > 8 ? 1.0 : 0.5, table.evaluations(),
          [make](SecondOrderOde& ode, double step) {
            return make(ode, [step](NystromOptions& options) { options.fixed_step = step; });
          },
