@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "paper_scene.h"
 #include "subimpact/simulate/simulate.h"
 
 namespace subimpact {
@@ -15,17 +16,7 @@ namespace subimpact {
 inline Case paper_case(SectionKind section, double end_time) {
   Case input;
   input.title = "free-free beam struck at mid-span";
-  Beam& beam = input.scene.beam;
-  beam.length = 0.7112;
-  beam.width = 0.0163;
-  beam.thickness = 0.0075;
-  beam.density = 2600.0;
-  beam.youngs_modulus = 71.96e9;
-  beam.yield_stress = 150e6;
-  Striker& striker = input.scene.striker;
-  striker.mass = 0.201;
-  striker.nose_radius = 0.01;
-  striker.velocity = 15.9;
+  input.scene = paper_scene();
   input.model.segments = 501;
   input.model.section = section;
   input.model.layers = 40;
