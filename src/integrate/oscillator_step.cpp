@@ -150,13 +150,9 @@ void OscillatorStep::advance_freely(std::span<const double> y, std::span<double>
 
 void OscillatorStep::advance(std::span<const double> y, const NodeForces& forces,
                              std::span<double> end) const {
-  const double* q = y.data();
-  const double* v = q + n_;
+  advance_freely(y, end);
   double* q1 = end.data();
   double* v1 = q1 + n_;
-  const double* c = cosine_.data();
-  const double* so = sine_over_omega_.data();
-  const double* os = minus_omega_sine_.data();
   const double* p0 = position_[0].data();
   const double* p1 = position_[1].data();
   const double* p2 = position_[2].data();
@@ -169,10 +165,8 @@ void OscillatorStep::advance(std::span<const double> y, const NodeForces& forces
   static_assert(s == 4);
 #pragma GCC ivdep
   for (std::size_t k = 0; k < n_; ++k) {
-    q1[k] =
-        c[k] * q[k] + so[k] * v[k] + (f[0] * p0[k] + f[1] * p1[k] + f[2] * p2[k] + f[3] * p3[k]);
-    v1[k] =
-        os[k] * q[k] + c[k] * v[k] + (f[0] * r0[k] + f[1] * r1[k] + f[2] * r2[k] + f[3] * r3[k]);
+    q1[k] += f[0] * p0[k] + f[1] * p1[k] + f[2] * p2[k] + f[3] * p3[k];
+    v1[k] += f[0] * r0[k] + f[1] * r1[k] + f[2] * r2[k] + f[3] * r3[k];
   }
 }
 
