@@ -4,14 +4,12 @@
 #include <cstring>
 #include <fstream>
 
+#include "io/write_file.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
-namespace {
-
 namespace fs = std::filesystem;
 
-// Writes the whole file or none of it.
 void write_file(const fs::path& path, const std::string& content) {
   const fs::path partial = path.string() + ".partial";
   const auto fail = [&](const std::string& cause) {
@@ -32,8 +30,6 @@ void write_file(const fs::path& path, const std::string& content) {
   fs::rename(partial, path, error);
   if (error) fail(error.message());
 }
-
-}  // namespace
 
 void prepare_output_directory(const fs::path& directory) {
   std::error_code error;

@@ -13,6 +13,7 @@
 #include "sample_result.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/simulate/case_keys.h"
+#include "temporary_directory.h"
 
 namespace subimpact {
 namespace {
@@ -44,20 +45,6 @@ Case sample_case() { return read_case_file(SUBIMPACT_PAPER_CASE).value; }
 nlohmann::json parsed_summary(const Case& input, const Result& result) {
   return nlohmann::json::parse(summary_json(input, result));
 }
-
-/// A directory of the test's own, removed at its end.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string name = (fs::temp_directory_path() / "subimpact-test-XXXXXX").string();
-    path = ::mkdtemp(name.data());
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  fs::path path;
-};
 
 TEST(EventsCsv, HasTheAgreedColumns) {
   EXPECT_EQ(events_csv({}),

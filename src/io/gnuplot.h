@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace subimpact {
+
+/// Size of a figure on the screen, in pixels of the PNG at a scale of 1.
+struct FigureSize {
+  int width = 900;
+  int height = 600;
+};
+
+/// What every figure begins with: lines and points 1 to 8 in the colours of Okabe and Ito, which
+/// the colour-blind can tell apart, thin grey grid, borders on two sides.
+std::string figure_style();
+
+/// Draws a figure with gnuplot as directory/name.svg and directory/name.png. `script` sets no
+/// terminal and no output; data are in it (`$data << EOD`) or in files named relative to the
+/// directory. It is left as directory/name.gp, so that a figure can be changed and drawn again:
+///
+///     gnuplot -e "set terminal svg; set output 'name.svg'" name.gp
+///
+/// Throws OutputError if gnuplot is missing or does not take the script; what it said is in the
+/// message.
+void draw_figure(const std::filesystem::path& directory, const std::string& name,
+                 const std::string& script, FigureSize size = {});
+
+}  // namespace subimpact
