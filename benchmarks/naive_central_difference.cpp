@@ -35,8 +35,8 @@ class Tridiagonal {
 class Contact {
  public:
   explicit Contact(const Scene& scene)
-      : stiffness_(4.0 * std::sqrt(2.0 * scene.striker.nose_radius) * scene.beam.youngs_modulus *
-                   scene.beam.width / (3.0 * scene.beam.thickness)),
+      : stiffness_(4.0 * std::sqrt(2.0 * scene.striker.nose_radius.value()) *
+                   scene.beam.youngs_modulus * scene.beam.width / (3.0 * scene.beam.thickness)),
         yield_(scene.beam.yield_stress * scene.beam.thickness / scene.beam.youngs_modulus) {}
 
   double residual() const { return std::max(largest_ - yield_, 0.0); }

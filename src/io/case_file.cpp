@@ -276,7 +276,9 @@ Override parse_override(const std::string& setting) {
 std::string LoadedCase::message(const InvalidCase& error) const {
   const auto at = places_.find(error.key);
   const std::string place = at == places_.end() ? path_ : at->second;
-  const std::string origin = at == places_.end() ? " (the default)" : "";
+  const CaseKey* key = find_case_key(error.key);
+  const bool has_value = key == nullptr || key->get(value).has_value();
+  const std::string origin = at == places_.end() && has_value ? " (the default)" : "";
   return fmt::format("{}: {}{} {}", place, error.key, origin, error.what());
 }
 

@@ -20,6 +20,8 @@ std::string key_text(const Case& input, const char* name) {
 }
 
 std::string symmetry_text(const Case& input, const Used& used) {
+  if (input.model.mesh == MeshKind::rigid)
+    return "none to use: a rigid body has two unknowns at most";
   if (used.half_model)
     return "used: struck at mid-span and both ends alike, so one half is modelled";
   if (input.model.symmetry == SymmetryUse::off)
@@ -28,6 +30,7 @@ std::string symmetry_text(const Case& input, const Used& used) {
 }
 
 std::string section_text(const Case& input, const Used& used) {
+  if (input.model.mesh == MeshKind::rigid) return "none: a rigid beam does not bend";
   if (input.model.section == SectionKind::elastic) return "elastic: sections never yield";
   if (std::isinf(input.scene.beam.yield_stress)) {
     return fmt::format("elastic, although {} was asked: the yield stress is infinite",
@@ -41,6 +44,16 @@ std::string section_text(const Case& input, const Used& used) {
         input.model.layers, 1.0 - 1.0 / (n * n), used.yield_curvature * n / (n - 1.0));
   }
   return fmt::format("exact: first yield at a curvature of {:.6g} 1/m", used.yield_curvature);
+}
+
+// A nose radius describes the striker whether or not the law asks for it; where it does not, that
+// is said.
+std::string contact_stiffness_text(const Case& input, const Used& used) {
+  const Contact& contact = input.scene.contact;
+  const char* unit = used.contact_exponent == 1.0 ? "N/m" : "N/m^1.5";
+  if (!contact.stiffness) return fmt::format("{:.7g} {}", used.contact_stiffness, unit);
+  return fmt::format("{:.7g} {}, as given{}", used.contact_stiffness, unit,
+                     input.scene.striker.nose_radius ? "; striker.nose_radius plays no part" : "");
 }
 
 std::string method_text(const Case& input, const Used& used) {
@@ -87,19 +100,23 @@ std::string explanation(const Case& input, const Used& used,
                             duration_text(input.output.subzone_gap * used.first_period)));
   head("Contact");
   line("law", key_text(input, "contact.law"));
-  line("stiffness", fmt::format("{:.7g} N/m^1.5", used.contact_stiffness));
+  line("stiffness", contact_stiffness_text(input, used));
   line("yield indentation", std::isinf(used.yield_indentation)
                                 ? "infinite: the contact never yields"
                                 : fmt::format("{:.6g} mm", used.yield_indentation * 1e3));
   head("Model");
-  line("mesh", fmt::format("{}; cells of {:.6g} mm", used.mesh,
-                           1e3 * scene.beam.length / input.model.segments));
+  const bool cells = input.model.mesh == MeshKind::cells;
+  line("mesh", cells ? fmt::format("{}; cells of {:.6g} mm", used.mesh,
+                                   1e3 * scene.beam.length / input.model.segments)
+                     : used.mesh);
   line("symmetry", symmetry_text(input, used));
   line("unknowns", fmt::format("{} of the beam and 1 of the striker; {} sections", used.n_unknowns,
                                used.n_sections));
   line("section law", section_text(input, used));
   line("highest frequency", fmt::format("{:.4g} rad/s", used.highest_frequency));
-  line("critical step", duration_text(used.critical_step) + " (of central differences)");
+  line("critical step", std::isfinite(used.critical_step)
+                            ? duration_text(used.critical_step) + " (of central differences)"
+                            : "none: nothing oscillates");
   head("Integration");
   line("method", method_text(input, used));
   line("step", step_text(input, used));
@@ -119,7 +136,7 @@ std::string explanation(const Case& input, const Used& used,
                      count_text(cost->right_hand_sides), cost->seconds_per_right_hand_side * us));
     line("time", "about " + duration_text(cost->seconds));
   } else {
-    line("steps", "not predicted for this method");
+    line("steps", "not predicted for this method and mesh");
   }
   return fmt::to_string(text);
 }

@@ -2,9 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace subimpact {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();  // as a yield indentation
+
+}  // namespace
+
+double hertz_stiffness(double radius, double modulus_1, double poisson_1, double modulus_2,
+                       double poisson_2) {
+  const double compliance = (1.0 - poisson_1 * poisson_1) / modulus_1 +
+                            (1.0 - poisson_2 * poisson_2) / modulus_2;  // 1/E*
+  return 4.0 / 3.0 * std::sqrt(radius) / compliance;
+}
 
 ContactLaw::ContactLaw(double stiffness, double exponent, double yield_indentation)
     : stiffness_(stiffness), exponent_(exponent), yield_indentation_(yield_indentation) {
@@ -17,14 +30,33 @@ ContactLaw::ContactLaw(double stiffness, double exponent, double yield_indentati
 
 ContactLaw ContactLaw::of(const Scene& scene) {
   const Beam& beam = scene.beam;
-  const double stiffness = 4.0 * std::sqrt(2.0 * scene.striker.nose_radius) * beam.youngs_modulus *
-                           beam.width / (3.0 * beam.thickness);
-  return ContactLaw(stiffness, 1.5, beam.yield_stress * beam.thickness / beam.youngs_modulus);
+  const Contact& contact = scene.contact;
+  const auto need = [](const std::optional<double>& constant) {
+    if (!constant) throw std::invalid_argument("contact law: a constant that it needs is missing");
+    return *constant;
+  };
+  switch (contact.kind) {
+    case ContactKind::foundation:
+      return ContactLaw(4.0 * std::sqrt(2.0 * need(scene.striker.nose_radius)) *
+                            beam.youngs_modulus * beam.width / (3.0 * beam.thickness),
+                        1.5, beam.yield_stress * beam.thickness / beam.youngs_modulus);
+    case ContactKind::hertz:
+      if (contact.stiffness) return ContactLaw(*contact.stiffness, 1.5, never);
+      return ContactLaw(
+          hertz_stiffness(need(scene.striker.nose_radius), need(contact.striker_modulus),
+                          need(contact.striker_poisson), beam.youngs_modulus,
+                          need(contact.beam_poisson)),
+          1.5, never);
+    case ContactKind::linear:
+      return ContactLaw(need(contact.stiffness), 1.0, never);
+  }
+  throw std::invalid_argument("contact law: unknown kind");
 }
 
 // Powers are odd functions, so that a branch goes on smoothly where a trial step leaves its range.
 double ContactLaw::power(double x) const {
   if (exponent_ == 1.5) return x * std::sqrt(std::abs(x));
+  if (exponent_ == 1.0) return x;
   return std::copysign(std::pow(std::abs(x), exponent_), x);
 }
 

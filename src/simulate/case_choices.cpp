@@ -22,6 +22,10 @@ std::span<const Named<EndSupport>> names_of(EndSupport) {
 std::span<const Named<ContactKind>> names_of(ContactKind) {
   static constexpr Named<ContactKind> names[] = {
       {ContactKind::foundation, "foundation", "elasto-plastic columns under a cylindrical nose"},
+      {ContactKind::hertz, "hertz",
+       "elastic, K lambda^1.5: contact.stiffness, or a sphere of striker.nose_radius with the "
+       "moduli and Poisson's ratios of both bodies"},
+      {ContactKind::linear, "linear", "elastic, K lambda: contact.stiffness"},
   };
   return names;
 }
@@ -29,6 +33,7 @@ std::span<const Named<ContactKind>> names_of(ContactKind) {
 std::span<const Named<MeshKind>> names_of(MeshKind) {
   static constexpr Named<MeshKind> names[] = {
       {MeshKind::cells, "cells", "equal cells, second order"},
+      {MeshKind::rigid, "rigid", "the beam as a rigid body, for impacts of two bodies"},
   };
   return names;
 }

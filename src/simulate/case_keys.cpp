@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "simulate/case_choices.h"
+#include "simulate/contact_checks.h"
 #include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
@@ -167,6 +168,8 @@ std::vector<Choice> table_choices() {
 // clang-format off
 std::vector<CaseKey> make_case_keys() {
   const Range yield{"above 0, or inf", [](double x) { return x > 0.0; }};
+  const Range modulus{"above 0, or inf", [](double x) { return x > 0.0; }};
+  const Range poisson = between("from 0 to 0.5", 0.0, 0.5);
   const Range fraction = between("from 0 to 1", 0.0, 1.0);
   const Range tolerance = between("from 1e-14 to 0.1", 1e-14, 0.1);
   return {
@@ -182,11 +185,15 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
 
     row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass)),
-    row("striker.nose_radius", "m", positive, "radius of its cylindrical nose", required, AT(scene.striker.nose_radius)),
+    row("striker.nose_radius", "m", positive, "radius of its nose: of a cylinder for contact.law = \"foundation\", of a sphere for \"hertz\"", "none; \"foundation\" needs it: give it", AT(scene.striker.nose_radius)),
     row("striker.velocity", "m/s", positive, "velocity at the first touch", required, AT(scene.striker.velocity)),
     row("striker.position", "", fraction, "struck point, as a fraction of the length", as_in_case, AT(scene.striker.position)),
 
     row("contact.law", "", any_value, "relation of contact force and indentation", as_in_case, AT(scene.contact.kind)),
+    row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from a sphere's radius and moduli; linear needs it", AT(scene.contact.stiffness)),
+    row("contact.striker_modulus", "Pa", modulus, "Young's modulus of a spherical nose, for \"hertz\" without stiffness; inf: rigid", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_modulus)),
+    row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_poisson)),
+    row("contact.beam_poisson", "", poisson, "Poisson's ratio of the beam, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.beam_poisson)),
 
     row("model.mesh", "", any_value, "discretisation of the beam", as_in_case, AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
@@ -223,6 +230,7 @@ std::vector<CaseKey> make_case_keys() {
 constexpr double most_history_rows = 5e6;
 
 void check_strike_within_mesh(const Case& input) {
+  if (input.model.mesh != MeshKind::cells) return;
   const double cells = input.model.segments;
   const double at = input.scene.striker.position;
   if (at * cells >= 0.5 && (1.0 - at) * cells >= 0.5) return;
@@ -279,6 +287,7 @@ void check(const Case& input) {
     if (!value) continue;
     if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
   }
+  check_contact(input);
   check_strike_within_mesh(input);
   check_history_size(input);
   check_gaps(input);

@@ -61,6 +61,7 @@ std::optional<CostEstimate> estimate_cost(const Case& input) {
   const Method method = input.solver.method;
   const bool fitted = method == Method::erk || method == Method::nystrom;
   if (!fitted && method != Method::central_difference) return std::nullopt;
+  if (used.highest_frequency == 0.0) return std::nullopt;  // a rigid beam: no mesh, no fit
   CostEstimate cost;
   cost.seconds_per_right_hand_side = measure_right_hand_side(beam);
   const int evaluations = table != nullptr ? table->evaluations : 1;

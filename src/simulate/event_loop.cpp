@@ -77,7 +77,7 @@ void EventLoop::check_state(const State& y) {
     throw RunStopped(
         RunStopped::Reason::left_validity,
         "the indentation reached the beam's thickness, where the contact law ends; reduce "
-        "striker.velocity or striker.mass, or enlarge striker.nose_radius");
+        "striker.velocity or striker.mass, or make the contact stiffer");
   }
 }
 

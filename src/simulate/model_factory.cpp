@@ -12,6 +12,7 @@
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
+#include "model/rigid_mesh.h"
 #include "subimpact/simulate/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
 
@@ -75,7 +76,19 @@ std::optional<std::string> table_used(const Case& input) {
   return asked;
 }
 
+std::unique_ptr<BeamMesh> make_rigid_mesh(const Case& input) {
+  for (const EndSupport end : input.scene.beam.ends) {
+    if (end == EndSupport::free) continue;
+    throw InvalidCase("model.mesh",
+                      "is \"rigid\", but a rigid beam moves only with free ends; set beam.ends = "
+                      "[\"free\", \"free\"] (a heavy beam stands for a fixed one), or use another "
+                      "mesh");
+  }
+  return std::make_unique<RigidMesh>(input.scene.beam, input.scene.striker.position);
+}
+
 std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
+  if (input.model.mesh == MeshKind::rigid) return make_rigid_mesh(input);
   const bool half = uses_symmetry(input);
   const int segments = input.model.segments;
   if (half && segments % 2 == 0) {
@@ -93,7 +106,8 @@ std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
 
 SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {
   const Beam& beam = input.scene.beam;
-  if (input.model.section == SectionKind::elastic || std::isinf(beam.yield_stress)) {
+  if (input.model.section == SectionKind::elastic || input.model.mesh == MeshKind::rigid ||
+      std::isinf(beam.yield_stress)) {
     return SectionField(n, beam.bending_stiffness());
   }
   const Fibres fibres = input.model.section == SectionKind::layers
@@ -133,6 +147,7 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.highest_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
   used.critical_step = 2.0 / used.highest_frequency;
   used.contact_stiffness = beam.contact_law().stiffness();
+  used.contact_exponent = beam.contact_law().exponent();
   used.yield_indentation = beam.contact_law().yield_indentation();
   used.yield_curvature = scene.beam.yield_curvature();
   used.first_period = 2.0 * M_PI / free_free_frequencies(scene.beam, 1).front();
@@ -159,6 +174,11 @@ Used describe(const Case& input, const StruckBeam& beam) {
                     *input.solver.step, to_string(input.solver.method)));
   }
   if (central) {
+    if (!input.solver.step && !std::isfinite(used.critical_step)) {
+      throw InvalidCase("solver.step",
+                        "is missing: a rigid beam has no critical step to derive it from; give a "
+                        "step in s, or use another method");
+    }
     used.step = input.solver.step.value_or(default_part_of_critical * used.critical_step);
     if (*used.step > used.critical_step && !input.solver.beyond_critical) {
       throw InvalidCase(

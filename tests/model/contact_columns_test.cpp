@@ -20,7 +20,7 @@ namespace {
 class ColumnBed {
  public:
   ColumnBed(const Scene& scene, std::size_t n_columns, double deepest)
-      : radius_(scene.striker.nose_radius),
+      : radius_(scene.striker.nose_radius.value()),
         modulus_(scene.beam.youngs_modulus / scene.beam.thickness),
         yield_stress_(scene.beam.yield_stress),
         width_(scene.beam.width),

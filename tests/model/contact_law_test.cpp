@@ -53,6 +53,63 @@ TEST(ContactLaw, WithAnotherExponentIsThePowerLawOfThatExponent) {
   }
 }
 
+TEST(ContactLaw, OfASceneIsHertzOrLinearWhereAsked) {
+  Scene scene = paper_scene();
+  scene.striker.nose_radius.reset();
+  EXPECT_THROW(ContactLaw::of(scene), std::invalid_argument);
+  scene.contact.kind = ContactKind::hertz;
+  EXPECT_THROW(ContactLaw::of(scene), std::invalid_argument);
+  scene.contact.stiffness = 1.5e10;
+  EXPECT_EQ(ContactLaw::of(scene).exponent(), 1.5);
+  EXPECT_EQ(ContactLaw::of(scene).stiffness(), 1.5e10);
+  EXPECT_EQ(ContactLaw::of(scene).yield_indentation(), infinity);
+  scene.contact.kind = ContactKind::linear;
+  EXPECT_EQ(ContactLaw::of(scene).exponent(), 1.0);
+  EXPECT_DOUBLE_EQ(ContactLaw::of(scene).force({}, 2e-5), 3e5);
+  EXPECT_DOUBLE_EQ(ContactLaw::of(scene).recoverable_energy({}, 2e-5), 3.0);
+}
+
+TEST(ContactLaw, OfASphereIsHertzsWithBothBodiesElastic) {
+  // Timoshenko's ball and bar, of one steel: 2/3 E sqrt(R)/(1 - nu^2).
+  Scene scene = paper_scene();
+  scene.beam.youngs_modulus = 2.157463e11;
+  scene.striker.nose_radius = 0.01;
+  scene.contact = {ContactKind::hertz, {}, 2.157463e11, 0.3, 0.3};
+  EXPECT_NEAR(ContactLaw::of(scene).stiffness(), 1.580559e10, 0.5e4);
+  // A rigid ball is twice as stiff as one of the beam's material; so is a rigid beam.
+  const double both = hertz_stiffness(0.01, 2e11, 0.3, 2e11, 0.3);
+  EXPECT_DOUBLE_EQ(hertz_stiffness(0.01, infinity, 0.3, 2e11, 0.3), 2.0 * both);
+  EXPECT_DOUBLE_EQ(hertz_stiffness(0.01, 2e11, 0.3, infinity, 0.1), 2.0 * both);
+  EXPECT_DOUBLE_EQ(hertz_stiffness(0.04, 2e11, 0.3, 2e11, 0.3), 2.0 * both);
+}
+
+// A mass against a wall under F = K d^n, by small Runge-Kutta steps: duration times v/d_max.
+double duration_constant(double exponent) {
+  const ContactLaw law(1.0, exponent, infinity);
+  const double d_max = std::pow(0.5 * (exponent + 1.0), 1.0 / (exponent + 1.0));
+  const double h = 1e-4;
+  double x = 0.0;
+  double v = 1.0;
+  double t = 0.0;
+  for (;;) {
+    const double x1 = x + 0.5 * h * v, v1 = v - 0.5 * h * law.force({}, x);
+    const double x2 = x + 0.5 * h * v1, v2 = v - 0.5 * h * law.force({}, x1);
+    const double x3 = x + h * v2, v3 = v - h * law.force({}, x2);
+    const double next = x + h / 6.0 * (v + 2.0 * v1 + 2.0 * v2 + v3);
+    if (next <= 0.0) return (t - x / v) / d_max;
+    v -= h / 6.0 *
+         (law.force({}, x) + 2.0 * law.force({}, x1) + 2.0 * law.force({}, x2) + law.force({}, x3));
+    x = next;
+    t += h;
+  }
+}
+
+TEST(ContactLaw, OfAPowerHasTheClosedFormsDuration) {
+  EXPECT_NEAR(duration_constant(1.5), 2.943275184, 1e-6);
+  EXPECT_NEAR(duration_constant(1.0), M_PI, 1e-6);
+  EXPECT_NEAR(duration_constant(2.0), 2.804364, 1e-6);
+}
+
 TEST(ContactLaw, ForceIsContinuousWhereBranchesMeet) {
   const ContactLaw law = paper_law();
   const double unit = law.yield_indentation();

@@ -1,10 +1,11 @@
 #pragma once
 
 /// The scene as plain data: a uniform rectangular beam, at rest, struck sideways by a rigid mass
-/// with a cylindrical nose. SI units. Nothing here knows about discretisation or time stepping.
+/// with a round nose. SI units. Nothing here knows about discretisation or time stepping.
 
 #include <array>
 #include <limits>
+#include <optional>
 
 namespace subimpact {
 
@@ -43,22 +44,30 @@ struct Beam {
   }
 };
 
-/// Rigid mass with a cylindrical nose across the beam's width, moving freely but for the contact
-/// force.
+/// Rigid mass with a round nose, moving freely but for the contact force.
 struct Striker {
-  double mass = 0.0;         ///< m, kg
-  double nose_radius = 0.0;  ///< R, m
-  double velocity = 0.0;     ///< v0, m/s, towards the beam
-  double position = 0.5;     ///< struck point as a fraction of the length
+  double mass = 0.0;                  ///< m, kg
+  std::optional<double> nose_radius;  ///< R, m: of a cylinder across the beam's width under the law
+                                      ///< `foundation`, of a sphere under `hertz`
+  double velocity = 0.0;              ///< v0, m/s, towards the beam
+  double position = 0.5;              ///< struck point as a fraction of the length
 };
 
 /// Which relation holds between contact force and indentation.
 enum class ContactKind {
   foundation,  ///< elasto-plastic columns under a cylinder (see ContactLaw)
+  hertz,       ///< F = K lambda^1.5, never yields
+  linear,      ///< F = K lambda, never yields
 };
 
+/// The contact's own constants; `foundation` has none, its follow from beam and nose radius.
 struct Contact {
   ContactKind kind = ContactKind::foundation;
+  std::optional<double> stiffness;  ///< K: N/m^1.5 (hertz), N/m (linear)
+  // Of a sphere on a flat surface of the beam's modulus, in place of a stiffness (hertz):
+  std::optional<double> striker_modulus;  ///< E_s, Pa; infinite: rigid
+  std::optional<double> striker_poisson;  ///< nu_s
+  std::optional<double> beam_poisson;     ///< nu
 };
 
 struct Scene {

@@ -18,7 +18,10 @@ enum class SectionKind {
   exact     ///< infinitely many layers, in closed form
 };
 
-enum class MeshKind { cells };
+enum class MeshKind {
+  cells,  ///< equal cells
+  rigid   ///< the beam as a rigid body
+};
 
 /// Whether a scene that is symmetric about mid-span is modelled by one half.
 enum class SymmetryUse { automatic, off };

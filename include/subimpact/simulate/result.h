@@ -65,7 +65,8 @@ struct Used {
   std::optional<int> max_order;     ///< of multistep methods
   double position_tolerance = 0.0;  ///< m, adaptive methods
   double velocity_tolerance = 0.0;  ///< m/s
-  double contact_stiffness = 0.0;   ///< K, N/m^1.5
+  double contact_stiffness = 0.0;   ///< K, N/m^contact_exponent
+  double contact_exponent = 1.5;    ///< of the indentation in the contact force
   double yield_indentation = 0.0;   ///< lambda_s, m
   double yield_curvature = 0.0;     ///< 1/m
   double first_period = 0.0;        ///< T1 of the beam in bending, s

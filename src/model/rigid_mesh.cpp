@@ -1,0 +1,42 @@
+#include "model/rigid_mesh.h"
+
+#include <algorithm>
+
+namespace subimpact {
+namespace {
+
+std::size_t degrees_of_freedom(double position) { return position == 0.5 ? 1 : 2; }
+
+constexpr double no_curvature[] = {0.0};
+
+}  // namespace
+
+RigidMesh::RigidMesh(const Beam& beam, double position)
+    : BeamMesh(degrees_of_freedom(position), 0, false) {
+  const double l = beam.length;
+  mass_.at(0, 0) = beam.mass();
+  struck_point_.terms = {{0, 1.0}};
+  first_end_.terms = {{0, 1.0}};
+  if (n_unknowns() == 2) {
+    mass_.at(1, 1) = beam.mass() * l * l / 12.0 + beam.rotary_inertia() * l;
+    struck_point_.terms.push_back({1, (position - 0.5) * l});
+    first_end_.terms.push_back({1, -0.5 * l});
+  }
+  translation_[0] = 1.0;
+  weights_ = {l};
+  positions_ = {position * l};
+}
+
+void RigidMesh::curvatures(std::span<const double>, std::span<double> kappa) const {
+  std::fill(kappa.begin(), kappa.end(), 0.0);
+}
+
+void RigidMesh::bending_forces(std::span<const double>, std::span<double> forces) const {
+  std::fill(forces.begin(), forces.end(), 0.0);
+}
+
+BeamMesh::SectionStencil RigidMesh::section_stencil(std::size_t) const { return {0, no_curvature}; }
+
+double RigidMesh::highest_frequency(double) const { return 0.0; }
+
+}  // namespace subimpact
