@@ -120,8 +120,12 @@ std::string run_summary(const Case& input, const Result& result) {
                              result.max_indentation * mm));
   line("final velocities", fmt::format("striker {:.6f} m/s, beam (mean) {:.6f} m/s",
                                        result.striker_velocity, result.beam_mean_velocity));
-  line("conservation", fmt::format("energy to {:.1e}, momentum to {:.1e}, relative",
-                                   result.max_energy_error, result.max_momentum_error));
+  line("conservation",
+       result.max_momentum_error
+           ? fmt::format("energy to {:.1e}, momentum to {:.1e}, relative", result.max_energy_error,
+                         *result.max_momentum_error)
+           : fmt::format("energy to {:.1e}, relative; momentum is not kept: supports take it up",
+                         result.max_energy_error));
   if (result.trust) line("error bars", trust_text(result));
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));

@@ -57,8 +57,11 @@ class BeamMesh {
   const SparseFunctional& first_end() const { return first_end_; }          ///< w(0)
   /// Index of the section at (or nearest to) the struck point.
   std::size_t struck_section() const { return struck_section_; }
-  /// Unknowns of a rigid translation by 1 m.
+  /// Unknowns of a rigid translation by 1 m; empty where a support prevents it.
   std::span<const double> translation() const { return translation_; }
+  /// Momentum of the beam for 1 m/s of each unknown, kg.
+  std::span<const double> momentum_functional() const { return momentum_functional_; }
+  double beam_mass() const { return beam_mass_; }  ///< kg, of the whole beam
   /// Whether only one half is stored.
   bool symmetric() const { return symmetric_; }
 
@@ -89,7 +92,7 @@ class BeamMesh {
 
  protected:
   BeamMesh(std::size_t n_unknowns, std::size_t half_bandwidth, bool symmetric)
-      : mass_(n_unknowns, half_bandwidth), translation_(n_unknowns, 0.0), symmetric_(symmetric) {}
+      : mass_(n_unknowns, half_bandwidth), symmetric_(symmetric) {}
 
   BandedMatrix mass_;
   std::vector<double> weights_;
@@ -98,6 +101,8 @@ class BeamMesh {
   SparseFunctional first_end_;
   std::size_t struck_section_ = 0;
   std::vector<double> translation_;
+  std::vector<double> momentum_functional_;
+  double beam_mass_ = 0.0;
   bool symmetric_;
 };
 

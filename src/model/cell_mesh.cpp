@@ -7,77 +7,169 @@
 #include "model/cell_modes.h"
 
 namespace subimpact {
+namespace {
+
+bool is_clamped(EndSupport end) { return end == EndSupport::clamped; }
+
+std::size_t count_unknowns(const Beam& beam, std::size_t n_cells, bool half) {
+  const std::size_t slaved =
+      (is_clamped(beam.ends[0]) ? 1 : 0) + (!half && is_clamped(beam.ends[1]) ? 1 : 0);
+  const std::size_t fewest = is_clamped(beam.ends[0]) || is_clamped(beam.ends[1])
+                                 ? CellMesh::fewest_cells_if_clamped
+                                 : CellMesh::fewest_cells;
+  if (n_cells < fewest) {
+    throw std::invalid_argument("cell mesh: at least 5 cells are needed, 7 with a clamped end");
+  }
+  return (half ? n_cells / 2 + 1 : n_cells) - slaved;
+}
+
+// Share of the first unknown in the outermost cell of a clamped end.
+constexpr double clamped_share = 1.0 / 9.0;
+
+// Sections of an end, outermost first, in units of 1/dx^2.
+std::vector<std::array<double, 2>> end_stencils(EndSupport end) {
+  switch (end) {
+    case EndSupport::pinned:
+      return {{-3.0, 1.0}};
+    case EndSupport::clamped:
+      return {{1.0 - clamped_share, 0.0}, {-2.0 + clamped_share, 1.0}};
+    case EndSupport::free:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
 
 CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent)
-    : BeamMesh(extent == Extent::half ? n_cells / 2 + 1 : n_cells, 1, extent == Extent::half),
+    : BeamMesh(count_unknowns(beam, n_cells, extent == Extent::half), 1, extent == Extent::half),
       n_cells_(n_cells),
       spacing_(beam.length / static_cast<double>(n_cells)),
       mass_per_length_(beam.mass_per_length()),
-      rotary_inertia_(beam.rotary_inertia()) {
-  if (n_cells < 5) throw std::invalid_argument("cell mesh: at least 5 cells are needed");
-  if (symmetric() && (n_cells % 2 == 0 || position != 0.5)) {
+      rotary_inertia_(beam.rotary_inertia()),
+      ends_(beam.ends) {
+  if (symmetric() && (n_cells % 2 == 0 || position != 0.5 || ends_[0] != ends_[1])) {
     throw std::invalid_argument(
-        "cell mesh: a half model needs an odd number of cells, struck at 0.5");
+        "cell mesh: a half model needs an odd number of cells, struck at 0.5, and ends alike");
   }
   const double inverse = 1.0 / (spacing_ * spacing_);
   stencil_ = {inverse, -2.0 * inverse, inverse};
   struck_stencil_ = {2.0 * inverse, -2.0 * inverse};
-  const std::size_t n = n_unknowns();
+  first_sections_ = end_stencils(ends_[0]);
+  if (!symmetric()) last_sections_ = end_stencils(ends_[1]);
+  std::reverse(last_sections_.begin(), last_sections_.end());
+  for (EndStencil& stencil : last_sections_) std::swap(stencil[0], stencil[1]);
+  for (auto* sections : {&first_sections_, &last_sections_}) {
+    for (EndStencil& stencil : *sections) {
+      for (double& coefficient : stencil) coefficient *= inverse;
+    }
+  }
+  if (beam.is_free()) translation_.assign(n_unknowns(), 1.0);
+  beam_mass_ = beam.mass();
+  assemble_mass();
+  place_sections();
+  place_strike(position);
+  if (ends_[0] == EndSupport::free) first_end_.terms = {{0, 1.5}, {1, -0.5}};  // no curvature there
+}
+
+// The displacement of a cell's centre.
+SparseFunctional CellMesh::cell(std::size_t i) const {
+  const std::size_t slaved = is_clamped(ends_[0]) ? 1 : 0;
+  SparseFunctional displacement;
+  if (i < slaved) {
+    displacement.terms = {{0, clamped_share}};
+  } else if (i - slaved == n_unknowns()) {
+    displacement.terms = {{n_unknowns() - 1, clamped_share}};
+  } else {
+    displacement.terms = {{i - slaved, 1.0}};
+  }
+  return displacement;
+}
+
+void CellMesh::assemble_mass() {
   const double copies = symmetric() ? 2.0 : 1.0;  // the mirrored cells are folded in
   const double cell_mass = mass_per_length_ * spacing_;
   const double coupling = rotary_inertia_ / spacing_;
-  for (std::size_t i = 0; i < n; ++i) mass_.at(i, i) = copies * cell_mass;
-  if (symmetric()) mass_.at(n - 1, n - 1) = cell_mass;
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    mass_.at(i, i) += copies * coupling;
-    mass_.at(i + 1, i + 1) += copies * coupling;
-    mass_.at(i, i + 1) -= copies * coupling;
+  const std::size_t n_kept = symmetric() ? n_cells_ / 2 + 1 : n_cells_;
+  momentum_functional_.assign(n_unknowns(), 0.0);
+  for (std::size_t i = 0; i < n_kept; ++i) {
+    const auto [unknown, share] = cell(i).terms.front();
+    const double mass = symmetric() && i + 1 == n_kept ? cell_mass : copies * cell_mass;
+    mass_.at(unknown, unknown) += mass * share * share;
+    momentum_functional_[unknown] += mass * share;
+    if (i + 1 == n_kept) break;
+    const auto [next, next_share] = cell(i + 1).terms.front();
+    mass_.at(unknown, unknown) += copies * coupling * share * share;
+    mass_.at(next, next) += copies * coupling * next_share * next_share;
+    // The same entry twice over if both cells share one unknown.
+    mass_.at(unknown, next) -=
+        (unknown == next ? 2.0 : 1.0) * copies * coupling * share * next_share;
   }
-  std::fill(translation_.begin(), translation_.end(), 1.0);
+  // Half a link to the upside-down mirror image.
+  if (ends_[0] == EndSupport::pinned) mass_.at(0, 0) += copies * 2.0 * coupling;
+  if (!symmetric() && ends_[1] == EndSupport::pinned) {
+    mass_.at(n_unknowns() - 1, n_unknowns() - 1) += 2.0 * coupling;
+  }
+}
 
-  const std::size_t n_sections = symmetric() ? n - 1 : n - 2;
-  for (std::size_t i = 1; i <= n_sections; ++i) {
+void CellMesh::place_sections() {
+  const double copies = symmetric() ? 2.0 : 1.0;
+  const std::size_t first = ends_[0] == EndSupport::free ? 1 : 0;
+  const std::size_t end = symmetric()                    ? n_cells_ / 2 + 1
+                          : ends_[1] == EndSupport::free ? n_cells_ - 1
+                                                         : n_cells_;
+  for (std::size_t i = first; i < end; ++i) {
     positions_.push_back((static_cast<double>(i) + 0.5) * spacing_);
     weights_.push_back(copies * spacing_);
   }
   if (symmetric()) weights_.back() = spacing_;
+}
 
-  first_end_.terms = {{0, 1.5}, {1, -0.5}};  // no curvature at a free end
+void CellMesh::place_strike(double position) {
+  const std::size_t first = ends_[0] == EndSupport::free ? 1 : 0;  // cell with a section
   if (symmetric()) {
-    struck_point_.terms = {{n - 1, 1.0}};
-    struck_section_ = n_sections - 1;
-  } else {
-    const double cells = static_cast<double>(n_cells);
-    const double at = std::clamp(position * cells - 0.5, 0.0, cells - 1.0);
-    const auto left = std::min(static_cast<std::size_t>(at), n - 2);
-    const double share = at - static_cast<double>(left);
-    if (share == 0.0) {
-      struck_point_.terms = {{left, 1.0}};
-    } else if (share == 1.0) {
-      struck_point_.terms = {{left + 1, 1.0}};
-    } else {
-      struck_point_.terms = {{left, 1.0 - share}, {left + 1, share}};
-    }
-    const auto nearest = static_cast<std::size_t>(std::lround(at));
-    struck_section_ = std::clamp<std::size_t>(nearest, 1, n - 2) - 1;
+    struck_point_.terms = {{n_unknowns() - 1, 1.0}};
+    struck_section_ = n_sections() - 1;
+    return;
   }
+  const double cells = static_cast<double>(n_cells_);
+  const double at = std::clamp(position * cells - 0.5, 0.0, cells - 1.0);
+  const auto left = std::min(static_cast<std::size_t>(at), n_cells_ - 2);
+  const double share = at - static_cast<double>(left);
+  const auto add = [&](std::size_t i, double part) {
+    const auto [unknown, coefficient] = cell(i).terms.front();
+    if (part == 0.0) return;
+    if (!struck_point_.terms.empty() && struck_point_.terms.back().unknown == unknown) {
+      struck_point_.terms.back().coefficient += part * coefficient;
+    } else {
+      struck_point_.terms.push_back({unknown, part * coefficient});
+    }
+  };
+  add(left, 1.0 - share);
+  add(left + 1, share);
+  const auto nearest = static_cast<std::size_t>(std::lround(at));
+  struck_section_ = std::clamp<std::size_t>(nearest, first, first + n_sections() - 1) - first;
 }
 
 void CellMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
   const double inverse = 1.0 / (spacing_ * spacing_);
-  const std::size_t n_inner = n_unknowns() - 2;
+  const std::size_t n = n_unknowns();
+  const std::size_t n_inner = n - 2;
   const double* w = unknowns.data();
   double* k = kappa.data();
+  for (const EndStencil& end : first_sections_) *k++ = end[0] * w[0] + end[1] * w[1];
   for (std::size_t i = 0; i < n_inner; ++i) k[i] = (w[i + 2] - 2.0 * w[i + 1] + w[i]) * inverse;
-  if (symmetric()) k[n_inner] = 2.0 * (w[n_inner] - w[n_inner + 1]) * inverse;
+  k += n_inner;
+  if (symmetric()) *k = 2.0 * (w[n_inner] - w[n_inner + 1]) * inverse;
+  for (const EndStencil& end : last_sections_) *k++ = end[0] * w[n - 2] + end[1] * w[n - 1];
 }
 
 void CellMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
-  // moments[i] belongs to cell i + 1; the mirror's share makes the struck cell's row half of the
-  // others', which is what folding its neighbour's force does.
+  // m[i] belongs to the section centred on unknown i + 1; the mirror's share makes the struck
+  // cell's row half of the others', which is what folding its neighbour's force does.
   const double scale = (symmetric() ? 2.0 : 1.0) / spacing_;
   const std::size_t n = n_unknowns();
-  const double* m = moments.data();
+  const double* m = moments.data() + first_sections_.size();
   double* f = forces.data();
   f[0] = -scale * m[0];
   f[1] = scale * (2.0 * m[0] - m[1]);
@@ -89,11 +181,26 @@ void CellMesh::bending_forces(std::span<const double> moments, std::span<double>
     f[n - 2] = scale * (2.0 * m[n - 3] - m[n - 4]);
     f[n - 1] = -scale * m[n - 3];
   }
+  const double weight = weights_.front();
+  m = moments.data();
+  for (const EndStencil& end : first_sections_) {
+    f[0] -= weight * end[0] * *m;
+    f[1] -= weight * end[1] * *m++;
+  }
+  m = moments.data() + n_sections() - last_sections_.size();
+  for (const EndStencil& end : last_sections_) {
+    f[n - 2] -= weight * end[0] * *m;
+    f[n - 1] -= weight * end[1] * *m++;
+  }
 }
 
 BeamMesh::SectionStencil CellMesh::section_stencil(std::size_t section) const {
-  if (symmetric() && section + 1 == n_sections()) return {section, struck_stencil_};
-  return {section, stencil_};
+  const std::size_t n = n_unknowns();
+  if (section < first_sections_.size()) return {0, first_sections_[section]};
+  const std::size_t inner = section - first_sections_.size();
+  if (inner < n - 2) return {inner, stencil_};
+  if (symmetric()) return {n - 2, struck_stencil_};
+  return {n - 2, last_sections_[inner - (n - 2)]};
 }
 
 double CellMesh::highest_frequency(double bending_stiffness) const {
@@ -102,6 +209,9 @@ double CellMesh::highest_frequency(double bending_stiffness) const {
 }
 
 NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
+  if (ends_[0] != EndSupport::free || ends_[1] != EndSupport::free) {
+    return dense_natural_modes(*this, bending_stiffness);
+  }
   const std::size_t n = n_unknowns();
   NaturalModes modes = free_cell_modes(
       {n_cells_, spacing_, mass_per_length_, rotary_inertia_, bending_stiffness}, symmetric(), n);

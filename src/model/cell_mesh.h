@@ -1,43 +1,68 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "model/beam_mesh.h"
 
 namespace subimpact {
 
 /// The paper's mesh: N equal cells of length dx = l/N with the displacement at their centres,
-/// second order in dx. Free ends.
+/// second order in dx.
 ///
-///     kappa_i = (w[i+1] - 2 w[i] + w[i-1])/dx^2 at every inner centre; no moment in the end cells
+///     kappa_i = (w[i+1] - 2 w[i] + w[i-1])/dx^2 at the cells' centres
 ///     Mass = rho A dx I + (J/dx) L,  L the Laplacian of the chain of cells (tridiagonal)
 ///
+/// Ends lie half a cell outside the outermost centres:
+///
+///     free     no moment in the end cell, no rotary inertia in its outer half (the paper's)
+///     pinned   the beam goes on as its mirror image upside down, w[-1] = -w[0]; so
+///              kappa_0 = (w[1] - 3 w[0])/dx^2
+///     clamped  the beam goes on as its mirror image, w[-1] = w[0]; and w = 0 at the end of the
+///              parabola through the first centres, w[0] = w[1]/9, which is no unknown of its own
+///
 /// A strike between two centres is shared between them by linear weights. In the symmetric half
-/// model (strike at mid-span, N odd) the unknowns are w[0..(N-1)/2], the struck cell last.
+/// model (strike at mid-span, N odd, ends alike) the last unknown is the struck cell, N/2.
 class CellMesh final : public BeamMesh {
  public:
   enum class Extent { whole, half };
 
+  static constexpr std::size_t fewest_cells = 5;
+  static constexpr std::size_t fewest_cells_if_clamped = 7;
+
   /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument for
-  /// fewer than 5 cells, for a half model of an even number of cells or struck off mid-span.
+  /// too few cells, for a half model of an even number of cells, of unlike ends or struck off
+  /// mid-span.
   CellMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent);
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
-  /// (4 c/dx^2)/sqrt(1 + 4 r^2/dx^2) with c = sqrt(E I/(rho A)): the infinite grid's.
+  /// (4 c/dx^2)/sqrt(1 + 4 r^2/dx^2) with c = sqrt(E I/(rho A)): the infinite grid's. Supported
+  /// ends are constraints on mirrored grids, which cannot exceed it.
   double highest_frequency(double bending_stiffness) const override;
-  /// In closed form (see free_cell_modes).
+  /// In closed form if both ends are free (see free_cell_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;
   std::string description() const override;
 
  private:
+  // One section at a supported end: its curvature from the two outermost unknowns, outer first.
+  using EndStencil = std::array<double, 2>;
+
+  SparseFunctional cell(std::size_t i) const;
+  void assemble_mass();
+  void place_sections();
+  void place_strike(double position);
+
   std::size_t n_cells_;
   double spacing_;
   double mass_per_length_;
   double rotary_inertia_;
-  std::array<double, 3> stencil_;         // of an inner cell
-  std::array<double, 2> struck_stencil_;  // of the struck cell under symmetry
+  std::array<EndSupport, 2> ends_;
+  std::array<double, 3> stencil_;           // of an inner cell
+  std::array<double, 2> struck_stencil_;    // of the struck cell under symmetry
+  std::vector<EndStencil> first_sections_;  // outermost first
+  std::vector<EndStencil> last_sections_;   // outermost last; unknowns in order
 };
 
 }  // namespace subimpact

@@ -1,54 +1,71 @@
 #include "model/flexural_frequencies.h"
 
+#include <Eigen/Dense>
 #include <cmath>
 
 namespace subimpact {
 namespace {
 
-// Frequency function of mode i = 1, 2, ... (odd: symmetric), continuous in beta.
-double frequency_function(double beta, double slenderness, bool symmetric) {
+// The determinant of the end conditions, continuous in beta; rows are scaled to a size near one.
+double end_determinant(double beta, double slenderness, const std::array<EndSupport, 2>& ends) {
   const double b4 = std::pow(beta, 4);
-  const double inertia = b4 * slenderness * slenderness;
+  const double inertia = b4 * slenderness * slenderness;  // B r^2 = a^2 - b^2
   const double a = std::sqrt(0.5 * (inertia + std::sqrt(inertia * inertia + 4.0 * b4)));
   const double b = beta * beta / a;
-  const double ratio = std::pow(b / a, 3);
-  const double decay = std::tanh(0.5 * b);
-  return symmetric ? ratio * std::sin(0.5 * a) + std::cos(0.5 * a) * decay
-                   : std::sin(0.5 * a) - ratio * std::cos(0.5 * a) * decay;
+  Eigen::Matrix4d conditions;
+  for (int side = 0; side < 2; ++side) {
+    const double c = std::cos(side * a);
+    const double s = std::sin(side * a);
+    const double near = std::exp(-b * side);       // of exp(-b xi)
+    const double far = std::exp(-b * (1 - side));  // of exp(-b (1 - xi))
+    Eigen::Matrix4d values;  // phi, phi', phi'' and phi''' + B r^2 phi' of the four functions
+    values.row(0) << c, s, near, far;
+    values.row(1) << -a * s, a * c, -b * near, b * far;
+    values.row(2) << -a * a * c, -a * a * s, b * b * near, b * b * far;
+    // phi''' + (a^2 - b^2) phi'
+    values.row(3) << a * b * b * s, -a * b * b * c, -a * a * b * near, a * a * b * far;
+    const EndSupport end = ends[static_cast<std::size_t>(side)];
+    const int first = end == EndSupport::free ? 2 : 0;
+    const int second = end == EndSupport::free ? 3 : end == EndSupport::pinned ? 2 : 1;
+    conditions.row(2 * side) = values.row(first) / std::pow(beta, first);
+    conditions.row(2 * side + 1) = values.row(second) / std::pow(beta, second);
+  }
+  return conditions.determinant();
 }
 
 }  // namespace
 
-std::vector<double> free_free_wave_numbers(double slenderness, std::size_t n) {
+std::vector<double> flexural_wave_numbers(double slenderness, const std::array<EndSupport, 2>& ends,
+                                          std::size_t n) {
+  const auto f = [&](double beta) { return end_determinant(beta, slenderness, ends); };
   std::vector<double> roots;
-  double beta = 1.0;  // well below the first root, well above the rigid modes
-  for (std::size_t mode = 1; mode <= n; ++mode) {
-    const bool symmetric = mode % 2 == 1;
-    const auto f = [&](double x) { return frequency_function(x, slenderness, symmetric); };
-    double low = beta;
+  double low = 1.0;  // well below the first root of any ends, well above the rigid modes
+  while (roots.size() < n) {
     double high = low + 0.05;
-    while (f(low) * f(high) > 0.0) {
+    if (f(low) * f(high) > 0.0) {
       low = high;
-      high += 0.05;
+      continue;
     }
     const double at_low = f(low);
+    double left = low;
+    double right = high;
     for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      (f(middle) * at_low > 0.0 ? low : high) = middle;
+      const double middle = 0.5 * (left + right);
+      (f(middle) * at_low > 0.0 ? left : right) = middle;
     }
-    beta = 0.5 * (low + high);
-    roots.push_back(beta);
+    roots.push_back(0.5 * (left + right));
+    low = high;
   }
   return roots;
 }
 
-std::vector<double> free_free_frequencies(const Beam& beam, std::size_t n) {
+std::vector<double> flexural_frequencies(const Beam& beam, std::size_t n) {
   const double slenderness =
       beam.theory == BeamTheory::rayleigh ? beam.radius_of_gyration() / beam.length : 0.0;
   const double unit =
       std::sqrt(beam.bending_stiffness() / beam.mass_per_length()) / (beam.length * beam.length);
   std::vector<double> frequencies;
-  for (const double beta : free_free_wave_numbers(slenderness, n)) {
+  for (const double beta : flexural_wave_numbers(slenderness, beam.ends, n)) {
     frequencies.push_back(unit * beta * beta);
   }
   return frequencies;

@@ -36,7 +36,16 @@ ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffnes
   weights_.assign(weights.begin(), weights.end());
   positions_.assign(positions.begin(), positions.end());
   struck_section_ = physical_->struck_section();
-  to_modal(physical_->translation(), translation_);
+  if (!physical_->translation().empty()) {
+    translation_.resize(n);
+    to_modal(physical_->translation(), translation_);
+  }
+  momentum_functional_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    momentum_functional_[k] =
+        dot(physical_->momentum_functional().data(), modes_.shape(k).data(), n);
+  }
+  beam_mass_ = physical_->beam_mass();
 }
 
 void ModalMesh::to_physical(std::span<const double> modal, std::span<double> physical) const {

@@ -22,7 +22,11 @@ RigidMesh::RigidMesh(const Beam& beam, double position)
     struck_point_.terms.push_back({1, (position - 0.5) * l});
     first_end_.terms.push_back({1, -0.5 * l});
   }
+  translation_.assign(n_unknowns(), 0.0);
   translation_[0] = 1.0;
+  momentum_functional_.assign(n_unknowns(), 0.0);
+  momentum_functional_[0] = beam.mass();
+  beam_mass_ = beam.mass();
   weights_ = {l};
   positions_ = {position * l};
 }

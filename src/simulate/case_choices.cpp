@@ -15,6 +15,8 @@ std::span<const Named<BeamTheory>> names_of(BeamTheory) {
 std::span<const Named<EndSupport>> names_of(EndSupport) {
   static constexpr Named<EndSupport> names[] = {
       {EndSupport::free, "free", "neither moment nor shear"},
+      {EndSupport::pinned, "pinned", "neither displacement nor moment"},
+      {EndSupport::clamped, "clamped", "neither displacement nor rotation"},
   };
   return names;
 }

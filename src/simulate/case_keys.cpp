@@ -242,6 +242,15 @@ void check_strike_within_mesh(const Case& input) {
           at, input.model.segments, 0.5 / cells, 1.0 - 0.5 / cells));
 }
 
+void check_clamped_mesh(const Case& input) {
+  const auto& ends = input.scene.beam.ends;
+  const bool clamped = ends[0] == EndSupport::clamped || ends[1] == EndSupport::clamped;
+  if (!clamped || input.model.mesh != MeshKind::cells || input.model.segments >= 7) return;
+  throw InvalidCase("model.segments",
+                    fmt::format("is {}; allowed with a clamped end: 7 or more; use more segments",
+                                input.model.segments));
+}
+
 void check_history_size(const Case& input) {
   const double rows = input.end_time / input.output.interval;
   if (input.output.interval == 0.0 || rows <= most_history_rows) return;
@@ -289,6 +298,7 @@ void check(const Case& input) {
   }
   check_contact(input);
   check_strike_within_mesh(input);
+  check_clamped_mesh(input);
   check_history_size(input);
   check_gaps(input);
 }

@@ -150,7 +150,7 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.contact_exponent = beam.contact_law().exponent();
   used.yield_indentation = beam.contact_law().yield_indentation();
   used.yield_curvature = scene.beam.yield_curvature();
-  used.first_period = 2.0 * M_PI / free_free_frequencies(scene.beam, 1).front();
+  used.first_period = 2.0 * M_PI / flexural_frequencies(scene.beam, 1).front();
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
   if (input.solver.method == Method::exponential && beam.sections().can_yield()) {
     throw InvalidCase(

@@ -117,7 +117,7 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam) {
   }
   result_.n_yielded_sections = beam.sections().n_yielded();
   result_.striker_velocity = y.back();
-  result_.beam_mean_velocity = (beam.momentum(y) - striker_mass_ * y.back()) / beam.beam_mass();
+  result_.beam_mean_velocity = beam.beam_momentum(y) / beam.mesh().beam_mass();
 }
 
 void Recorder::add_row(double time, const State& y, StruckBeam& beam) {
@@ -127,7 +127,10 @@ void Recorder::add_row(double time, const State& y, StruckBeam& beam) {
 
 void Recorder::keep_errors(const HistoryRow& row) {
   result_.max_energy_error = std::max(result_.max_energy_error, std::abs(row.energy_error));
-  result_.max_momentum_error = std::max(result_.max_momentum_error, std::abs(row.momentum_error));
+  if (row.momentum_error) {
+    result_.max_momentum_error =
+        std::max(result_.max_momentum_error.value_or(0.0), std::abs(*row.momentum_error));
+  }
 }
 
 HistoryRow Recorder::make_row(double time, const State& y, StruckBeam& beam) const {
@@ -151,7 +154,9 @@ HistoryRow Recorder::make_row(double time, const State& y, StruckBeam& beam) con
   row.contact_elastic = energies.contact_elastic;
   row.contact_plastic = energies.contact_plastic;
   row.energy_error = (energies.total() - initial_energy_) / initial_energy_;
-  row.momentum_error = (beam.momentum(y) - initial_momentum_) / initial_momentum_;
+  if (beam.conserves_momentum()) {
+    row.momentum_error = (beam.momentum(y) - initial_momentum_) / initial_momentum_;
+  }
   return row;
 }
 

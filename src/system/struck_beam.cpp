@@ -16,7 +16,6 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       striker_mass_(scene.striker.mass),
       striker_velocity_(scene.striker.velocity),
       stress_reach_(0.5 * scene.beam.youngs_modulus * scene.beam.thickness),
-      momentum_functional_(n_),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
       trial_(n_ + 1) {
@@ -25,7 +24,6 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),
       1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
-  mesh_->mass().multiply(mesh_->translation(), momentum_functional_);
   for (Kinematics* at : {&start_, &end_}) {
     at->curvatures.assign(mesh_->n_sections(), 0.0);
     at->rates.assign(mesh_->n_sections(), 0.0);
@@ -169,21 +167,16 @@ Energies StruckBeam::energies(const State& y) {
 }
 
 double StruckBeam::momentum(const State& y) const {
-  double sum = striker_mass_ * y.back();
-  const auto velocities = beam_velocities(y);
-  for (std::size_t i = 0; i < n_; ++i) sum += momentum_functional_[i] * velocities[i];
-  return sum;
+  return striker_mass_ * y.back() + beam_momentum(y);
+}
+
+double StruckBeam::beam_momentum(const State& y) const {
+  return dot(mesh_->momentum_functional().data(), beam_velocities(y).data(), n_);
 }
 
 BeamJacobian& StruckBeam::jacobian() const {
   if (!jacobian_) jacobian_ = std::make_unique<BeamJacobian>(*mesh_, striker_mass_);
   return *jacobian_;
-}
-
-double StruckBeam::beam_mass() const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n_; ++i) sum += momentum_functional_[i] * mesh_->translation()[i];
-  return sum;
 }
 
 StruckBeam::Displacements StruckBeam::displacements(const State& y) const {

@@ -148,9 +148,11 @@ class StruckBeam final : public MechanicalSystem {
 
   // --- accounts ----------------------------------------------------------------------------------
   Energies energies(const State& y);
-  double momentum(const State& y) const;  ///< kg m/s
+  double momentum(const State& y) const;       ///< kg m/s, of beam and striker
+  double beam_momentum(const State& y) const;  ///< kg m/s
+  /// Whether nothing but the striker acts on the beam.
+  bool conserves_momentum() const { return !mesh_->translation().empty(); }
   double striker_mass() const { return striker_mass_; }
-  double beam_mass() const;  ///< kg, as modelled
   struct Displacements {
     double struck, striker, first_end;  ///< m
   };
@@ -180,7 +182,6 @@ class StruckBeam final : public MechanicalSystem {
   double striker_velocity_;
   double stress_reach_;  // E h/2
   Scales scales_;
-  std::vector<double> momentum_functional_;
 
   ContactEvaluation contact_evaluation_ = ContactEvaluation::smooth;
   bool pair_detection_ = true;

@@ -98,6 +98,15 @@ TEST(HistoryCsv, HasTheAgreedColumnsAndAsManyInEveryRow) {
   EXPECT_EQ(number(rows[1][17]), -2.2204460492503131e-16);
 }
 
+TEST(HistoryCsv, LeavesTheMomentumsErrorEmptyWhereSupportsTakeMomentumUp) {
+  Result result = sample_result();
+  result.history[1].momentum_error.reset();
+  const Table rows = parse_csv(history_csv(result.history));
+  EXPECT_NE(rows[1].back(), "");
+  ASSERT_EQ(rows[2].size(), rows[0].size());
+  EXPECT_EQ(rows[2].back(), "");
+}
+
 TEST(SummaryJson, EchoesEveryKeyOfTheCase) {
   const auto json = parsed_summary(sample_case(), sample_result());
   for (const CaseKey& key : case_keys()) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "dense.h"
 #include "model/cell_mesh.h"
@@ -71,7 +73,7 @@ std::vector<OrderTable> tables_of_modes(const std::string& what) {
 TEST(CellMesh, EulerBernoulliFrequenciesConvergeAtSecondOrder) {
   Beam beam = paper_beam();
   beam.theory = BeamTheory::euler_bernoulli;
-  const std::vector<double> exact = free_free_frequencies(beam, n_modes);
+  const std::vector<double> exact = flexural_frequencies(beam, n_modes);
   std::vector<OrderTable> tables = tables_of_modes("relative error of the frequency");
   for (const std::size_t n : refinements) {
     const CellMesh mesh(beam, 0.5, n, Extent::whole);
@@ -90,7 +92,7 @@ TEST(CellMesh, EulerBernoulliFrequenciesConvergeAtSecondOrder) {
 // theory gives, d omega/omega = -r^2 dx phi'(0)^2/(2 integral (phi^2 + r^2 phi'^2) dx).
 TEST(CellMesh, RayleighFrequenciesAreOfSecondOrderButForTheRotaryInertiaOfTheOuterHalfCells) {
   const Beam beam = paper_beam();
-  const std::vector<double> exact = free_free_frequencies(beam, n_modes);
+  const std::vector<double> exact = flexural_frequencies(beam, n_modes);
   std::vector<OrderTable> completed =
       tables_of_modes("relative error, outer half cells' inertia added");
   std::vector<OrderTable> left_out = tables_of_modes("what leaving it out adds");
@@ -119,6 +121,71 @@ TEST(CellMesh, RayleighFrequenciesAreOfSecondOrderButForTheRotaryInertiaOfTheOut
   }
   for (const OrderTable& table : completed) table.expect_every_order_within(1.9, 2.1);
   for (const OrderTable& table : left_out) table.expect_every_order_within(0.9, 1.1);
+}
+
+using Support = std::tuple<BeamTheory, std::array<EndSupport, 2>>;
+
+std::string support_name(const testing::TestParamInfo<Support>& info) {
+  const auto [theory, ends] = info.param;
+  std::string name = theory == BeamTheory::rayleigh ? "rayleigh" : "euler_bernoulli";
+  for (const EndSupport end : ends) name += end == EndSupport::pinned ? "_pinned" : "_clamped";
+  return name;
+}
+
+class SupportedCells : public testing::TestWithParam<Support> {
+ protected:
+  Beam beam() const {
+    Beam beam = paper_beam();
+    std::tie(beam.theory, beam.ends) = GetParam();
+    beam.thickness = 0.03;  // thick enough for the rotary inertia to matter
+    return beam;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Ends, SupportedCells,
+    testing::Combine(testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
+                     testing::Values(std::array{EndSupport::pinned, EndSupport::pinned},
+                                     std::array{EndSupport::clamped, EndSupport::clamped},
+                                     std::array{EndSupport::clamped, EndSupport::pinned},
+                                     std::array{EndSupport::pinned, EndSupport::clamped})),
+    support_name);
+
+TEST_P(SupportedCells, FrequenciesConvergeAtSecondOrder) {
+  const std::vector<double> exact = flexural_frequencies(beam(), n_modes);
+  std::vector<OrderTable> tables = tables_of_modes("relative error of the frequency");
+  for (const std::size_t n : refinements) {
+    const CellMesh mesh(beam(), 0.5, n, Extent::whole);
+    const Eigen::VectorXd squares = squared_frequencies(mesh, beam().bending_stiffness());
+    for (std::size_t mode = 0; mode < n_modes; ++mode) {
+      const double found = std::sqrt(squares(index(mode)));
+      tables[mode].add(static_cast<double>(n), std::abs(found / exact[mode] - 1.0));
+    }
+  }
+  for (const OrderTable& table : tables) table.expect_every_order_within(1.8, 2.2);
+}
+
+TEST_P(SupportedCells, HighestFrequencyIsAnUpperBound) {
+  for (const std::size_t n : {7u, 8u, 51u, 151u}) {
+    const CellMesh mesh(beam(), 0.5, n, Extent::whole);
+    const double stiffness = beam().bending_stiffness();
+    const double highest =
+        std::sqrt(squared_frequencies(mesh, stiffness)(index(mesh.n_unknowns() - 1)));
+    EXPECT_GE(mesh.highest_frequency(stiffness), highest * (1.0 - 1e-12)) << n << " cells";
+  }
+}
+
+TEST_P(SupportedCells, HalfModelHasTheSymmetricModesOfTheWhole) {
+  const double stiffness = beam().bending_stiffness();
+  Beam alike = beam();
+  alike.ends[1] = alike.ends[0];
+  const Eigen::VectorXd whole =
+      squared_frequencies(CellMesh(alike, 0.5, 41, Extent::whole), stiffness);
+  const Eigen::VectorXd half =
+      squared_frequencies(CellMesh(alike, 0.5, 41, Extent::half), stiffness);
+  for (Eigen::Index k = 0; k < half.size(); ++k) {
+    EXPECT_NEAR(half(k), whole(2 * k), 1e-11 * whole(whole.size() - 1)) << k;
+  }
 }
 
 TEST_P(CellMeshOfBothTheories, HasTwoRigidModesWholeAndOneInHalf) {

@@ -40,12 +40,37 @@ std::vector<CellMesh> meshes() {
   return all;
 }
 
+// The same on supports.
+std::vector<CellMesh> supported_meshes() {
+  std::vector<CellMesh> all;
+  for (const EndSupport first : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+    for (const EndSupport second : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+      Beam beam = paper_beam();
+      beam.ends = {first, second};
+      if (beam.is_free()) continue;
+      for (const std::size_t n : {7u, 8u, 31u}) {
+        for (const double position : {0.1, 0.5, 0.77}) {
+          all.emplace_back(beam, position, n, Extent::whole);
+        }
+        if (first == second && n % 2 == 1) all.emplace_back(beam, 0.5, n, Extent::half);
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<CellMesh> all_meshes() {
+  std::vector<CellMesh> all = meshes();
+  for (CellMesh& mesh : supported_meshes()) all.push_back(std::move(mesh));
+  return all;
+}
+
 double dot(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 TEST(CellMesh, BendingForcesAreTheExactTransposeOfCurvatures) {
-  for (const CellMesh& mesh : meshes()) {
+  for (const CellMesh& mesh : all_meshes()) {
     for (unsigned seed = 0; seed < 10; ++seed) {
       const std::vector<double> displacement = random_numbers(seed, mesh.n_unknowns());
       const std::vector<double> moments = random_numbers(seed + 50, mesh.n_sections());
@@ -200,12 +225,76 @@ TEST(CellMesh, FirstEndIsTheEndAndNotTheFirstCentre) {
   EXPECT_NEAR(mesh.first_end()(w), 2.0, 1e-14);
 }
 
+TEST(CellMesh, OneSectionsStencilIsItsRowOfCurvatures) {
+  for (const CellMesh& mesh : all_meshes()) {
+    const std::vector<double> w = random_numbers(8, mesh.n_unknowns());
+    std::vector<double> curvatures(mesh.n_sections());
+    mesh.curvatures(w, curvatures);
+    for (std::size_t i = 0; i < curvatures.size(); ++i) {
+      const BeamMesh::SectionStencil row = mesh.section_stencil(i);
+      double kappa = 0.0;
+      double size = 0.0;
+      for (std::size_t j = 0; j < row.coefficients.size(); ++j) {
+        kappa += row.coefficients[j] * w[row.first + j];
+        size += std::abs(row.coefficients[j] * w[row.first + j]);
+      }
+      EXPECT_NEAR(curvatures[i], kappa, 1e-14 * size) << mesh.description() << ", section " << i;
+    }
+  }
+}
+
+// What the ends allow: a sine between pins, a parabola out of a clamp.
+TEST(CellMesh, OnSupportsKeepsTheShapesTheyAreMadeFor) {
+  Beam beam = paper_beam();
+  const std::size_t n = 40;
+  const double dx = beam.length / static_cast<double>(n);
+  beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  const CellMesh pinned(beam, 0.5, n, Extent::whole);
+  std::vector<double> w(pinned.n_unknowns());
+  std::vector<double> curvatures(pinned.n_sections());
+  const double wave = 3.0 * M_PI / beam.length;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    w[i] = std::sin(wave * (static_cast<double>(i) + 0.5) * dx);
+  }
+  pinned.curvatures(w, curvatures);
+  const double factor = -4.0 * std::pow(std::sin(0.5 * wave * dx) / dx, 2);
+  for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(curvatures[i], factor * w[i], 1e-9);
+
+  beam.ends = {EndSupport::clamped, EndSupport::free};
+  const CellMesh clamped(beam, 0.5, n, Extent::whole);
+  w.resize(clamped.n_unknowns());
+  curvatures.resize(clamped.n_sections());
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    w[i] = 0.35 * std::pow((static_cast<double>(i) + 1.5) * dx, 2);
+  }
+  clamped.curvatures(w, curvatures);
+  for (const double kappa : curvatures) EXPECT_NEAR(kappa, 0.7, 1e-11);
+  EXPECT_EQ(clamped.first_end()(w), 0.0);
+  EXPECT_TRUE(clamped.translation().empty());
+}
+
+TEST(CellMesh, StrikesTheCellBesideAClampAsIfItWereAnUnknown) {
+  Beam beam = paper_beam();
+  beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  for (const double position : {0.5 / 20, 1.0 / 20, 19.5 / 20}) {
+    const CellMesh mesh(beam, position, 20, Extent::whole);
+    std::vector<double> w(mesh.n_unknowns(), 9.0);
+    const double cells = position * 20.0 < 10.0 ? position * 20.0 : 20.0 - position * 20.0;
+    EXPECT_NEAR(mesh.struck_point()(w), 1.0 + 8.0 * (cells - 0.5), 1e-12);
+  }
+}
+
 TEST(CellMesh, RefusesShapesItCannotModel) {
   const Beam beam = paper_beam();
   EXPECT_THROW(CellMesh(beam, 0.5, 4, Extent::whole), std::invalid_argument);
   EXPECT_THROW(CellMesh(beam, 0.5, 50, Extent::half), std::invalid_argument);
   EXPECT_THROW(CellMesh(beam, 0.4, 51, Extent::half), std::invalid_argument);
   EXPECT_NO_THROW(CellMesh(beam, 0.4, 50, Extent::whole));
+  Beam clamped = paper_beam();
+  clamped.ends = {EndSupport::clamped, EndSupport::pinned};
+  EXPECT_THROW(CellMesh(clamped, 0.5, 6, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(CellMesh(clamped, 0.5, 7, Extent::half), std::invalid_argument);
+  EXPECT_NO_THROW(CellMesh(clamped, 0.5, 7, Extent::whole));
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST_P(Conservation, IsReportedInTheHistoryRows) {
                        row.bending_plastic + row.contact_elastic + row.contact_plastic;
     EXPECT_NEAR(sum / result.used.initial_energy - 1.0, row.energy_error, 1e-14);
     energy = std::max(energy, std::abs(row.energy_error));
-    momentum = std::max(momentum, std::abs(row.momentum_error));
+    momentum = std::max(momentum, std::abs(row.momentum_error.value()));
   }
   printf("rows: energy %.1e, momentum %.1e\n", energy, momentum);
   EXPECT_LT(energy, 1e-8);

@@ -22,6 +22,8 @@ class LumpedMesh final : public BeamMesh {
     struck_point_.terms = {{0, 1.0}};
     first_end_.terms = {{0, 1.0}};
     translation_ = {1.0};
+    momentum_functional_ = {mass};
+    beam_mass_ = mass;
   }
   void curvatures(std::span<const double> w, std::span<double> kappa) const override {
     kappa[0] = w[0];

@@ -36,7 +36,7 @@ TEST(StruckBeam, BeginsTouchingWithAllEnergyAndMomentumInTheStriker) {
     EXPECT_EQ(energies.total(), energies.striker);
     EXPECT_NEAR(energies.striker, 25.4074, 0.5e-4);
     EXPECT_NEAR(beam.momentum(y), 3.1959, 0.5e-4);
-    EXPECT_NEAR(beam.beam_mass(), 0.2260549, 0.5e-7);
+    EXPECT_NEAR(beam.mesh().beam_mass(), 0.2260549, 0.5e-7);
     EXPECT_EQ(beam.indentation(y), 0.0);
     EXPECT_EQ(beam.indentation_rate(y), 15.9);
   }
@@ -56,7 +56,7 @@ TEST(StruckBeam, AccelerationLeavesTheTotalMomentumAlone) {
         beam.acceleration({y.data(), n}, {rates.data() + n, n});
         double size = std::abs(beam.contact_force(y));
         for (std::size_t i = n; i + 1 < 2 * n; ++i) {
-          size += std::abs(rates[i]) * beam.beam_mass() / static_cast<double>(n);
+          size += std::abs(rates[i]) * beam.mesh().beam_mass() / static_cast<double>(n);
         }
         EXPECT_NEAR(beam.momentum(rates), 0.0, 1e-12 * size) << model.name << ", " << now.name;
       }

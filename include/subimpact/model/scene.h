@@ -13,7 +13,11 @@ namespace subimpact {
 enum class BeamTheory { rayleigh, euler_bernoulli };
 
 /// Support of one end of the beam.
-enum class EndSupport { free };
+enum class EndSupport {
+  free,    ///< neither moment nor shear force
+  pinned,  ///< neither displacement nor moment
+  clamped  ///< neither displacement nor rotation
+};
 
 /// Uniform beam of rectangular section; no shear deformation, small displacements.
 struct Beam {
@@ -38,6 +42,8 @@ struct Beam {
     return yield_stress * width * thickness * thickness / 6.0;
   }                                   ///< N m
   double radius_of_gyration() const;  ///< r, m
+  /// Whether nothing holds the beam, so that it conserves momentum.
+  bool is_free() const { return ends[0] == EndSupport::free && ends[1] == EndSupport::free; }
   /// J = rho I (kg m), or zero in Euler-Bernoulli theory.
   double rotary_inertia() const {
     return theory == BeamTheory::rayleigh ? density * second_moment() : 0.0;

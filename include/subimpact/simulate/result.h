@@ -31,7 +31,8 @@ struct HistoryRow {
   double contact_elastic;       ///< U_c
   double contact_plastic;       ///< D_c
   double energy_error;          ///< (sum of the six - initial)/initial
-  double momentum_error;        ///< (momentum - initial)/initial
+  /// (momentum - initial)/initial; none where supports take momentum up.
+  std::optional<double> momentum_error;
 };
 
 /// How a simulation ended.
@@ -112,8 +113,8 @@ struct Result {
   double striker_velocity = 0.0;              ///< m/s, at the end
   double beam_mean_velocity = 0.0;            ///< m/s, at the end: beam momentum over beam mass
   double max_energy_error = 0.0;  ///< largest relative error over the rows and at the end
-  double max_momentum_error = 0.0;
-  std::optional<Trust> trust;  ///< with error bars
+  std::optional<double> max_momentum_error;  ///< none where supports take momentum up
+  std::optional<Trust> trust;                ///< with error bars
   Work work;
 };
 
