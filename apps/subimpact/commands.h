@@ -31,6 +31,7 @@ struct CaseOptions {
 // Each adds its command, which leaves the exit status in `status` when it has run.
 void add_run(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
+void add_work_precision(CLI::App& program, int& status);
 void add_explain(CLI::App& program, int& status);
 void add_methods(CLI::App& program, int& status);
 void add_keys(CLI::App& program, int& status);

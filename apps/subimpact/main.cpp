@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
   program.failure_message(usage_error);
   app::add_run(program, status);
   app::add_compare(program, status);
+  app::add_work_precision(program, status);
   app::add_explain(program, status);
   app::add_methods(program, status);
   app::add_keys(program, status);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 
 #include "subimpact/io/report.h"
@@ -13,27 +12,14 @@ namespace {
 
 constexpr std::chrono::milliseconds shortest_pause{100};
 
-volatile std::sig_atomic_t interrupt_requested = 0;
-
-void request_interrupt(int) {
-  interrupt_requested = 1;
-  std::signal(SIGINT, SIG_DFL);
-}
-
 }  // namespace
 
 ProgressDisplay::ProgressDisplay(double end_time, bool quiet)
     : end_time_(end_time),
       shown_(!quiet && isatty(STDERR_FILENO) != 0),
-      last_(std::chrono::steady_clock::now()) {
-  interrupt_requested = 0;
-  std::signal(SIGINT, request_interrupt);
-}
+      last_(std::chrono::steady_clock::now()) {}
 
-ProgressDisplay::~ProgressDisplay() {
-  std::signal(SIGINT, SIG_DFL);
-  clear_line();
-}
+ProgressDisplay::~ProgressDisplay() { clear_line(); }
 
 bool ProgressDisplay::operator()(double time) {
   const auto now = std::chrono::steady_clock::now();
@@ -44,7 +30,7 @@ bool ProgressDisplay::operator()(double time) {
                100.0 * time / end_time_);
     std::fflush(stderr);
   }
-  return interrupt_requested == 0;
+  return !listener_.interrupted();
 }
 
 void ProgressDisplay::clear_line() {

@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "interrupt.h"
+
 namespace subimpact::app {
 
 /// Shows how far a run has come on stderr, if that is a terminal, and listens for Ctrl-C meanwhile.
@@ -19,6 +21,7 @@ class ProgressDisplay {
  private:
   void clear_line();
 
+  InterruptListener listener_;
   double end_time_;
   bool shown_;
   bool line_is_dirty_ = false;

@@ -5,31 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "subimpact/simulate/case_keys.h"
+#include "study/method_choice.h"
 #include "subimpact/study/error_bars.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double reference_tolerance = 1e-11;
-
-Case with_method(const Case& input, const std::string& name) {
-  Case chosen = input;
-  chosen.output.interval = 0.0;
-  chosen.solver.table.reset();
-  chosen.solver.max_order.reset();
-  const std::size_t colon = name.find(':');
-  assign(chosen, *find_case_key("solver.method"), name.substr(0, colon));
-  if (colon != std::string::npos) {
-    assign(chosen, *find_case_key("solver.table"), name.substr(colon + 1));
-  } else if (chosen.solver.method == input.solver.method) {
-    chosen.solver.table = input.solver.table;
-    chosen.solver.max_order = input.solver.max_order;
-  }
-  const bool fixed = chosen.solver.method == Method::central_difference;
-  if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
-  return chosen;
-}
 
 std::string remark_on(const ComparedRun& run, const Result& reference) {
   const std::size_t here = run.result.sub_impacts.size();
@@ -38,15 +20,8 @@ std::string remark_on(const ComparedRun& run, const Result& reference) {
   if (run.n_corresponding == there && here == there) return "every sub-impact corresponds";
   std::string text = fmt::format("{} sub-impacts instead of {}; the first {} correspond", here,
                                  there, run.n_corresponding);
-  if (run.n_corresponding < run.pairs.size()) {
-    const MatchedPair& odd = run.pairs[run.n_corresponding];
-    const SubImpact& sub_impact =
-        odd.first ? reference.sub_impacts[*odd.first] : run.result.sub_impacts[*odd.second];
-    text += fmt::format("; at {:.3f} us {} a sub-impact of {:.3f} us that {}",
-                        1e6 * sub_impact.start, odd.first ? "the reference has" : "it has",
-                        1e6 * (sub_impact.end.value_or(sub_impact.start) - sub_impact.start),
-                        odd.first ? "is missing or merged here" : "the reference does not have");
-  }
+  const auto odd = first_odd(run.pairs, reference.sub_impacts, run.result.sub_impacts);
+  if (odd) text += "; " + odd->description;
   return text;
 }
 

@@ -12,13 +12,14 @@ void expect_in(const std::string& text, const std::string& piece) {
 TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
-  for (const char* piece : {"run", "explain", "methods", "keys", "Examples:", "Exit status"}) {
+  for (const char* piece :
+       {"run", "work-precision", "explain", "methods", "keys", "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
 }
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
-  for (const std::string command : {"run", "explain", "methods", "keys"}) {
+  for (const std::string command : {"run", "work-precision", "explain", "methods", "keys"}) {
     const Finished finished = run_program({command, "--help"});
     EXPECT_EQ(finished.status, 0) << command;
     expect_in(finished.output, "Example");
@@ -48,6 +49,37 @@ TEST(Keys, AreListedByTable) {
   for (const char* piece : {"[beam]\n", "youngs_modulus ", "[output]\n", "zone_gap "}) {
     expect_in(finished.output, piece);
   }
+}
+
+TEST(WorkPrecision, ChartsWhatItRanAndAdvises) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> command = {"work-precision", SUBIMPACT_PAPER_CASE,
+                                            "--methods",      "central-difference,exponential",
+                                            "--sections",     "elastic",
+                                            "--set",          "time.end=3e-4",
+                                            "--out",          "chart"};
+  const Finished finished = run_program(command, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  for (const char* piece : {"reference: exponential", "horizon: 286.242 us", "central-difference",
+                            "cheapest setting", "0.001 us"}) {
+    expect_in(finished.output, piece);
+  }
+  for (const char* name : {"work_precision.csv", "work_precision.svg", "work_precision.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(directory.path / "chart" / name)) << name;
+  }
+  const Finished again = run_program(command, directory.path);
+  EXPECT_EQ(again.status, 0) << again.errors;
+  expect_in(again.output, "points of an earlier study");
+}
+
+TEST(WorkPrecision, RefusesAMethodItDoesNotKnowBeforeItWritesAnything) {
+  const TemporaryDirectory directory;
+  const Finished finished = run_program(
+      {"work-precision", SUBIMPACT_PAPER_CASE, "--methods", "leapfrog", "--out", "chart"},
+      directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "--methods leapfrog: solver.method is \"leapfrog\"");
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "chart"));
 }
 
 TEST(Explain, TellsWhatWillBeModelledAndWritesNothing) {

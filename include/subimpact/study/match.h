@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "subimpact/events/records.h"
@@ -22,5 +23,17 @@ std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
 
 /// How many leading sub-impacts of the two lists correspond one to one.
 std::size_t n_leading_matches(const std::vector<MatchedPair>& pairs);
+
+/// The first sub-impact that only one of two runs has.
+struct OddSubImpact {
+  double start = 0.0;       ///< s
+  double duration = 0.0;    ///< s
+  std::string description;  ///< in words; the first run is called the reference
+};
+
+/// Nothing if all correspond.
+std::optional<OddSubImpact> first_odd(const std::vector<MatchedPair>& pairs,
+                                      const std::vector<SubImpact>& reference,
+                                      const std::vector<SubImpact>& run);
 
 }  // namespace subimpact

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "subimpact/study/match.h"
+#include "subimpact/study/reference.h"
+
+namespace subimpact {
+
+/// How far a run is from a reference. Times are those of the starts and ends of the leading
+/// sub-impacts that correspond one to one; the first start, which is given, is left out.
+struct EventErrors {
+  std::size_t n_reference = 0;      ///< sub-impacts that count
+  std::size_t n_found = 0;          ///< of the run, before the horizon
+  std::size_t n_corresponding = 0;  ///< leading ones
+  double median = 0.0;              ///< s
+  double maximum = 0.0;             ///< s
+  double first = 0.0;               ///< s, of the first end
+  double last = 0.0;                ///< s, of the last time compared
+  double peak_force = 0.0;          ///< largest, relative
+  double striker_velocity = 0.0;    ///< at the horizon, relative to the initial velocity
+  double beam_velocity = 0.0;       ///< its mean, likewise
+  std::optional<OddSubImpact> odd;  ///< the first sub-impact that does not correspond
+
+  bool all_correspond() const { return !odd; }
+  /// One figure for charts: the largest error; where a sub-impact is lost or invented, at least
+  /// that one's duration.
+  double overall() const { return odd && odd->duration > maximum ? odd->duration : maximum; }
+};
+
+/// For a run of the reference's scene up to its horizon.
+EventErrors event_errors(const Result& run, const Reference& reference);
+
+/// The same against any list of sub-impacts; velocities are left at 0.
+EventErrors event_errors(const std::vector<SubImpact>& run,
+                         const std::vector<SubImpact>& reference);
+
+}  // namespace subimpact

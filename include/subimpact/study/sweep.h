@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "subimpact/simulate/case.h"
+
+namespace subimpact {
+
+/// One setting of one method.
+struct Setting {
+  std::string method;       ///< "erk:dop853"; a method without tables alone
+  bool fixed_step = false;  ///< else it is rtol
+  double value = 0.0;       ///< s, or the tolerance
+
+  std::string text() const;  ///< "rtol 1e-08", "step 0.2556 us"
+  bool operator==(const Setting&) const = default;
+};
+
+/// The case with that setting. Throws InvalidCase for a method it does not know.
+Case with_setting(const Case& input, const Setting& setting);
+
+/// From coarse to fine. Adaptive methods: rtol from 1e-2 to 1e-12 in decades. Central differences:
+/// steps from 0.9 of critical down to 1/256 of that, each half of the one before. Throws
+/// InvalidCase for an unknown method or table, and where the method cannot run the case.
+std::vector<Setting> settings_of(const Case& input, const std::string& method);
+
+/// What is swept if nobody says otherwise: every method that can run the case, with the tables that
+/// matter.
+std::vector<std::string> default_methods(const Case& input);
+
+}  // namespace subimpact

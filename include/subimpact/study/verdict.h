@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string_view>
+
+#include "subimpact/simulate/result.h"
+#include "subimpact/study/event_errors.h"
+
+namespace subimpact {
+
+/// What a run set beside a reference amounts to.
+enum class Verdict {
+  right,        ///< completed, and every sub-impact corresponds
+  wrong_count,  ///< completed, but sub-impacts are missing, merged or invented
+  unstable,     ///< the solution grew without bound, and the run said so
+  failed,       ///< the solver could not go on, and said so
+  refused,      ///< the setting was not accepted
+  not_run       ///< left out: it would have taken longer than allowed
+};
+
+/// "right", "wrong count", ...
+std::string_view to_string(Verdict verdict);
+
+/// The verdict on a run that was accepted.
+Verdict judge(const Result& run, const EventErrors& errors);
+
+}  // namespace subimpact

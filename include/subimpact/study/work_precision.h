@@ -1,0 +1,77 @@
+#pragma once
+
+/// Cost against error, method by method and setting by setting.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "subimpact/study/event_errors.h"
+#include "subimpact/study/reference.h"
+#include "subimpact/study/sweep.h"
+#include "subimpact/study/verdict.h"
+
+namespace subimpact {
+
+/// One setting's run, set beside the reference.
+struct WorkPrecisionPoint {
+  Setting setting;
+  Verdict verdict = Verdict::not_run;
+  std::string message;  ///< why it is not right, in words
+  EventErrors errors;   ///< meaningful if right or of wrong count
+  Work work;
+  double seconds = 0.0;  ///< wall time of one run, see timed repeats
+  int repeats = 0;
+
+  bool reaches(double error) const { return verdict == Verdict::right && errors.maximum <= error; }
+};
+
+/// The cheapest setting for a wanted error.
+struct Advice {
+  double wanted = 0.0;                      ///< s
+  std::optional<WorkPrecisionPoint> point;  ///< nothing if no setting reaches it
+  /// Where a finer setting of the same method misses the error, so that the cheapest one reaches it
+  /// by luck: the cheapest setting of any method whose finer ones all reach it too.
+  std::optional<WorkPrecisionPoint> steady;
+};
+
+struct WorkPrecision {
+  std::string label;  ///< of the chart: what sets this case apart from others beside it
+  Reference reference;
+  std::vector<WorkPrecisionPoint> points;
+  bool interrupted = false;
+};
+
+/// Errors of event times for which advice is given, s.
+const std::vector<double>& advised_errors();
+
+struct WorkPrecisionOptions {
+  std::vector<std::string> methods;  ///< empty: default_methods()
+  double point_seconds = 10.0;       ///< a setting that would take longer is not run
+  double timing_budget = 0.6;        ///< s, of the repeats of one setting
+  int most_repeats = 7;
+  /// A point that is known already, from a study that was interrupted.
+  std::function<std::optional<WorkPrecisionPoint>(const Setting&)> known;
+  /// Told of each point as soon as it is there.
+  std::function<void(const WorkPrecisionPoint&)> finished;
+  /// Told what is about to run.
+  std::function<void(const std::string& what)> announce;
+  Progress progress;  ///< of a single run; returning false ends the study with what it has
+};
+
+/// Sweeps every method from coarse to fine against a reference of its own. Timed runs run alone,
+/// one after the other; the shortest of several repeats counts. A method's sweep ends when the next
+/// setting would take longer than `point_seconds` (that one is reported as not run), or when its
+/// errors reach those of the reference. Throws InvalidCase, for methods before anything is run.
+WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& options = {});
+
+/// The cheapest setting for each of advised_errors(): all sub-impacts correspond, and no event time
+/// is off by more.
+std::vector<Advice> advice_from(const std::vector<WorkPrecisionPoint>& points);
+
+/// By how much errors grow over the scene: the median, over the points that are right, of the last
+/// event's error over that of the first. Nothing without such points.
+std::optional<double> error_growth(const std::vector<WorkPrecisionPoint>& points);
+
+}  // namespace subimpact

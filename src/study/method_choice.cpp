@@ -1,0 +1,25 @@
+#include "study/method_choice.h"
+
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+
+Case with_method(const Case& input, const std::string& name) {
+  Case chosen = input;
+  chosen.output.interval = 0.0;
+  chosen.solver.table.reset();
+  chosen.solver.max_order.reset();
+  const std::size_t colon = name.find(':');
+  assign(chosen, *find_case_key("solver.method"), name.substr(0, colon));
+  if (colon != std::string::npos) {
+    assign(chosen, *find_case_key("solver.table"), name.substr(colon + 1));
+  } else if (chosen.solver.method == input.solver.method) {
+    chosen.solver.table = input.solver.table;
+    chosen.solver.max_order = input.solver.max_order;
+  }
+  const bool fixed = chosen.solver.method == Method::central_difference;
+  if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
+  return chosen;
+}
+
+}  // namespace subimpact

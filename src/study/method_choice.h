@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "subimpact/simulate/case.h"
+
+namespace subimpact {
+
+/// The case with another method, named alone ("erk") or with a table ("erk:dormand-prince"), and
+/// without history rows. Table, order and fixed step of the case stay only where they were meant
+/// for this method. Throws InvalidCase for an unknown name.
+Case with_method(const Case& input, const std::string& name);
+
+}  // namespace subimpact

@@ -1,0 +1,203 @@
+#include "subimpact/study/work_precision.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "paper_scene.h"
+
+namespace subimpact {
+namespace {
+
+Case paper_case(SectionKind section, double end_time) {
+  Case input;
+  input.scene = paper_scene();
+  input.model.section = section;
+  input.end_time = end_time;
+  return input;
+}
+
+std::vector<SubImpact> sub_impacts(const std::vector<std::pair<double, double>>& times) {
+  std::vector<SubImpact> list;
+  for (const auto& [start, end] : times) {
+    SubImpact s;
+    s.start = start;
+    s.end = end;
+    s.peak_force = 100.0;
+    list.push_back(s);
+  }
+  return list;
+}
+
+TEST(ErrorsOfEventTimes, LeaveOutTheFirstStartAndKnowMedianAndLargest) {
+  std::vector<SubImpact> run = sub_impacts({{0.0, 10.1}, {20.3, 30.0}, {40.0, 50.7}});
+  run[1].peak_force = 101.0;
+  const EventErrors errors = event_errors(run, sub_impacts({{0, 10}, {20, 30}, {40, 50}}));
+  EXPECT_TRUE(errors.all_correspond());
+  EXPECT_EQ(errors.n_corresponding, 3u);
+  EXPECT_NEAR(errors.first, 0.1, 1e-12);
+  EXPECT_NEAR(errors.last, 0.7, 1e-12);
+  EXPECT_NEAR(errors.maximum, 0.7, 1e-12);
+  EXPECT_NEAR(errors.median, 0.1, 1e-12);
+  EXPECT_NEAR(errors.peak_force, 0.01, 1e-12);
+}
+
+TEST(ARunThatLosesASubImpact, IsOffByAtLeastThatOnesDuration) {
+  const EventErrors errors =
+      event_errors(sub_impacts({{0, 10.1}, {40, 50}}), sub_impacts({{0, 10}, {20, 26}, {40, 50}}));
+  ASSERT_FALSE(errors.all_correspond());
+  EXPECT_EQ(errors.n_corresponding, 1u);
+  EXPECT_NEAR(errors.maximum, 0.1, 1e-12);
+  EXPECT_NEAR(errors.overall(), 6.0, 1e-12);
+  EXPECT_DOUBLE_EQ(errors.odd->start, 20.0);
+}
+
+TEST(TheReference, KnowsTheElasticEventsToABillionthOfAMicrosecond) {
+  const Reference reference = compute_reference(paper_case(SectionKind::elastic, 2e-3), 1e-10);
+  EXPECT_EQ(reference.sub_impacts.size(), 14u);
+  EXPECT_LT(1e6 * reference.error, 1e-8);
+  EXPECT_EQ(reference.horizon, 2e-3);
+}
+
+TEST(TheHorizon, LiesInTheLastSeparationThatIsCertain) {
+  // In contact at the case's end, which therefore cannot be compared up to there.
+  const Reference open = compute_reference(paper_case(SectionKind::elastic, 230e-6), 1e-10);
+  ASSERT_EQ(open.sub_impacts.size(), 1u);
+  EXPECT_GT(open.horizon, *open.sub_impacts.back().end);
+  EXPECT_LT(open.horizon, 225.5e-6);
+  EXPECT_EQ(open.result.outcome.time, open.horizon);
+  // Nothing is certain to a tenth of the rounding of its time but what comes first.
+  EXPECT_THROW(compute_reference(paper_case(SectionKind::elastic, 1e-3), 1e-25), InvalidCase);
+  EXPECT_THROW(compute_reference(paper_case(SectionKind::elastic, 1e-4), 1e-10), InvalidCase);
+}
+
+WorkPrecisionOptions quick(std::vector<std::string> methods) {
+  WorkPrecisionOptions options;
+  options.methods = std::move(methods);
+  options.timing_budget = 0.0;
+  options.most_repeats = 1;
+  return options;
+}
+
+std::vector<WorkPrecisionPoint> points_of(const WorkPrecision& study, const std::string& method) {
+  std::vector<WorkPrecisionPoint> points;
+  std::copy_if(study.points.begin(), study.points.end(), std::back_inserter(points),
+               [&](const WorkPrecisionPoint& p) { return p.setting.method == method; });
+  return points;
+}
+
+TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
+  const WorkPrecision study =
+      work_precision(paper_case(SectionKind::elastic, 0.3e-3),
+                     quick({"central-difference", "exponential", "erk:dormand-prince"}));
+  const auto central = points_of(study, "central-difference");
+  ASSERT_GE(central.size(), 5u);
+  for (const WorkPrecisionPoint& point : central) EXPECT_EQ(point.verdict, Verdict::right);
+  // Second order over eight halvings, give or take the phase of the last step.
+  const double order = std::log2(central.front().errors.median / central.back().errors.median) /
+                       static_cast<double>(central.size() - 1);
+  EXPECT_GT(order, 1.7);
+  EXPECT_LT(order, 2.4);
+  EXPECT_GT(central.back().work.right_hand_sides, 200 * central.front().work.right_hand_sides);
+
+  const auto erk = points_of(study, "erk:dormand-prince");
+  EXPECT_EQ(erk.front().verdict, Verdict::unstable);  // rtol 1e-2
+  EXPECT_NE(erk.front().message.find("grows without bound"), std::string::npos);
+  EXPECT_EQ(erk.back().verdict, Verdict::right);
+  EXPECT_LT(1e6 * erk.back().errors.maximum, 1e-6);
+
+  const std::vector<Advice> advice = advice_from(study.points);
+  ASSERT_EQ(advice.size(), advised_errors().size());
+  for (const Advice& item : advice) {
+    ASSERT_TRUE(item.point.has_value());
+    EXPECT_LE(item.point->errors.maximum, item.wanted);
+  }
+}
+
+TEST(AWorkPrecisionStudy, LeavesOutWhatWouldTakeTooLongAndSaysSo) {
+  WorkPrecisionOptions options = quick({"nystrom"});
+  options.point_seconds = 1e-9;
+  const WorkPrecision study = work_precision(paper_case(SectionKind::exact, 0.3e-3), options);
+  ASSERT_EQ(study.points.size(), 2u);  // the first is run to see how long it takes
+  EXPECT_EQ(study.points.back().verdict, Verdict::not_run);
+  EXPECT_NE(study.points.back().message.find("would take"), std::string::npos);
+}
+
+TEST(AWorkPrecisionStudy, RunsNothingAgainThatIsKnown) {
+  const Case input = paper_case(SectionKind::elastic, 0.3e-3);
+  const WorkPrecision first = work_precision(input, quick({"central-difference"}));
+  WorkPrecisionOptions options = quick({"central-difference"});
+  std::set<std::string> run;
+  options.announce = [&](const std::string& what) { run.insert(what); };
+  options.known = [&](const Setting& setting) -> std::optional<WorkPrecisionPoint> {
+    if (setting == first.points[1].setting) return std::nullopt;
+    for (const WorkPrecisionPoint& point : first.points) {
+      if (point.setting == setting) return point;
+    }
+    return std::nullopt;
+  };
+  int finished = 0;
+  options.finished = [&](const WorkPrecisionPoint&) { ++finished; };
+  const WorkPrecision second = work_precision(input, options);
+  EXPECT_EQ(finished, 1);
+  EXPECT_EQ(run.size(), 2u);  // the reference and the point that was missing
+  EXPECT_EQ(second.points.size(), first.points.size());
+  EXPECT_EQ(second.points[1].errors.maximum, first.points[1].errors.maximum);
+}
+
+TEST(AnInterruptedStudy, KeepsThePointsItHas) {
+  WorkPrecisionOptions options = quick({"central-difference"});
+  int finished = 0;
+  options.finished = [&](const WorkPrecisionPoint&) { ++finished; };
+  options.progress = [&](double) { return finished < 3; };
+  const WorkPrecision study = work_precision(paper_case(SectionKind::elastic, 0.6e-3), options);
+  EXPECT_TRUE(study.interrupted);
+  EXPECT_EQ(study.points.size(), 3u);
+}
+
+TEST(Advice, TakesTheCheapestOfThoseThatFindEverySubImpact) {
+  const auto point = [](double error, double seconds, Verdict verdict) {
+    WorkPrecisionPoint p;
+    p.errors.maximum = error;
+    p.seconds = seconds;
+    p.verdict = verdict;
+    return p;
+  };
+  const std::vector<Advice> advice =
+      advice_from({point(2e-7, 3.0, Verdict::right), point(2e-7, 2.0, Verdict::right),
+                   point(1e-9, 1.0, Verdict::wrong_count), point(5e-9, 7.0, Verdict::right)});
+  EXPECT_EQ(advice[0].point->seconds, 2.0);  // 1 us
+  EXPECT_EQ(advice[1].point->seconds, 7.0);  // 0.1 us
+  EXPECT_EQ(advice[2].point->seconds, 7.0);  // 0.01 us
+  EXPECT_FALSE(advice[3].point.has_value());
+}
+
+TEST(Advice, TellsASettingThatReachesItsErrorByLuckFromOneThatDoesSteadily) {
+  const auto point = [](const char* method, double error, double seconds) {
+    WorkPrecisionPoint p;
+    p.setting.method = method;
+    p.errors.maximum = error;
+    p.seconds = seconds;
+    p.verdict = Verdict::right;
+    return p;
+  };
+  const std::vector<Advice> advice = advice_from({point("a", 0.5e-6, 1.0), point("a", 2e-6, 2.0),
+                                                  point("a", 0.4e-6, 4.0), point("b", 1e-7, 3.0)});
+  EXPECT_EQ(advice[0].point->seconds, 1.0);
+  EXPECT_EQ(advice[0].steady->seconds, 3.0);
+  EXPECT_EQ(advice[1].point->seconds, 3.0);
+  EXPECT_FALSE(advice[1].steady.has_value());
+}
+
+TEST(AMethodThatCannotRunTheCase, IsRefusedBeforeAnythingRuns) {
+  bool announced = false;
+  WorkPrecisionOptions options = quick({"central-difference", "leapfrog"});
+  options.announce = [&](const std::string&) { announced = true; };
+  EXPECT_THROW(work_precision(paper_case(SectionKind::elastic, 1e-3), options), InvalidCase);
+  EXPECT_FALSE(announced);
+}
+
+}  // namespace
+}  // namespace subimpact
