@@ -149,6 +149,7 @@ void Reader::read_value(const CaseKey& key, const toml::node& node, const std::s
 std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& text) {
   const bool wants_text = key.type == KeyType::text || key.type == KeyType::choice;
   const bool wants_pair = key.type == KeyType::pair && !text.starts_with('[');
+  const bool wants_numbers = key.type == KeyType::numbers && !text.starts_with('[');
   if (wants_text && !text.starts_with('"') && !text.starts_with('\'')) return KeyValue(text);
   if (wants_pair) {
     std::vector<std::string> names;
@@ -157,7 +158,7 @@ std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& tex
     return KeyValue(std::move(names));
   }
   try {
-    const toml::table parsed = toml::parse("value = " + text);
+    const toml::table parsed = toml::parse("value = " + (wants_numbers ? '[' + text + ']' : text));
     if (parsed.size() != 1) return std::nullopt;
     return to_key_value(*parsed.get("value"));
   } catch (const toml::parse_error&) {

@@ -59,4 +59,13 @@ std::string history_csv(const std::vector<HistoryRow>& history) {
   return csv.str();
 }
 
+std::string sections_csv(const std::vector<SectionRow>& sections) {
+  CsvText csv("time_s,position_m,curvature_per_m,moment_Nm,plastic_curvature_per_m\n");
+  for (const SectionRow& row : sections) {
+    csv.number(row.time).number(row.position).number(row.curvature);
+    csv.number(row.moment).number(row.plastic_curvature).end_row();
+  }
+  return csv.str();
+}
+
 }  // namespace subimpact

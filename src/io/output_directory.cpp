@@ -57,6 +57,12 @@ void write_results(const fs::path& directory, const Case& input, const Result& r
   write_file(directory / "events.csv", events_csv(result.sub_impacts));
   write_file(directory / "transitions.csv", transitions_csv(result.transitions));
   write_file(directory / "history.csv", history_csv(result.history));
+  if (!input.output.sections.empty()) {
+    write_file(directory / "sections.csv", sections_csv(result.section_history));
+  } else {
+    std::error_code ignored;  // of an earlier run into the same directory
+    fs::remove(directory / "sections.csv", ignored);
+  }
   write_file(directory / "summary.json", summary_json(input, result));
 }
 

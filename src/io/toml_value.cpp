@@ -2,12 +2,26 @@
 
 namespace subimpact {
 
+namespace {
+
+std::optional<std::vector<double>> numbers_in(const toml::array& list) {
+  std::vector<double> numbers;
+  for (const toml::node& item : list) {
+    if (!item.is_number()) return std::nullopt;
+    numbers.push_back(*item.value<double>());
+  }
+  return numbers;
+}
+
+}  // namespace
+
 std::optional<KeyValue> to_key_value(const toml::node& node) {
   if (const auto* flag = node.as_boolean()) return KeyValue(flag->get());
   if (const auto* whole = node.as_integer()) return KeyValue(whole->get());
   if (const auto* number = node.as_floating_point()) return KeyValue(number->get());
   if (const auto* text = node.as_string()) return KeyValue(text->get());
   if (const auto* list = node.as_array()) {
+    if (auto numbers = numbers_in(*list); numbers && !numbers->empty()) return *numbers;
     std::vector<std::string> texts;
     for (const toml::node& item : *list) {
       if (!item.is_string()) return std::nullopt;
@@ -23,7 +37,7 @@ std::string describe_type(const toml::node& node) {
     case toml::node_type::table:
       return "a table";
     case toml::node_type::array:
-      return "a list of things that are not texts";
+      return "a list of things of several types";
     case toml::node_type::string:
       return "a text";
     case toml::node_type::integer:

@@ -52,6 +52,16 @@ struct Member<std::string> {
   static KeyValue to_value(const std::string& x) { return x; }
   static std::string from_value(const KeyValue& v) { return std::get<std::string>(v); }
 };
+template <>
+struct Member<std::vector<double>> {
+  static constexpr KeyType type = KeyType::numbers;
+  static KeyValue to_value(const std::vector<double>& x) { return x; }
+  static std::vector<double> from_value(const KeyValue& v) {
+    // An empty list of a case file does not say what it is a list of.
+    const auto* numbers = std::get_if<std::vector<double>>(&v);
+    return numbers != nullptr ? *numbers : std::vector<double>{};
+  }
+};
 template <class T>
 struct Member<std::array<T, 2>> {
   static constexpr KeyType type = KeyType::pair;
@@ -219,6 +229,7 @@ std::vector<CaseKey> make_case_keys() {
     row("output.interval", "s", not_negative, "time between history rows; 0: none", as_in_case, AT(output.interval)),
     row("output.zone_gap", "", positive, "separation that ends a zone, in first flexural periods", as_in_case, AT(output.zone_gap)),
     row("output.subzone_gap", "", positive, "separation that ends a sub-zone, in first flexural periods", as_in_case, AT(output.subzone_gap)),
+    row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),
   };
 }
 // clang-format on
@@ -263,6 +274,13 @@ void check_history_size(const Case& input) {
           input.end_time / most_history_rows));
 }
 
+void check_sections(const Case& input) {
+  if (input.output.sections.empty() || input.output.interval > 0.0) return;
+  throw InvalidCase("output.sections",
+                    "is given, but output.interval = 0 keeps no rows of them; leave it out, or "
+                    "set an output.interval above 0");
+}
+
 void check_gaps(const Case& input) {
   if (input.output.subzone_gap <= input.output.zone_gap) return;
   throw InvalidCase("output.subzone_gap",
@@ -301,6 +319,7 @@ void check(const Case& input) {
   check_clamped_mesh(input);
   check_history_size(input);
   check_gaps(input);
+  check_sections(input);
 }
 
 }  // namespace subimpact

@@ -29,7 +29,7 @@ std::string choice_list(const CaseKey& key) {
 // A value of another type than the key's is shown together with its type.
 std::string typed(const KeyValue& value) {
   static constexpr const char* kinds[] = {"a boolean", "a whole number", "a floating-point number",
-                                          "a text", "a list"};
+                                          "a text",    "a list",         "a list of numbers"};
   return fmt::format("{} ({})", kinds[value.index()], to_text(value));
 }
 
@@ -46,6 +46,11 @@ bool has_type(const CaseKey& key, const KeyValue& value) {
       return std::holds_alternative<std::string>(value);
     case KeyType::pair:
       return std::holds_alternative<std::vector<std::string>>(value);
+    case KeyType::numbers: {
+      const auto* texts = std::get_if<std::vector<std::string>>(&value);
+      return std::holds_alternative<std::vector<double>>(value) ||
+             (texts != nullptr && texts->empty());
+    }
   }
   return false;
 }
@@ -131,6 +136,9 @@ std::string to_text(const KeyValue& value) {
       for (const std::string& item : x) items.push_back(quoted(item));
       return fmt::format("[{}]", fmt::join(items, ", "));
     }
+    std::string operator()(const std::vector<double>& x) const {
+      return fmt::format("[{}]", fmt::join(x, ", "));
+    }
   };
   return std::visit(Writer{}, value);
 }
@@ -151,6 +159,8 @@ std::string allowed_values(const CaseKey& key) {
       return (key.choices.size() == 1 ? "" : "one of ") + choice_list(key);
     case KeyType::pair:
       return "a list of two out of " + choice_list(key);
+    case KeyType::numbers:
+      return "a list of numbers" + (range.empty() ? "" : ", each " + key.range) + unit;
   }
   return {};
 }
@@ -179,6 +189,13 @@ std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& valu
       }
       return std::nullopt;
     }
+    case KeyType::numbers:
+      if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+        for (const double number : *numbers) {
+          if (number_problem(key, number, value)) return refusal(key, to_text(value));
+        }
+      }
+      return std::nullopt;
     case KeyType::flag:
     case KeyType::text:
       return std::nullopt;

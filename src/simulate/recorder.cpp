@@ -104,6 +104,7 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam) {
   keep_errors(last);
   if (interval_ > 0.0 && (result_.history.empty() || result_.history.back().time < time)) {
     result_.history.push_back(last);
+    add_section_rows(time, y, beam);
   }
   if (in_contact_) {
     SubImpact& open = result_.sub_impacts.back();
@@ -123,6 +124,18 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam) {
 void Recorder::add_row(double time, const State& y, StruckBeam& beam) {
   result_.history.push_back(make_row(time, y, beam));
   keep_errors(result_.history.back());
+  add_section_rows(time, y, beam);
+}
+
+void Recorder::add_section_rows(double time, const State& y, StruckBeam& beam) {
+  if (sections_.empty()) return;
+  const StruckBeam::Bending bending = beam.bending(y);
+  for (const std::size_t section : sections_) {
+    const double kappa = bending.curvatures[section];
+    const double moment = -bending.moments[section];
+    result_.section_history.push_back({time, beam.mesh().section_positions()[section], kappa,
+                                       moment, kappa + moment / beam.sections().stiffness()});
+  }
 }
 
 void Recorder::keep_errors(const HistoryRow& row) {

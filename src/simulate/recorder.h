@@ -12,6 +12,9 @@ class Recorder final : public RunObserver {
   Recorder(StruckBeam& beam, const State& initial, double interval, EventHandling events,
            Result& result);
 
+  /// Keeps the bending of these sections (indices) too, at every history row.
+  void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
+
   void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) override;
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
@@ -25,6 +28,7 @@ class Recorder final : public RunObserver {
   void add_row(double time, const State& y, StruckBeam& beam);
   HistoryRow make_row(double time, const State& y, StruckBeam& beam) const;
   void keep_errors(const HistoryRow& row);
+  void add_section_rows(double time, const State& y, StruckBeam& beam);
 
   Result& result_;
   double interval_;
@@ -36,6 +40,7 @@ class Recorder final : public RunObserver {
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
   State state_;
+  std::vector<std::size_t> sections_;
 };
 
 }  // namespace subimpact

@@ -1,6 +1,8 @@
 #include "subimpact/simulate/simulate.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "simulate/event_loop.h"
@@ -19,6 +21,22 @@ double reversal_tolerance(const Case& input, const Used& used) {
   }
   // What a turn overshoots by less than this is left to the step's end.
   return input.solver.rtol * used.yield_curvature;
+}
+
+// The sections nearest to the positions asked for; in a half model their mirror images stand for
+// those of the other half.
+std::vector<std::size_t> sections_at(const Case& input, const BeamMesh& mesh) {
+  std::vector<std::size_t> sections;
+  const auto& positions = mesh.section_positions();
+  for (const double fraction : input.output.sections) {
+    const double modelled = mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction;
+    const double x = modelled * input.scene.beam.length;
+    const auto nearest =
+        std::min_element(positions.begin(), positions.end(),
+                         [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
+    sections.push_back(static_cast<std::size_t>(nearest - positions.begin()));
+  }
+  return sections;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -52,6 +70,7 @@ Result simulate(const Case& input, const Progress& progress) {
   options.events = result.used.events;
   options.reversal_tolerance = reversal_tolerance(input, result.used);
   options.largest_indentation = input.scene.beam.thickness;
+  recorder.keep_sections(sections_at(input, beam.mesh()));
   EventLoop loop(beam, *integrator, recorder, options);
   result.work.setup_seconds = seconds_since(start);
 

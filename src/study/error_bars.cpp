@@ -44,6 +44,7 @@ std::string undecided_reason(const SubImpact& here, const SubImpact* before,
 Companion companion_of(const Case& input) {
   Companion companion{input, {}};
   companion.input.output.interval = 0.0;
+  companion.input.output.sections.clear();
   SolverOptions& solver = companion.input.solver;
   const Used used = explain(input);
   if (used.step) {

@@ -7,6 +7,7 @@ namespace subimpact {
 Case with_method(const Case& input, const std::string& name) {
   Case chosen = input;
   chosen.output.interval = 0.0;
+  chosen.output.sections.clear();
   chosen.solver.table.reset();
   chosen.solver.max_order.reset();
   const std::size_t colon = name.find(':');

@@ -184,6 +184,12 @@ StruckBeam::Displacements StruckBeam::displacements(const State& y) const {
   return {mesh_->struck_point()(unknowns), y[n_], mesh_->first_end()(unknowns)};
 }
 
+StruckBeam::Bending StruckBeam::bending(const State& y) {
+  mesh_->curvatures(beam_positions(y), curvatures_);
+  sections_.moments(curvatures_, moments_);
+  return {curvatures_, moments_};
+}
+
 double StruckBeam::back_stress(const State& y) {
   mesh_->curvatures(beam_positions(y), curvatures_);
   const std::size_t section = mesh_->struck_section();

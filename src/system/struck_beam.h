@@ -160,6 +160,11 @@ class StruckBeam final : public MechanicalSystem {
   /// If a section flows at the step's end: when, within the step, the first of them left its
   /// window.
   std::optional<double> first_flow(const StepEnds& step);
+  /// Curvatures (1/m) and moments -M (N m) of all sections; valid until the next evaluation.
+  struct Bending {
+    std::span<const double> curvatures, moments;
+  };
+  Bending bending(const State& y);
   double back_stress(const State& y);  ///< outer fibre at the struck section, far side, Pa
 
  private:

@@ -37,8 +37,7 @@ TEST(RigidBodies, UnderAPowerLawPartAfterTheClosedFormsDurationWithRestitution1)
   const struct {
     ContactKind kind;
     double exponent, duration_constant;
-  } laws[] = {{ContactKind::hertz, 1.5, 2.943275184},
-              {ContactKind::linear, 1.0, std::numbers::pi}};
+  } laws[] = {{ContactKind::hertz, 1.5, 2.943275184}, {ContactKind::linear, 1.0, std::numbers::pi}};
   for (const auto& [kind, n, constant] : laws) {
     for (const double v : {0.01, 1.0, 10.0}) {
       const Case input = rigid_case(kind, v);

@@ -24,7 +24,8 @@ class OutputError : public std::runtime_error {
 /// Makes the directory and tries it out, so that a run is not made for nothing. Throws OutputError.
 void prepare_output_directory(const std::filesystem::path& directory);
 
-/// Writes events.csv, transitions.csv, history.csv and summary.json. Each file appears whole or not
+/// Writes events.csv, transitions.csv, history.csv and summary.json, and sections.csv if sections
+/// were asked for. Each file appears whole or not
 /// at all: it is written under another name and then moved into place. Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
@@ -38,6 +39,7 @@ std::string matches_csv(const Comparison& comparison);
 std::string events_csv(const std::vector<SubImpact>& sub_impacts);
 std::string transitions_csv(const std::vector<Transition>& transitions);
 std::string history_csv(const std::vector<HistoryRow>& history);
+std::string sections_csv(const std::vector<SectionRow>& sections);
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "subimpact/model/scene.h"
 
@@ -70,9 +71,10 @@ struct SolverOptions {
 };
 
 struct OutputOptions {
-  double interval = 1e-6;     ///< s between history rows; 0: none
-  double zone_gap = 0.1;      ///< in first flexural periods
-  double subzone_gap = 0.02;  ///< in first flexural periods
+  double interval = 1e-6;        ///< s between history rows; 0: none
+  double zone_gap = 0.1;         ///< in first flexural periods
+  double subzone_gap = 0.02;     ///< in first flexural periods
+  std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
 };
 
 struct Case {

@@ -17,7 +17,8 @@
 namespace subimpact {
 
 /// What a key can hold, independent of any file format.
-using KeyValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
+using KeyValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
+                              std::vector<double>>;
 
 enum class KeyType {
   text,    ///< any text
@@ -25,7 +26,8 @@ enum class KeyType {
   count,   ///< whole number
   flag,    ///< true or false
   choice,  ///< one of the key's choices
-  pair     ///< two of the key's choices
+  pair,    ///< two of the key's choices
+  numbers  ///< a list of finite numbers
 };
 
 /// A name a key accepts, with a line on what it stands for.
@@ -38,8 +40,8 @@ struct Choice {
 struct CaseKey {
   std::string name;  ///< with its table: "beam.length"
   KeyType type;
-  std::string unit;                      ///< empty: none
-  std::string range;                     ///< in words, for numbers and counts: "above 0"
+  std::string unit;   ///< empty: none
+  std::string range;  ///< in words, for numbers and counts, each of a list: "above 0"
   std::function<bool(double)> in_range;  ///< empty: every value of the type
   std::vector<Choice> choices;           ///< for choice and pair
   bool required;                         ///< has no default

@@ -35,6 +35,15 @@ struct HistoryRow {
   std::optional<double> momentum_error;
 };
 
+/// One row of sections.csv: a section whose bending is kept, at the time of a history row.
+struct SectionRow {
+  double time;               ///< s
+  double position;           ///< x of the section, m
+  double curvature;          ///< kappa, 1/m
+  double moment;             ///< M, N m; -E I kappa while elastic
+  double plastic_curvature;  ///< kappa + M/(E I), 1/m
+};
+
 /// How a simulation ended.
 enum class OutcomeKind {
   completed,
@@ -105,6 +114,7 @@ struct Result {
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
   std::vector<HistoryRow> history;
+  std::vector<SectionRow> section_history;    ///< of output.sections, in that order at each time
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
   std::size_t n_yielded_sections = 0;         ///< of the sections modelled

@@ -1,0 +1,33 @@
+#pragma once
+
+/// A run read back from the files it left.
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "subimpact/simulate/case.h"
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// Files of a run that are missing or not what write_results() writes; `what()` names file and line,
+/// what was found, and what to do.
+class ResultsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct FinishedRun {
+  Case input;
+  Result result;
+  std::string program_version;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version
+};
+
+/// The inverse of write_results(). Throws ResultsError.
+FinishedRun read_results(const std::filesystem::path& directory);
+
+}  // namespace subimpact

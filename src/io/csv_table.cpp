@@ -1,0 +1,96 @@
+#include "io/csv_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "subimpact/io/read_results.h"
+
+namespace subimpact {
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) {
+    throw ResultsError(
+        fmt::format("{}: cannot be read ({}); give the directory that `subimpact run` "
+                    "left its files in",
+                    path.string(), errno != 0 ? std::strerror(errno) : "it is empty"));
+  }
+  return std::move(text).str();
+}
+
+CsvTable::CsvTable(const std::filesystem::path& path)
+    : path_(path.string()), content_(read_whole_file(path)) {
+  std::size_t line_start = 0;
+  for (bool in_header = true; line_start < content_.size(); in_header = false) {
+    std::size_t line_end = content_.find('\n', line_start);
+    if (line_end == std::string::npos) line_end = content_.size();
+    starts_.push_back(bounds_.size());
+    bounds_.push_back(line_start);
+    for (std::size_t i = line_start; i < line_end; ++i) {
+      if (content_[i] == ',') bounds_.push_back(i + 1);
+    }
+    bounds_.push_back(line_end + 1);
+    const std::size_t n_cells = bounds_.size() - starts_.back() - 1;
+    if (in_header) {
+      for (std::size_t k = 0; k < n_cells; ++k) header_.emplace_back(text(0, k));
+      starts_.clear();
+      bounds_.clear();
+    } else if (n_cells != header_.size()) {
+      throw ResultsError(fmt::format("{}:{}: has {} cells where the header has {}; run the case "
+                                     "again",
+                                     path_, starts_.size() + 1, n_cells, header_.size()));
+    }
+    line_start = line_end + 1;
+  }
+}
+
+bool CsvTable::has(std::string_view column) const {
+  return std::find(header_.begin(), header_.end(), column) != header_.end();
+}
+
+std::size_t CsvTable::column(std::string_view name) const {
+  const auto found = std::find(header_.begin(), header_.end(), name);
+  if (found == header_.end()) {
+    throw ResultsError(fmt::format("{}: has no column {}; its columns are {}; run the case again",
+                                   path_, name, fmt::join(header_, ", ")));
+  }
+  return static_cast<std::size_t>(found - header_.begin());
+}
+
+std::string_view CsvTable::text(std::size_t row, std::size_t column) const {
+  const std::size_t k = starts_[row] + column;
+  return std::string_view(content_).substr(bounds_[k], bounds_[k + 1] - 1 - bounds_[k]);
+}
+
+std::optional<double> CsvTable::number(std::size_t row, std::size_t column) const {
+  const std::string_view cell = text(row, column);
+  if (cell.empty()) return std::nullopt;
+  double value = 0.0;
+  const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (end.ec != std::errc() || end.ptr != cell.data() + cell.size()) {
+    refuse(row, column, "a number");
+  }
+  return value;
+}
+
+double CsvTable::required(std::size_t row, std::size_t column) const {
+  const std::optional<double> value = number(row, column);
+  if (!value) refuse(row, column, "a number");
+  return *value;
+}
+
+void CsvTable::refuse(std::size_t row, std::size_t column, const char* wanted) const {
+  throw ResultsError(fmt::format("{}:{}: {} is \"{}\"; allowed: {}; run the case again", path_,
+                                 row + 2, header_[column], text(row, column), wanted));
+}
+
+}  // namespace subimpact

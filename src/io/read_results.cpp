@@ -1,0 +1,280 @@
+#include "subimpact/io/read_results.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "io/csv_table.h"
+#include "simulate/case_choices.h"
+#include "subimpact/io/results.h"
+#include "subimpact/simulate/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::optional<double> optional_number(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return json.get<double>();
+}
+
+std::optional<std::string> optional_text(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return json.get<std::string>();
+}
+
+// A number that is not finite was written as null.
+double number(const Json& json, double if_null = infinity) {
+  return optional_number(json).value_or(if_null);
+}
+
+KeyValue key_value(const CaseKey& key, const Json& json) {
+  switch (key.type) {
+    case KeyType::flag:
+      return json.get<bool>();
+    case KeyType::count:
+      return json.get<std::int64_t>();
+    case KeyType::number:
+      return json == "inf" ? infinity : json.get<double>();
+    case KeyType::text:
+    case KeyType::choice:
+      return json.get<std::string>();
+    case KeyType::pair:
+      return json.get<std::vector<std::string>>();
+    case KeyType::numbers:
+      return json.get<std::vector<double>>();
+  }
+  throw std::logic_error("read_results: a key of unknown type");
+}
+
+Case case_from(const Json& json) {
+  Case input;
+  for (const CaseKey& key : case_keys()) {
+    const std::string table = key.table();
+    const Json& place = table.empty() ? json : json.at(table);
+    const auto entry = place.find(key.leaf());
+    if (entry == place.end() || entry->is_null()) continue;
+    assign(input, key, key_value(key, *entry));
+  }
+  return input;
+}
+
+EventKind event_kind(std::string_view name) {
+  for (const EventKind kind :
+       {EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
+        EventKind::contact_ends, EventKind::section_reverses}) {
+    if (to_string(kind) == name) return kind;
+  }
+  throw ResultsError(fmt::format("transitions.csv: unknown kind \"{}\"; run the case again", name));
+}
+
+OutcomeKind outcome_kind(const std::string& name) {
+  for (const OutcomeKind kind :
+       {OutcomeKind::completed, OutcomeKind::stopped, OutcomeKind::unstable,
+        OutcomeKind::solver_failed, OutcomeKind::left_validity}) {
+    if (to_string(kind) == name) return kind;
+  }
+  throw ResultsError(
+      fmt::format("summary.json: unknown outcome \"{}\"; run the case again", name));
+}
+
+Used used_from(const Json& json) {
+  Used used;
+  used.half_model = json.at("half_model").get<bool>();
+  used.n_unknowns = json.at("n_unknowns").get<std::size_t>();
+  used.n_sections = json.at("n_sections").get<std::size_t>();
+  used.mesh = json.at("mesh").get<std::string>();
+  used.highest_frequency = number(json.at("highest_frequency_rad_per_s"));
+  used.critical_step = number(json.at("critical_step_s"));
+  used.step = optional_number(json.at("step_s"));
+  used.table = optional_text(json.at("table"));
+  used.events = value_of<EventHandling>(json.at("events").get<std::string>());
+  used.reversals = value_of<ReversalHandling>(json.at("reversals").get<std::string>());
+  if (const Json& order = json.at("max_order"); !order.is_null()) used.max_order = order.get<int>();
+  used.position_tolerance = number(json.at("position_tolerance_m"), 0.0);
+  used.velocity_tolerance = number(json.at("velocity_tolerance_m_per_s"), 0.0);
+  const bool linear = json.contains("contact_stiffness_N_per_m");
+  used.contact_exponent = linear ? 1.0 : 1.5;
+  used.contact_stiffness =
+      number(json.at(linear ? "contact_stiffness_N_per_m" : "contact_stiffness_N_per_m1.5"));
+  used.yield_indentation = number(json.at("yield_indentation_m"));
+  used.yield_curvature = number(json.at("yield_curvature_per_m"));
+  used.first_period = number(json.at("first_period_s"));
+  used.initial_energy = number(json.at("initial_energy_J"));
+  return used;
+}
+
+Work work_from(const Json& json) {
+  Work work;
+  work.steps = json.at("steps").get<long>();
+  work.rejected_steps = json.at("rejected_steps").get<long>();
+  work.partial_steps = json.at("partial_steps").get<long>();
+  work.right_hand_sides = json.at("right_hand_sides").get<long>();
+  work.mass_solves = json.at("mass_solves").get<long>();
+  work.jacobians = json.at("jacobians").get<long>();
+  work.factorisations = json.at("factorisations").get<long>();
+  work.roots = json.at("roots").get<long>();
+  work.nonlinear_iterations = json.at("nonlinear_iterations").get<long>();
+  work.nonlinear_failures = json.at("nonlinear_failures").get<long>();
+  work.setup_seconds = number(json.at("setup_s"));
+  work.wall_seconds = number(json.at("wall_s"));
+  return work;
+}
+
+std::optional<Trust> trust_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  Trust trust;
+  trust.companion = json.at("companion").get<std::string>();
+  trust.largest_error = number(json.at("max_time_error_s"));
+  if (const Json& index = json.at("first_undecided_index"); !index.is_null()) {
+    trust.first_undecided = index.get<std::size_t>() - 1;
+  }
+  trust.reason = optional_text(json.at("reason")).value_or("");
+  return trust;
+}
+
+void read_summary(const std::filesystem::path& path, FinishedRun& run) {
+  const std::string text = read_whole_file(path);
+  try {
+    const Json json = Json::parse(text);
+    run.program_version = json.at("program").at("version").get<std::string>();
+    for (const auto& [name, version] : json.at("libraries").items()) {
+      run.libraries.emplace_back(name, version.get<std::string>());
+    }
+    run.input = case_from(json.at("case"));
+    Result& result = run.result;
+    result.used = used_from(json.at("used"));
+    const Json& outcome = json.at("outcome");
+    result.outcome = {outcome_kind(outcome.at("kind").get<std::string>()),
+                      number(outcome.at("time_s")), outcome.at("message").get<std::string>()};
+    result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();
+    result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
+    result.first_contact_yield = optional_number(json.at("first_yield").at("contact_s"));
+    result.max_force = number(json.at("maxima").at("force_N"));
+    result.max_indentation = number(json.at("maxima").at("indentation_m"));
+    result.striker_velocity = number(json.at("final").at("striker_velocity_m_per_s"));
+    result.beam_mean_velocity = number(json.at("final").at("beam_mean_velocity_m_per_s"));
+    const Json& conservation = json.at("conservation");
+    result.max_energy_error = number(conservation.at("max_energy_error_relative"));
+    result.max_momentum_error = number(conservation.at("max_momentum_error_relative"));
+    result.trust = trust_from(json.at("error_bars"));
+    result.work = work_from(json.at("work"));
+  } catch (const nlohmann::json::exception& error) {
+    throw ResultsError(fmt::format("{}: is not the summary of a run ({}); run the case again",
+                                   path.string(), error.what()));
+  } catch (const InvalidCase& error) {
+    throw ResultsError(fmt::format("{}: its case does not hold: {} {}", path.string(), error.key,
+                                   error.what()));
+  }
+}
+
+std::vector<SubImpact> read_events(const std::filesystem::path& path) {
+  const CsvTable csv(path);
+  const bool with_errors = csv.has("start_error_s");
+  std::vector<SubImpact> sub_impacts(csv.n_rows());
+  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
+    const auto get = [&](const char* column) { return csv.required(row, csv.column(column)); };
+    SubImpact& s = sub_impacts[row];
+    s.zone = static_cast<int>(get("zone"));
+    s.subzone = static_cast<int>(get("subzone"));
+    s.start = get("start_s");
+    s.end = csv.number(row, csv.column("end_s"));
+    s.peak_force = get("peak_force_N");
+    s.impulse = get("impulse_Ns");
+    s.max_indentation = get("max_indentation_m");
+    s.residual_indentation = get("residual_indentation_m");
+    s.striker_velocity = get("striker_velocity_m_per_s");
+    if (with_errors) {
+      s.start_error = csv.number(row, csv.column("start_error_s"));
+      s.end_error = csv.number(row, csv.column("end_error_s"));
+    }
+  }
+  return sub_impacts;
+}
+
+std::vector<Transition> read_transitions(const std::filesystem::path& path) {
+  const CsvTable csv(path);
+  const std::size_t time = csv.column("time_s"), kind = csv.column("kind");
+  const std::size_t section = csv.column("section"), value = csv.column("value");
+  std::vector<Transition> transitions;
+  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
+    Transition event;
+    event.time = csv.required(row, time);
+    event.kind = event_kind(csv.text(row, kind));
+    if (const auto index = csv.number(row, section)) {
+      event.section = static_cast<std::size_t>(*index);
+    }
+    event.value = csv.required(row, value);
+    transitions.push_back(event);
+  }
+  return transitions;
+}
+
+std::vector<HistoryRow> read_history(const std::filesystem::path& path) {
+  static constexpr std::pair<const char*, double HistoryRow::*> columns[] = {
+      {"time_s", &HistoryRow::time},
+      {"force_N", &HistoryRow::force},
+      {"indentation_m", &HistoryRow::indentation},
+      {"w_c_m", &HistoryRow::struck_displacement},
+      {"w_m_m", &HistoryRow::striker_displacement},
+      {"f_c_m", &HistoryRow::struck_deflection},
+      {"u_mf_m", &HistoryRow::striker_relative},
+      {"v_c_m_per_s", &HistoryRow::struck_velocity},
+      {"v_m_m_per_s", &HistoryRow::striker_velocity},
+      {"stress_back_Pa", &HistoryRow::back_stress},
+      {"U_m_J", &HistoryRow::striker_energy},
+      {"U_k_J", &HistoryRow::beam_kinetic_energy},
+      {"U_e_J", &HistoryRow::bending_elastic},
+      {"U_p_J", &HistoryRow::bending_plastic},
+      {"U_c_J", &HistoryRow::contact_elastic},
+      {"D_c_J", &HistoryRow::contact_plastic},
+      {"energy_error", &HistoryRow::energy_error},
+      {"momentum_error", &HistoryRow::momentum_error}};
+  const CsvTable csv(path);
+  std::vector<HistoryRow> history(csv.n_rows());
+  for (const auto& [name, member] : columns) {
+    const std::size_t column = csv.column(name);
+    for (std::size_t row = 0; row < csv.n_rows(); ++row) {
+      history[row].*member = csv.required(row, column);
+    }
+  }
+  return history;
+}
+
+std::vector<SectionRow> read_sections(const std::filesystem::path& path) {
+  const CsvTable csv(path);
+  std::vector<SectionRow> rows(csv.n_rows());
+  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
+    const auto get = [&](const char* column) { return csv.required(row, csv.column(column)); };
+    rows[row] = {get("time_s"), get("position_m"), get("curvature_per_m"), get("moment_Nm"),
+                 get("plastic_curvature_per_m")};
+  }
+  return rows;
+}
+
+}  // namespace
+
+FinishedRun read_results(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(directory, ignored)) {
+    throw ResultsError(fmt::format("{}: is no directory; give the one that `subimpact run` left "
+                                   "its files in (--out)",
+                                   directory.string()));
+  }
+  FinishedRun run;
+  read_summary(directory / "summary.json", run);
+  run.result.sub_impacts = read_events(directory / "events.csv");
+  run.result.transitions = read_transitions(directory / "transitions.csv");
+  run.result.history = read_history(directory / "history.csv");
+  if (!run.input.output.sections.empty()) {
+    run.result.section_history = read_sections(directory / "sections.csv");
+  }
+  return run;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,88 @@
+#include "subimpact/io/read_results.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+
+#include "sample_result.h"
+#include "small_case.h"
+#include "subimpact/io/case_file.h"
+#include "subimpact/io/results.h"
+#include "subimpact/simulate/case_keys.h"
+#include "temporary_directory.h"
+
+namespace subimpact {
+namespace {
+
+std::string refusal_of(const std::filesystem::path& directory) {
+  try {
+    read_results(directory);
+  } catch (const ResultsError& error) {
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in: " << text;
+}
+
+TEST(ReadResults, IsTheInverseOfWritingThem) {
+  const Case paper = read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=2e-5"),
+                                                           parse_override("output.sections=0.5,0.3")})
+                         .value;
+  Case linear = read_case_text(small_case_text(), "small.toml").value;
+  linear.scene.contact = {ContactKind::linear, 1e8, {}, {}, {}};
+  linear.model.section = SectionKind::elastic;
+  linear.solver.method = Method::central_difference;
+  for (const Case& input : {paper, linear}) {
+    const TemporaryDirectory directory;
+    const Result result = simulate(input);
+    write_results(directory.path, input, result);
+    const FinishedRun run = read_results(directory.path);
+    for (const CaseKey& key : case_keys()) {
+      EXPECT_EQ(key.get(run.input), key.get(input)) << key.name;
+    }
+    EXPECT_EQ(summary_json(run.input, run.result), summary_json(input, result));
+    EXPECT_EQ(events_csv(run.result.sub_impacts), events_csv(result.sub_impacts));
+    EXPECT_EQ(transitions_csv(run.result.transitions), transitions_csv(result.transitions));
+    EXPECT_EQ(history_csv(run.result.history), history_csv(result.history));
+    EXPECT_EQ(sections_csv(run.result.section_history), sections_csv(result.section_history));
+    EXPECT_EQ(run.result.section_history.empty(), input.output.sections.empty());
+  }
+}
+
+TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
+  const TemporaryDirectory directory;
+  Result result = sample_result();
+  for (SubImpact& s : result.sub_impacts) s.start_error = s.end_error = 1e-9;
+  result.trust = Trust{"the same, finer", 2, "they part", 3e-9};
+  write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
+  const FinishedRun run = read_results(directory.path);
+  EXPECT_EQ(events_csv(run.result.sub_impacts), events_csv(result.sub_impacts));
+  ASSERT_TRUE(run.result.trust);
+  EXPECT_EQ(run.result.trust->first_undecided, 2u);
+  EXPECT_EQ(run.result.trust->reason, "they part");
+  EXPECT_FALSE(run.result.sub_impacts.back().end);
+}
+
+TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
+  const TemporaryDirectory directory;
+  expect_in(refusal_of(directory.path / "nowhere"), "nowhere: is no directory");
+  expect_in(refusal_of(directory.path), "summary.json: cannot be read (No such file");
+  write_results(directory.path, read_case_text(small_case_text(), "small.toml").value,
+                sample_result());
+  EXPECT_EQ(refusal_of(directory.path), "(accepted)");
+  std::ofstream(directory.path / "events.csv") << "index,zone\n1\n";
+  expect_in(refusal_of(directory.path), "events.csv:2: has 1 cells where the header has 2");
+  std::ofstream(directory.path / "events.csv") << "index,zone\n1,2\n";
+  expect_in(refusal_of(directory.path), "events.csv: has no column subzone");
+  std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n";
+  std::ofstream(directory.path / "events.csv") << events_csv({});
+  std::ofstream(directory.path / "summary.json") << "{}";
+  expect_in(refusal_of(directory.path), "summary.json: is not the summary of a run");
+}
+
+}  // namespace
+}  // namespace subimpact
