@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/versions.h"
 #include "subimpact/simulate/case_keys.h"
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
       "Examples:\n"
       "  subimpact explain case.toml\n"
       "  subimpact run case.toml --out out/first\n"
+      "  subimpact plot out/first\n"
       "  subimpact compare case.toml --methods central-difference,erk,exponential\n"
       "  subimpact run --help\n"
       "Exit status: 0 done, 2 bad command line or case file, 3 the solver failed.");
@@ -67,6 +69,7 @@ int main(int argc, char** argv) {
   app::add_compare(program, status);
   app::add_work_precision(program, status);
   app::add_explain(program, status);
+  app::add_plot(program, status);
   app::add_methods(program, status);
   app::add_keys(program, status);
 
@@ -79,6 +82,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? app::done : app::refused;
   } catch (const CaseFileError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return app::refused;
+  } catch (const ResultsError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return app::refused;
   } catch (const OutputError& error) {

@@ -45,9 +45,10 @@ CsvTable::CsvTable(const std::filesystem::path& path)
       starts_.clear();
       bounds_.clear();
     } else if (n_cells != header_.size()) {
-      throw ResultsError(fmt::format("{}:{}: has {} cells where the header has {}; run the case "
-                                     "again",
-                                     path_, starts_.size() + 1, n_cells, header_.size()));
+      throw ResultsError(
+          fmt::format("{}:{}: has {} cells where the header has {}; run the case "
+                      "again",
+                      path_, starts_.size() + 1, n_cells, header_.size()));
     }
     line_start = line_end + 1;
   }

@@ -79,8 +79,7 @@ OutcomeKind outcome_kind(const std::string& name) {
         OutcomeKind::solver_failed, OutcomeKind::left_validity}) {
     if (to_string(kind) == name) return kind;
   }
-  throw ResultsError(
-      fmt::format("summary.json: unknown outcome \"{}\"; run the case again", name));
+  throw ResultsError(fmt::format("summary.json: unknown outcome \"{}\"; run the case again", name));
 }
 
 Used used_from(const Json& json) {
@@ -168,8 +167,8 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
     throw ResultsError(fmt::format("{}: is not the summary of a run ({}); run the case again",
                                    path.string(), error.what()));
   } catch (const InvalidCase& error) {
-    throw ResultsError(fmt::format("{}: its case does not hold: {} {}", path.string(), error.key,
-                                   error.what()));
+    throw ResultsError(
+        fmt::format("{}: its case does not hold: {} {}", path.string(), error.key, error.what()));
   }
 }
 
@@ -262,9 +261,10 @@ std::vector<SectionRow> read_sections(const std::filesystem::path& path) {
 FinishedRun read_results(const std::filesystem::path& directory) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(directory, ignored)) {
-    throw ResultsError(fmt::format("{}: is no directory; give the one that `subimpact run` left "
-                                   "its files in (--out)",
-                                   directory.string()));
+    throw ResultsError(
+        fmt::format("{}: is no directory; give the one that `subimpact run` left "
+                    "its files in (--out)",
+                    directory.string()));
   }
   FinishedRun run;
   read_summary(directory / "summary.json", run);

@@ -13,13 +13,14 @@ TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
   for (const char* piece :
-       {"run", "work-precision", "explain", "methods", "keys", "Examples:", "Exit status"}) {
+       {"run", "work-precision", "plot", "explain", "methods", "keys", "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
 }
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
-  for (const std::string command : {"run", "work-precision", "explain", "methods", "keys"}) {
+  for (const std::string command :
+       {"run", "work-precision", "plot", "explain", "methods", "keys"}) {
     const Finished finished = run_program({command, "--help"});
     EXPECT_EQ(finished.status, 0) << command;
     expect_in(finished.output, "Example");

@@ -29,9 +29,10 @@ void expect_in(const std::string& text, const std::string& piece) {
 }
 
 TEST(ReadResults, IsTheInverseOfWritingThem) {
-  const Case paper = read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=2e-5"),
-                                                           parse_override("output.sections=0.5,0.3")})
-                         .value;
+  const Case paper =
+      read_case_file(SUBIMPACT_PAPER_CASE,
+                     {parse_override("time.end=2e-5"), parse_override("output.sections=0.5,0.3")})
+          .value;
   Case linear = read_case_text(small_case_text(), "small.toml").value;
   linear.scene.contact = {ContactKind::linear, 1e8, {}, {}, {}};
   linear.model.section = SectionKind::elastic;

@@ -13,8 +13,8 @@
 
 namespace subimpact {
 
-/// Files of a run that are missing or not what write_results() writes; `what()` names file and line,
-/// what was found, and what to do.
+/// Files of a run that are missing or not what write_results() writes; `what()` names file and
+/// line, what was found, and what to do.
 class ResultsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

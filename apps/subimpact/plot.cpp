@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "subimpact/io/figures.h"
+#include "subimpact/io/read_results.h"
+#include "subimpact/io/results.h"
+
+namespace subimpact::app {
+namespace {
+
+struct PlotOptions {
+  std::string run;
+  std::string directory;
+};
+
+int plot(const PlotOptions& options) {
+  const FinishedRun run = read_results(options.run);
+  const std::string& directory = options.directory.empty() ? options.run : options.directory;
+  prepare_output_directory(directory);
+  const DrawnFigures figures = draw_figures(directory, run.input, run.result);
+  for (const DrawnFigure& figure : figures.drawn) {
+    fmt::print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
+  }
+  for (const std::string& reason : figures.left_out) fmt::print("not drawn: {}\n", reason);
+  fmt::print("\nfigures in {}\n", directory);
+  return done;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program, int& status) {
+  CLI::App* command =
+      program.add_subcommand("plot", "Draw the figures of a finished run (SVG and PNG)");
+  auto options = std::make_shared<PlotOptions>();
+  command->add_option("DIR", options->run, "Directory that `subimpact run` left its files in")
+      ->required();
+  command->add_option("--out", options->directory,
+                      "Directory for the figures; made if missing. Default: DIR");
+  command->footer(
+      "Draws response, first-sub-impact, indentation, energies, timeline and, if the run kept "
+      "sections (output.sections), bending; needs gnuplot. The gnuplot scripts stay beside the "
+      "figures, to be changed and run again.\n"
+      "Examples:\n"
+      "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
+      "  subimpact plot out/first\n"
+      "  subimpact plot out/first --out figures\n"
+      "Exit status: 0 done; 2 bad command line, files that are no run's, or gnuplot missing.");
+  command->callback([options, &status] { status = plot(*options); });
+}
+
+}  // namespace subimpact::app

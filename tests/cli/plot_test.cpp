@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "process.h"
+
+namespace subimpact {
+namespace {
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
+}
+
+void make_run(const TemporaryDirectory& directory) {
+  const Finished finished =
+      run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "time.end=2e-4", "--set",
+                   "model.segments=51", "--set", "output.sections=0.5"},
+                  directory.path);
+  ASSERT_EQ(finished.status, 0) << finished.errors;
+}
+
+/// Runs with a search path on which there is no gnuplot.
+class WithoutGnuplot {
+ public:
+  WithoutGnuplot() : path_(std::getenv("PATH")) { ::setenv("PATH", "/nowhere", 1); }
+  ~WithoutGnuplot() { ::setenv("PATH", path_.c_str(), 1); }
+
+ private:
+  std::string path_;
+};
+
+TEST(Plot, DrawsTheFiguresOfARunIntoItsDirectory) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  const Finished finished = run_program({"plot", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  EXPECT_EQ(finished.errors, "");
+  for (const std::string name :
+       {"response", "first-sub-impact", "indentation", "energies", "timeline", "bending"}) {
+    expect_in(finished.output, name + ".svg, " + name + ".png");
+    EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / (name + ".svg")));
+    EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / (name + ".png")));
+  }
+}
+
+TEST(Plot, DrawsElsewhereIfAsked) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  EXPECT_EQ(run_program({"plot", "here", "--out", "there"}, directory.path).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "there" / "timeline.svg"));
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "here" / "timeline.svg"));
+}
+
+TEST(Plot, OfWhatIsNoRunEndsWithStatus2AndSaysWhatIsMissing) {
+  const TemporaryDirectory directory;
+  const Finished nowhere = run_program({"plot", "nowhere"}, directory.path);
+  EXPECT_EQ(nowhere.status, 2);
+  expect_in(nowhere.errors, "nowhere: is no directory");
+  const Finished empty = run_program({"plot", "."}, directory.path);
+  EXPECT_EQ(empty.status, 2);
+  expect_in(empty.errors, "summary.json: cannot be read");
+}
+
+TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  const WithoutGnuplot hidden;
+  const Finished finished = run_program({"plot", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "gnuplot is not installed");
+  expect_in(finished.errors, "apt-get install gnuplot-nox");
+}
+
+}  // namespace
+}  // namespace subimpact
