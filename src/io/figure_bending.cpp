@@ -35,8 +35,7 @@ FigureScript bending_figure(const Case& input, const Result& result) {
       "bending",
       fmt::format("Bending moment against curvature of {} over the whole run{}. Dots: end of the "
                   "run.",
-                  shown == 1 ? "a section" : "sections",
-                  yields ? ", in units of first yield" : ""),
+                  shown == 1 ? "a section" : "sections", yields ? ", in units of first yield" : ""),
       {800, n_rows == 1 ? 420 : 720});
   const double x_unit = yields ? beam.yield_curvature() : 1.0;
   const double y_unit = yields ? beam.yield_moment() : 1.0;
@@ -50,21 +49,21 @@ FigureScript bending_figure(const Case& input, const Result& result) {
                   1.0 - height * (row + 1.0) + 1.9 * edge, 1.0 - height * row - edge};
     const std::vector<Point> line = loop(result, k, n, x_unit, y_unit);
     const std::string data = figure.line(line, box);
-    const auto [low, high] =
-        std::minmax_element(line.begin(), line.end(),
-                            [](const Point& a, const Point& b) { return a.x < b.x; });
+    const auto [low, high] = std::minmax_element(
+        line.begin(), line.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
     const std::string last = figure.points({line.back()});
     figure.place(box);
     figure << fmt::format("set title 'x = {:.3g} l' offset 0, -0.5\nset xtics {}\n",
                           result.section_history[k].position / beam.length,
- tic_spacing(high->x - low->x, 5))
+                          tic_spacing(high->x - low->x, 5))
            << (yields ? "set xlabel 'curvature, κ/κ_y'\nset ylabel 'moment, -M/M_y' offset 0.5\n"
                       : "set xlabel 'curvature, 1/m'\nset ylabel 'moment, N m' offset 1\n")
            << "set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.08\n"
               "set xzeroaxis lc rgb '#808080'\nset yzeroaxis lc rgb '#808080'\n"
-           << fmt::format("plot {} with lines lc {} lw 1.2 notitle, {} with points lc rgb '#000000' "
-                          "pt 7 notitle\n",
-                          data, k + 1, last);
+           << fmt::format(
+                  "plot {} with lines lc {} lw 1.2 notitle, {} with points lc rgb '#000000' "
+                  "pt 7 notitle\n",
+                  data, k + 1, last);
   }
   return figure;
 }

@@ -108,9 +108,10 @@ FigureScript energies_figure(const Case&, const Result& result) {
   figure << "set ylabel 'deformation, mm'\nset yrange [*:*]\nset format x '% h'\n"
             "set key bottom right maxrows 2\nset offsets 0, 0, graph 0.05, 0\n"
          << fmt::format("set xlabel 'time, {}'\n", unit.name)
-         << fmt::format("plot {} with lines lc 1 title 'struck point f_c', {} with lines lc 2 "
-                        "dashtype 2 title 'striker u_{{mf}}'\n",
-                        f, u);
+         << fmt::format(
+                "plot {} with lines lc 1 title 'struck point f_c', {} with lines lc 2 "
+                "dashtype 2 title 'striker u_{{mf}}'\n",
+                f, u);
   return figure;
 }
 

@@ -25,8 +25,7 @@ std::vector<Point> loop(const ContactLaw& law, const Result& result, double from
     const bool shown = row.time >= from && row.time <= to;
     if (shown && last != nullptr && last->time >= from && row.time > last->time) {
       for (int k = 1; k < parts; ++k) {
-        const double lambda =
-            last->indentation + (row.indentation - last->indentation) * k / parts;
+        const double lambda = last->indentation + (row.indentation - last->indentation) * k / parts;
         line.push_back({lambda * mm, law.force(history, lambda) * kN});
       }
     }
@@ -91,10 +90,11 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
   const std::vector<std::size_t> again = yielding_again(result);
   FigureScript figure(
       "indentation",
-      again.empty() ? "Contact force against indentation over the whole strike."
-                    : "Contact force against indentation: the whole strike, with the first yield of "
-                      "the contact (A) and the beginning of unloading (B) in the first sub-impact, "
-                      "and later sub-impacts that yield again.",
+      again.empty()
+          ? "Contact force against indentation over the whole strike."
+          : "Contact force against indentation: the whole strike, with the first yield of "
+            "the contact (A) and the beginning of unloading (B) in the first sub-impact, "
+            "and later sub-impacts that yield again.",
       {800, 520});
   const Box main{0.10, again.empty() ? 0.97 : 0.61, 0.14, 0.95};
   std::string rest;
@@ -128,19 +128,19 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
     const double top = 0.95 - height * static_cast<double>(k);
     const bool last = k + 1 == again.size();
     const Box inset{0.71, 0.97, top - height + (last ? 0.01 : 0.08), top - 0.045};
-    const std::string data =
-        figure.line(loop(law, result, s.start, end_of(s, result)), inset);
+    const std::string data = figure.line(loop(law, result, s.start, end_of(s, result)), inset);
     const double lowest = result.sub_impacts[again[k] - 1].residual_indentation;
     const double margin = 0.1 * (s.max_indentation - lowest) * mm;
     figure.place(inset);
-    figure << fmt::format("set title 'no. {}, at {:.4g} ms' offset 0, -0.7 font ',13'\n", again[k] + 1,
-                          s.start * 1e3)
+    figure << fmt::format("set title 'no. {}, at {:.4g} ms' offset 0, -0.7 font ',13'\n",
+                          again[k] + 1, s.start * 1e3)
            << (last ? "set xlabel 'indentation, mm'\n" : "unset xlabel\n")
-           << fmt::format("set ylabel 'kN' offset 1.5\nset xrange [{:.7g}:{:.7g}]\nset xtics {}\nset ytics "
-                          "{}\nunset key\n",
-                          lowest * mm - margin, s.max_indentation * mm + margin,
- tic_spacing((s.max_indentation - lowest) * mm, 3),
-                          tic_spacing(s.peak_force * kN, 3))
+           << fmt::format(
+                  "set ylabel 'kN' offset 1.5\nset xrange [{:.7g}:{:.7g}]\nset xtics {}\nset ytics "
+                  "{}\nunset key\n",
+                  lowest * mm - margin, s.max_indentation * mm + margin,
+                  tic_spacing((s.max_indentation - lowest) * mm, 3),
+                  tic_spacing(s.peak_force * kN, 3))
            << fmt::format("plot {} with lines lc {} lw 1.2 notitle\n", data, k + 2);
   }
   return figure;

@@ -16,9 +16,8 @@ constexpr double mm = 1e3;
 constexpr double kN = 1e-3;
 
 std::string band_entry(const char* what) {
-  return fmt::format(
-      "keyentry with boxes fillstyle solid noborder linecolor rgb '{}' title '{}'", band_colour,
-      what);
+  return fmt::format("keyentry with boxes fillstyle solid noborder linecolor rgb '{}' title '{}'",
+                     band_colour, what);
 }
 
 void mark_instant(FigureScript& figure, double x, double height, const std::string& text) {
@@ -38,8 +37,7 @@ FigureScript response_figure(const Case&, const Result& result) {
                       "point. Shaded: sub-impacts.",
                       {800, 580});
   const TimeUnit unit = time_unit(result.outcome.time);
-  const std::string force =
-      figure.line(history_line(result, unit, &HistoryRow::force, kN), upper);
+  const std::string force = figure.line(history_line(result, unit, &HistoryRow::force, kN), upper);
   const auto displacement = [&](double HistoryRow::*member) {
     return figure.line(history_line(result, unit, member, mm), lower);
   };
@@ -52,7 +50,8 @@ FigureScript response_figure(const Case&, const Result& result) {
   figure.shade(sub_impact_bands(result, unit));
   figure.place(upper);
   figure << "set ylabel 'contact force, kN' offset 0.5\nset yrange [0:*]\nset format x ''\n"
-            "set offsets 0, 0, graph 0.06, 0\nset key at graph 1, graph 1.16 right top horizontal maxrows 1 samplen 2.5 width -1\n"
+            "set offsets 0, 0, graph 0.06, 0\nset key at graph 1, graph 1.16 right top horizontal "
+            "maxrows 1 samplen 2.5 width -1\n"
          << fmt::format("plot {} with lines lw 1 notitle, {}\n", force, band_entry("sub-impacts"));
   figure.place(lower);
   figure << "set ylabel 'displacement, mm'\nset yrange [*:*]\nset format x '% h'\n"
@@ -65,11 +64,12 @@ FigureScript response_figure(const Case&, const Result& result) {
 }
 
 FigureScript first_sub_impact_figure(const Case& input, const Result& result) {
-  FigureScript figure("first-sub-impact",
-                      "Contact force, and stress in the outermost fibre behind the struck point, in "
-                      "the first sub-impact (shaded). Broken lines: the yield stress and the "
-                      "instant at which a fibre of the beam first yields.",
-                      {800, 580});
+  FigureScript figure(
+      "first-sub-impact",
+      "Contact force, and stress in the outermost fibre behind the struck point, in "
+      "the first sub-impact (shaded). Broken lines: the yield stress and the "
+      "instant at which a fibre of the beam first yields.",
+      {800, 580});
   const double end = result.sub_impacts.empty()
                          ? result.outcome.time
                          : result.sub_impacts.front().end.value_or(result.outcome.time);
@@ -111,15 +111,16 @@ FigureScript first_sub_impact_figure(const Case& input, const Result& result) {
   const double yield_stress = input.scene.beam.yield_stress * 1e-6;
   // Either bound is shown where the stress comes near it.
   for (const double bound : {yield_stress, -yield_stress}) {
-    const bool near = std::any_of(
-        result.history.begin(), result.history.end(), [&](const HistoryRow& row) {
+    const bool near =
+        std::any_of(result.history.begin(), result.history.end(), [&](const HistoryRow& row) {
           return row.time <= shown && row.back_stress * 1e-6 * bound > 0.5 * bound * bound;
         });
     if (!std::isfinite(bound) || !near) continue;
     plot += fmt::format(", {} with lines lc rgb '#404040' dashtype 2 lw 1 notitle", bound);
-    figure << fmt::format("set label 'yield stress, {0:.4g} MPa' at graph 0.98, first {0:.7g} right "
-                          "offset 0, {1}\n",
-                          bound, bound > 0.0 ? 0.8 : -0.8);
+    figure << fmt::format(
+        "set label 'yield stress, {0:.4g} MPa' at graph 0.98, first {0:.7g} right "
+        "offset 0, {1}\n",
+        bound, bound > 0.0 ? 0.8 : -0.8);
   }
   figure << plot + "\n";
   return figure;

@@ -21,10 +21,9 @@ double distance_from_line(Point p, Point a, Point b) {
 }
 
 double extent(const std::vector<Point>& points, double Point::*coordinate) {
-  const auto [low, high] =
-      std::minmax_element(points.begin(), points.end(), [=](const Point& a, const Point& b) {
-        return a.*coordinate < b.*coordinate;
-      });
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(),
+      [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
   return (*high).*coordinate - (*low).*coordinate;
 }
 
@@ -35,7 +34,9 @@ std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, doub
   if (line.size() < 3) return line;
   std::vector<bool> kept(line.size(), false);
   kept.front() = kept.back() = true;
-  const auto scaled = [&](std::size_t i) { return Point{line[i].x / x_scale, line[i].y / y_scale}; };
+  const auto scaled = [&](std::size_t i) {
+    return Point{line[i].x / x_scale, line[i].y / y_scale};
+  };
   std::vector<std::pair<std::size_t, std::size_t>> spans{{0, line.size() - 1}};
   while (!spans.empty()) {
     const auto [first, last] = spans.back();
@@ -74,8 +75,8 @@ std::string FigureScript::line(const std::vector<Point>& points, const Box& box)
   const double y_pixels = size_.height * (box.top - box.bottom);
   const double x_scale = extent(points, &Point::x) / x_pixels;
   const double y_scale = extent(points, &Point::y) / y_pixels;
-  return this->points(thin_out(points, x_scale > 0.0 ? x_scale : 1.0,
-                               y_scale > 0.0 ? y_scale : 1.0, line_tolerance));
+  return this->points(thin_out(points, x_scale > 0.0 ? x_scale : 1.0, y_scale > 0.0 ? y_scale : 1.0,
+                               line_tolerance));
 }
 
 std::string FigureScript::points(const std::vector<Point>& points) {
@@ -126,8 +127,8 @@ TimeUnit time_unit(double length) {
 std::vector<FigureScript::Band> sub_impact_bands(const Result& result, TimeUnit unit) {
   std::vector<FigureScript::Band> bands;
   for (const SubImpact& s : result.sub_impacts) {
-    bands.push_back({s.start * unit.per_second, s.end.value_or(result.outcome.time) * unit.per_second,
-                     band_colour});
+    bands.push_back({s.start * unit.per_second,
+                     s.end.value_or(result.outcome.time) * unit.per_second, band_colour});
   }
   return bands;
 }

@@ -36,8 +36,8 @@ class FigureScript {
   /// The script as gnuplot wants it: data first, then the panels as one multiplot.
   std::string text() const;
 
-  /// Adds a line of data, thinned to what the figure can show over the given part of it; returns its
-  /// gnuplot name.
+  /// Adds a line of data, thinned to what the figure can show over the given part of it; returns
+  /// its gnuplot name.
   std::string line(const std::vector<Point>& points, const Box& box);
   /// Adds points as they are.
   std::string points(const std::vector<Point>& points);

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double left = 0.11;
 constexpr double right = 0.98;
-constexpr double gap = 0.03;              // between columns
+constexpr double gap = 0.03;  // between columns
 constexpr std::size_t most_columns = 4;
-constexpr double least_share = 0.15;      // of a column in the width
+constexpr double least_share = 0.15;     // of a column in the width
 constexpr double number_spacing = 0.03;  // of the width, between labelled sub-impacts
 
 struct Column {
@@ -35,8 +35,10 @@ std::vector<Column> columns_of(const Result& result) {
   }
   if (columns.empty()) columns.push_back({0.0, result.outcome.time, "no sub-impact", {}});
   if (columns.size() > most_columns) {
-    columns = {{columns.front().from, columns.back().to,
-                fmt::format("zones 1 to {}", columns.size()), {}}};
+    columns = {{columns.front().from,
+                columns.back().to,
+                fmt::format("zones 1 to {}", columns.size()),
+                {}}};
   }
   double total = 0.0;
   for (const Column& column : columns) total += column.to - column.from;
@@ -77,10 +79,11 @@ double impulse_mNs(const SubImpact& s, const Result&) { return 1e3 * s.impulse; 
 }  // namespace
 
 FigureScript timeline_figure(const Case&, const Result& result) {
-  FigureScript figure("timeline",
-                      "Every sub-impact at the time it begins: duration and impulse, on logarithmic "
-                      "axes; numbers count the sub-impacts.",
-                      {800, 560});
+  FigureScript figure(
+      "timeline",
+      "Every sub-impact at the time it begins: duration and impulse, on logarithmic "
+      "axes; numbers count the sub-impacts.",
+      {800, 560});
   const TimeUnit unit = time_unit(result.outcome.time);
   const std::vector<Column> columns = columns_of(result);
   struct Row {
@@ -104,15 +107,14 @@ FigureScript timeline_figure(const Case&, const Result& result) {
       std::vector<Point> points;
       double last_label = -1e300;
       // A number would lie on the stem of a taller neighbour.
-      const double reach = 0.5 * number_spacing / (column.box.right - column.box.left) * (to - from) /
-                           unit.per_second;
+      const double reach = 0.5 * number_spacing / (column.box.right - column.box.left) *
+                           (to - from) / unit.per_second;
       const auto overlooked = [&](std::size_t i) {
-        return std::any_of(result.sub_impacts.begin(), result.sub_impacts.end(),
-                           [&](const SubImpact& other) {
-                             return std::abs(other.start - result.sub_impacts[i].start) < reach &&
-                                    row.value(other, result) >
-                                        row.value(result.sub_impacts[i], result);
-                           });
+        return std::any_of(
+            result.sub_impacts.begin(), result.sub_impacts.end(), [&](const SubImpact& other) {
+              return std::abs(other.start - result.sub_impacts[i].start) < reach &&
+                     row.value(other, result) > row.value(result.sub_impacts[i], result);
+            });
       };
       figure << "unset label\n";
       for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
@@ -133,18 +135,19 @@ FigureScript timeline_figure(const Case&, const Result& result) {
       box.bottom = row.bottom;
       box.top = row.top;
       figure.place(box);
-      figure << fmt::format("set xrange [{:.7g}:{:.7g}]\nset xtics {}\n", from, to,
-                            tic_spacing(to - from, 5))
-             << (top_row ? fmt::format("set title '{}' offset 0, -0.5\n", column.title)
-                         : std::string("unset title\n"))
-             << (k == 0 ? fmt::format("set ylabel '{}'\nset format y '%g'\n", row.label)
-                        : std::string("unset ylabel\nset format y ''\n"))
-             << (top_row ? std::string("unset xlabel\n")
-                         : fmt::format("set xlabel 'start, {}'\n", unit.name))
-             << fmt::format(
-                    "plot {0} with impulses lc {1} lw 2 notitle, {0} with points lc {1} pt 7 ps 0.8 "
-                    "notitle\n",
-                    data, row.colour);
+      figure
+          << fmt::format("set xrange [{:.7g}:{:.7g}]\nset xtics {}\n", from, to,
+                         tic_spacing(to - from, 5))
+          << (top_row ? fmt::format("set title '{}' offset 0, -0.5\n", column.title)
+                      : std::string("unset title\n"))
+          << (k == 0 ? fmt::format("set ylabel '{}'\nset format y '%g'\n", row.label)
+                     : std::string("unset ylabel\nset format y ''\n"))
+          << (top_row ? std::string("unset xlabel\n")
+                      : fmt::format("set xlabel 'start, {}'\n", unit.name))
+          << fmt::format(
+                 "plot {0} with impulses lc {1} lw 2 notitle, {0} with points lc {1} pt 7 ps 0.8 "
+                 "notitle\n",
+                 data, row.colour);
     }
   }
   return figure;

@@ -160,7 +160,7 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
     result.beam_mean_velocity = number(json.at("final").at("beam_mean_velocity_m_per_s"));
     const Json& conservation = json.at("conservation");
     result.max_energy_error = number(conservation.at("max_energy_error_relative"));
-    result.max_momentum_error = number(conservation.at("max_momentum_error_relative"));
+    result.max_momentum_error = optional_number(conservation.at("max_momentum_error_relative"));
     result.trust = trust_from(json.at("error_bars"));
     result.work = work_from(json.at("work"));
   } catch (const nlohmann::json::exception& error) {
@@ -232,8 +232,7 @@ std::vector<HistoryRow> read_history(const std::filesystem::path& path) {
       {"U_p_J", &HistoryRow::bending_plastic},
       {"U_c_J", &HistoryRow::contact_elastic},
       {"D_c_J", &HistoryRow::contact_plastic},
-      {"energy_error", &HistoryRow::energy_error},
-      {"momentum_error", &HistoryRow::momentum_error}};
+      {"energy_error", &HistoryRow::energy_error}};
   const CsvTable csv(path);
   std::vector<HistoryRow> history(csv.n_rows());
   for (const auto& [name, member] : columns) {
@@ -241,6 +240,10 @@ std::vector<HistoryRow> read_history(const std::filesystem::path& path) {
     for (std::size_t row = 0; row < csv.n_rows(); ++row) {
       history[row].*member = csv.required(row, column);
     }
+  }
+  const std::size_t momentum = csv.column("momentum_error");
+  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
+    history[row].momentum_error = csv.number(row, momentum);
   }
   return history;
 }

@@ -12,8 +12,8 @@ void expect_in(const std::string& text, const std::string& piece) {
 TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
-  for (const char* piece :
-       {"run", "work-precision", "plot", "explain", "methods", "keys", "Examples:", "Exit status"}) {
+  for (const char* piece : {"run", "work-precision", "plot", "explain", "methods", "keys",
+                            "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
 }

@@ -26,7 +26,8 @@ void expect_in(const std::string& text, const std::string& piece) {
 }
 
 Case short_case(const std::vector<Override>& settings) {
-  std::vector<Override> all = {parse_override("time.end=3e-4"), parse_override("model.segments=51")};
+  std::vector<Override> all = {parse_override("time.end=3e-4"),
+                               parse_override("model.segments=51")};
   all.insert(all.end(), settings.begin(), settings.end());
   return read_case_file(SUBIMPACT_PAPER_CASE, all).value;
 }

@@ -37,7 +37,9 @@ TEST(ReadResults, IsTheInverseOfWritingThem) {
   linear.scene.contact = {ContactKind::linear, 1e8, {}, {}, {}};
   linear.model.section = SectionKind::elastic;
   linear.solver.method = Method::central_difference;
-  for (const Case& input : {paper, linear}) {
+  Case pinned = linear;
+  pinned.scene.beam.ends = {EndSupport::pinned, EndSupport::clamped};
+  for (const Case& input : {paper, linear, pinned}) {
     const TemporaryDirectory directory;
     const Result result = simulate(input);
     write_results(directory.path, input, result);

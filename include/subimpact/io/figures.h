@@ -24,9 +24,9 @@ struct DrawnFigures {
 
 /// Draws into a directory, as SVG and PNG: `response` (force and displacements), `first-sub-impact`
 /// (force and back stress), `indentation` (force against indentation), `energies` (with zones),
-/// `timeline` (start, duration and impulse of every sub-impact), `bending` (moment against curvature
-/// of the sections kept). The gnuplot scripts, data included, stay beside them. Throws OutputError
-/// if gnuplot is missing or fails.
+/// `timeline` (start, duration and impulse of every sub-impact), `bending` (moment against
+/// curvature of the sections kept). The gnuplot scripts, data included, stay beside them. Throws
+/// OutputError if gnuplot is missing or fails.
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
                           const Result& result);
 
