@@ -29,6 +29,19 @@ std::string symmetry_text(const Case& input, const Used& used) {
   return "none to use: the scene is not symmetric about mid-span, so the whole beam is modelled";
 }
 
+std::string mesh_text(const Case& input, const Used& used) {
+  const double length = 1e3 * input.scene.beam.length;  // mm
+  switch (input.model.mesh) {
+    case MeshKind::cells:
+      return fmt::format("{}; cells of {:.6g} mm", used.mesh, length / input.model.segments);
+    case MeshKind::hermite:
+      return fmt::format("{}; elements of {:.6g} mm", used.mesh, length / input.model.elements);
+    case MeshKind::rigid:
+      break;
+  }
+  return used.mesh;
+}
+
 std::string section_text(const Case& input, const Used& used) {
   if (input.model.mesh == MeshKind::rigid) return "none: a rigid beam does not bend";
   if (input.model.section == SectionKind::elastic) return "elastic: sections never yield";
@@ -105,10 +118,7 @@ std::string explanation(const Case& input, const Used& used,
                                 ? "infinite: the contact never yields"
                                 : fmt::format("{:.6g} mm", used.yield_indentation * 1e3));
   head("Model");
-  const bool cells = input.model.mesh == MeshKind::cells;
-  line("mesh", cells ? fmt::format("{}; cells of {:.6g} mm", used.mesh,
-                                   1e3 * scene.beam.length / input.model.segments)
-                     : used.mesh);
+  line("mesh", mesh_text(input, used));
   line("symmetry", symmetry_text(input, used));
   line("unknowns", fmt::format("{} of the beam and 1 of the striker; {} sections", used.n_unknowns,
                                used.n_sections));

@@ -1,5 +1,7 @@
 #include "model/banded_matrix.h"
 
+#include <algorithm>
+
 namespace subimpact {
 
 void BandedMatrix::multiply(std::span<const double> x, std::span<double> result) const {
@@ -21,6 +23,27 @@ double BandedMatrix::quadratic_form(std::span<const double> x) const {
     for (std::size_t i = 0; i + k < size_; ++i) sum += 2.0 * off[i] * x[i] * x[i + k];
   }
   return sum;
+}
+
+bool BandedMatrix::is_positive_definite() const {
+  BandedMatrix factor(size_, half_bandwidth_);  // unit lower triangle; D on the diagonal
+  for (std::size_t j = 0; j < size_; ++j) {
+    const std::size_t first = j > half_bandwidth_ ? j - half_bandwidth_ : 0;
+    double pivot = at(j, j);
+    for (std::size_t k = first; k < j; ++k) {
+      pivot -= factor.at(j, k) * factor.at(j, k) * factor.at(k, k);
+    }
+    if (!(pivot > 0.0)) return false;
+    factor.at(j, j) = pivot;
+    for (std::size_t i = j + 1; i <= std::min(j + half_bandwidth_, size_ - 1); ++i) {
+      double sum = at(i, j);
+      for (std::size_t k = i > half_bandwidth_ ? i - half_bandwidth_ : 0; k < j; ++k) {
+        sum -= factor.at(i, k) * factor.at(j, k) * factor.at(k, k);
+      }
+      factor.at(i, j) = sum / pivot;
+    }
+  }
+  return true;
 }
 
 }  // namespace subimpact

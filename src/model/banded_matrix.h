@@ -27,6 +27,8 @@ class BandedMatrix {
 
   /// result = A x.
   void multiply(std::span<const double> x, std::span<double> result) const;
+  /// Whether a Cholesky factorisation goes through.
+  bool is_positive_definite() const;
   /// x^T A x.
   double quadratic_form(std::span<const double> x) const;
 

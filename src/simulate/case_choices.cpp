@@ -34,7 +34,8 @@ std::span<const Named<ContactKind>> names_of(ContactKind) {
 
 std::span<const Named<MeshKind>> names_of(MeshKind) {
   static constexpr Named<MeshKind> names[] = {
-      {MeshKind::cells, "cells", "equal cells, second order"},
+      {MeshKind::cells, "cells", "the paper's equal cells, second order"},
+      {MeshKind::hermite, "hermite", "cubic Hermite elements, fourth order"},
       {MeshKind::rigid, "rigid", "the beam as a rigid body, for impacts of two bodies"},
   };
   return names;

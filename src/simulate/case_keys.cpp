@@ -11,6 +11,7 @@
 
 #include "simulate/case_choices.h"
 #include "simulate/contact_checks.h"
+#include "simulate/mesh_checks.h"
 #include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
@@ -107,6 +108,7 @@ Range between(const char* words, double low, double high) {
 const Range segment_range = between(
     "from 5 to 100001 (beyond that rounding in the second differences outweighs what cells gain)",
     5, 100001);
+const Range element_range = between("from 4 to 20000", 4, 20000);
 // At 10000 layers the stiffness is within 1e-8 of that of the exact section.
 const Range layer_range{"even, from 2 to 10000 (for more, section = \"exact\" is their limit)",
                         [](double n) { return n >= 2 && n <= 10000 && std::fmod(n, 2.0) == 0.0; }};
@@ -207,6 +209,8 @@ std::vector<CaseKey> make_case_keys() {
 
     row("model.mesh", "", any_value, "discretisation of the beam", as_in_case, AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
+    row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
+    row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points of an element, at which the bending law is asked", as_in_case, AT(model.sections_per_element)),
     row("model.section", "", any_value, "bending law of the sections", as_in_case, AT(model.section)),
     row("model.layers", "", layer_range, "number of layers over the thickness, with section = \"layers\"", as_in_case, AT(model.layers)),
     row("model.symmetry", "", any_value, "use of the scene's symmetry about mid-span", as_in_case, AT(model.symmetry)),
@@ -239,28 +243,6 @@ std::vector<CaseKey> make_case_keys() {
 
 // A row takes 144 bytes in memory and some 400 in the file.
 constexpr double most_history_rows = 5e6;
-
-void check_strike_within_mesh(const Case& input) {
-  if (input.model.mesh != MeshKind::cells) return;
-  const double cells = input.model.segments;
-  const double at = input.scene.striker.position;
-  if (at * cells >= 0.5 && (1.0 - at) * cells >= 0.5) return;
-  throw InvalidCase(
-      "striker.position",
-      fmt::format(
-          "is {}, closer to an end than half a cell; allowed with {} segments: from {:.6g} to "
-          "{:.6g}, the outermost cell centres; move the strike inwards or use more segments",
-          at, input.model.segments, 0.5 / cells, 1.0 - 0.5 / cells));
-}
-
-void check_clamped_mesh(const Case& input) {
-  const auto& ends = input.scene.beam.ends;
-  const bool clamped = ends[0] == EndSupport::clamped || ends[1] == EndSupport::clamped;
-  if (!clamped || input.model.mesh != MeshKind::cells || input.model.segments >= 7) return;
-  throw InvalidCase("model.segments",
-                    fmt::format("is {}; allowed with a clamped end: 7 or more; use more segments",
-                                input.model.segments));
-}
 
 void check_history_size(const Case& input) {
   const double rows = input.end_time / input.output.interval;
@@ -315,8 +297,7 @@ void check(const Case& input) {
     if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
   }
   check_contact(input);
-  check_strike_within_mesh(input);
-  check_clamped_mesh(input);
+  check_mesh(input);
   check_history_size(input);
   check_gaps(input);
   check_sections(input);

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "integrate/cvode.h"
 #include "integrate/klu_mass_solver.h"
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
+#include "model/hermite_mesh.h"
 #include "model/modal_mesh.h"
 #include "model/rigid_mesh.h"
 #include "subimpact/simulate/case_keys.h"
@@ -87,8 +89,7 @@ std::unique_ptr<BeamMesh> make_rigid_mesh(const Case& input) {
   return std::make_unique<RigidMesh>(input.scene.beam, input.scene.striker.position);
 }
 
-std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
-  if (input.model.mesh == MeshKind::rigid) return make_rigid_mesh(input);
+std::unique_ptr<BeamMesh> make_cell_mesh(const Case& input) {
   const bool half = uses_symmetry(input);
   const int segments = input.model.segments;
   if (half && segments % 2 == 0) {
@@ -102,6 +103,35 @@ std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
   return std::make_unique<CellMesh>(input.scene.beam, input.scene.striker.position,
                                     static_cast<std::size_t>(segments),
                                     half ? CellMesh::Extent::half : CellMesh::Extent::whole);
+}
+
+std::unique_ptr<BeamMesh> make_hermite_mesh(const Case& input) {
+  const bool half = uses_symmetry(input);
+  const int elements = input.model.elements;
+  if (half && elements % 2 != 0) {
+    throw InvalidCase(
+        "model.elements",
+        fmt::format("is {}, but the half model of a scene struck at mid-span needs an even number, "
+                    "so that a node lies under the striker; use {} or {}, or set model.symmetry = "
+                    "\"off\"",
+                    elements, elements - 1, elements + 1));
+  }
+  return std::make_unique<HermiteMesh>(
+      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
+      static_cast<std::size_t>(input.model.sections_per_element),
+      half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole);
+}
+
+std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
+  switch (input.model.mesh) {
+    case MeshKind::cells:
+      return make_cell_mesh(input);
+    case MeshKind::hermite:
+      return make_hermite_mesh(input);
+    case MeshKind::rigid:
+      return make_rigid_mesh(input);
+  }
+  throw std::logic_error("make_mesh: a mesh of no kind");
 }
 
 SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {

@@ -91,6 +91,16 @@ TEST_P(Conservation, HoldsForAStrikeAwayFromMidSpanBetweenTwoCells) {
   EXPECT_LT(audit.momentum_error, 1e-12);
 }
 
+TEST_P(Conservation, HoldsOnHermiteElements) {
+  Case input = paper_case(GetParam(), 2e-3);
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 100;
+  const Audit audit = audited(input);
+  EXPECT_LT(audit.energy_error, 1e-8);
+  EXPECT_LT(audit.momentum_error, 1e-12);
+  EXPECT_LT(audit.plastic_loss, 1e-12);
+}
+
 TEST_P(Conservation, IsReportedInTheHistoryRows) {
   Case input = paper_case(GetParam(), 0.5e-3);
   input.output.interval = 1e-6;

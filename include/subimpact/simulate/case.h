@@ -20,8 +20,9 @@ enum class SectionKind {
 };
 
 enum class MeshKind {
-  cells,  ///< equal cells
-  rigid   ///< the beam as a rigid body
+  cells,    ///< equal cells
+  hermite,  ///< cubic Hermite elements
+  rigid     ///< the beam as a rigid body
 };
 
 /// Whether a scene that is symmetric about mid-span is modelled by one half.
@@ -29,7 +30,9 @@ enum class SymmetryUse { automatic, off };
 
 struct ModelOptions {
   MeshKind mesh = MeshKind::cells;
-  int segments = 501;
+  int segments = 501;            ///< cells
+  int elements = 200;            ///< Hermite elements
+  int sections_per_element = 2;  ///< of Hermite elements
   SectionKind section = SectionKind::exact;
   int layers = 40;
   SymmetryUse symmetry = SymmetryUse::automatic;

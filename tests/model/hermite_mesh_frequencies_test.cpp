@@ -1,0 +1,82 @@
+// Natural frequencies of the Hermite mesh, out of dense eigenvalues, against the continuum.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "dense.h"
+#include "model/flexural_frequencies.h"
+#include "model/hermite_mesh.h"
+#include "order_table.h"
+#include "paper_scene.h"
+
+namespace subimpact {
+namespace {
+
+using Support = std::tuple<BeamTheory, std::array<EndSupport, 2>>;
+
+std::string support_name(const testing::TestParamInfo<Support>& info) {
+  const auto [theory, ends] = info.param;
+  std::string name = theory == BeamTheory::rayleigh ? "rayleigh" : "euler_bernoulli";
+  for (const EndSupport end : ends) {
+    name += end == EndSupport::free ? "_free" : end == EndSupport::pinned ? "_pinned" : "_clamped";
+  }
+  return name;
+}
+
+class ElementsOnSupports : public testing::TestWithParam<Support> {
+ protected:
+  Beam beam() const {
+    Beam beam = paper_beam();
+    std::tie(beam.theory, beam.ends) = GetParam();
+    beam.thickness = 0.03;  // thick enough for the rotary inertia to matter
+    return beam;
+  }
+  std::size_t n_rigid() const {
+    const auto ends = beam().ends;
+    if (beam().is_free()) return 2;
+    const bool free_end = ends[0] == EndSupport::free || ends[1] == EndSupport::free;
+    const bool pin = ends[0] == EndSupport::pinned || ends[1] == EndSupport::pinned;
+    return free_end && pin ? 1 : 0;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Ends, ElementsOnSupports,
+    testing::Combine(testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
+                     testing::Values(std::array{EndSupport::free, EndSupport::free},
+                                     std::array{EndSupport::pinned, EndSupport::pinned},
+                                     std::array{EndSupport::clamped, EndSupport::clamped},
+                                     std::array{EndSupport::pinned, EndSupport::free},
+                                     std::array{EndSupport::clamped, EndSupport::free},
+                                     std::array{EndSupport::clamped, EndSupport::pinned})),
+    support_name);
+
+TEST_P(ElementsOnSupports, FrequenciesConvergeAtFourthOrder) {
+  constexpr std::size_t n_modes = 5;
+  const std::vector<double> exact = flexural_frequencies(beam(), n_modes);
+  for (std::size_t mode = 0; mode < n_modes; ++mode) {
+    OrderTable table("mode " + std::to_string(mode + 1) +
+                     ": relative error of the frequency, over elements");
+    for (const std::size_t n : {16u, 24u, 32u, 48u}) {
+      const HermiteMesh mesh(beam(), 0.375, n, 2, HermiteMesh::Extent::whole);
+      // As Rayleigh quotients, out of the reach of the decomposition's rounding.
+      const NaturalModes modes = mesh.natural_modes(beam().bending_stiffness());
+      const double found = modes.frequencies[mode + n_rigid()];
+      table.add(static_cast<double>(n), std::abs(found / exact[mode] - 1.0));
+    }
+    table.expect_every_order_within(3.7, 4.3);
+  }
+}
+
+TEST_P(ElementsOnSupports, HaveTheBeamsRigidModes) {
+  const HermiteMesh mesh(beam(), 0.4, 10, 2, HermiteMesh::Extent::whole);
+  const Eigen::VectorXd squares = squared_frequencies(mesh, beam().bending_stiffness());
+  const double zero = 1e-12 * squares(squares.size() - 1);
+  EXPECT_EQ(static_cast<std::size_t>((squares.array() < zero).count()), n_rigid());
+}
+
+}  // namespace
+}  // namespace subimpact

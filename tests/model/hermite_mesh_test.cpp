@@ -1,0 +1,301 @@
+#include "model/hermite_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "dense.h"
+#include "model/mass_solver.h"
+#include "paper_scene.h"
+#include "random_walk.h"
+
+namespace subimpact {
+namespace {
+
+using Extent = HermiteMesh::Extent;
+constexpr EndSupport all_ends[] = {EndSupport::free, EndSupport::pinned, EndSupport::clamped};
+
+// Meshes of every shape: theories, supports, whole and half, strikes in the middle, aside and at
+// free ends, few and many elements and sections.
+std::vector<HermiteMesh> meshes() {
+  std::vector<HermiteMesh> all;
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    for (const EndSupport first : all_ends) {
+      for (const EndSupport second : all_ends) {
+        Beam beam = paper_beam();
+        beam.theory = theory;
+        beam.ends = {first, second};
+        for (const std::size_t sections : {2u, 3u, 4u}) {
+          for (const std::size_t n : {4u, 5u, 12u}) {
+            for (const double position : {0.2, 0.5, 0.77}) {
+              all.emplace_back(beam, position, n, sections, Extent::whole);
+            }
+          }
+          if (first == second) all.emplace_back(beam, 0.5, 4, sections, Extent::half);
+          if (first == second) all.emplace_back(beam, 0.5, 12, sections, Extent::half);
+          if (first == EndSupport::free) all.emplace_back(beam, 0.0, 6, sections, Extent::whole);
+          if (second == EndSupport::free) all.emplace_back(beam, 1.0, 6, sections, Extent::whole);
+        }
+      }
+    }
+  }
+  return all;
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+// Displacement and slope at every node of a free beam's mesh.
+template <class W, class T>
+std::vector<double> nodal(std::span<const double> nodes, double slope_unit, W w, T t) {
+  std::vector<double> q;
+  for (const double x : nodes) {
+    q.push_back(w(x));
+    q.push_back(slope_unit * t(x));
+  }
+  return q;
+}
+
+std::vector<double> equal_nodes(const Beam& beam, std::size_t n, std::size_t kept) {
+  std::vector<double> nodes;
+  for (std::size_t i = 0; i <= kept; ++i) {
+    nodes.push_back(beam.length * static_cast<double>(i) / static_cast<double>(n));
+  }
+  return nodes;
+}
+
+TEST(HermiteMesh, BendingForcesAreTheExactTransposeOfCurvatures) {
+  for (const HermiteMesh& mesh : meshes()) {
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      const std::vector<double> displacement = random_numbers(seed, mesh.n_unknowns());
+      const std::vector<double> moments = random_numbers(seed + 50, mesh.n_sections());
+      std::vector<double> curvatures(mesh.n_sections());
+      std::vector<double> forces(mesh.n_unknowns(), 7.0);
+      mesh.curvatures(displacement, curvatures);
+      mesh.bending_forces(moments, forces);
+      double internal = 0.0;
+      double size = 0.0;
+      for (std::size_t i = 0; i < curvatures.size(); ++i) {
+        internal += mesh.section_weights()[i] * moments[i] * curvatures[i];
+        size += std::abs(mesh.section_weights()[i] * moments[i] * curvatures[i]);
+      }
+      EXPECT_NEAR(internal + dot(forces, displacement), 0.0, 1e-13 * size) << mesh.description();
+    }
+  }
+}
+
+TEST(HermiteMesh, OneSectionsStencilIsItsRowOfCurvatures) {
+  for (const HermiteMesh& mesh : meshes()) {
+    const std::vector<double> w = random_numbers(8, mesh.n_unknowns());
+    std::vector<double> curvatures(mesh.n_sections());
+    mesh.curvatures(w, curvatures);
+    for (std::size_t i = 0; i < curvatures.size(); ++i) {
+      const BeamMesh::SectionStencil row = mesh.section_stencil(i);
+      double kappa = 0.0;
+      double size = 0.0;
+      for (std::size_t j = 0; j < row.coefficients.size(); ++j) {
+        kappa += row.coefficients[j] * w[row.first + j];
+        size += std::abs(row.coefficients[j] * w[row.first + j]);
+      }
+      EXPECT_NEAR(curvatures[i], kappa, 1e-13 * size) << mesh.description() << ", section " << i;
+    }
+    EXPECT_LE(mesh.stiffness_bandwidth(), 3u);
+  }
+}
+
+TEST(HermiteMesh, SectionsWeighTheWholeBeamAndStandInOrder) {
+  for (const HermiteMesh& mesh : meshes()) {
+    const auto weights = mesh.section_weights();
+    const auto positions = mesh.section_positions();
+    const double length = paper_beam().length;
+    EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), length, 1e-14);
+    for (std::size_t i = 1; i < positions.size(); ++i) EXPECT_GT(positions[i], positions[i - 1]);
+    EXPECT_GT(positions.front(), 0.0);
+    EXPECT_LT(positions.back(), length);
+  }
+}
+
+TEST(HermiteMesh, RigidMotionsDoNotBendAndCostNoForce) {
+  const Beam beam = paper_beam();
+  for (const double position : {0.3, 0.5}) {
+    const HermiteMesh mesh(beam, position, 20, 3, Extent::whole);
+    const double h = beam.length / 20;
+    const auto nodes = equal_nodes(beam, 20, 20);
+    std::vector<double> q = nodal(
+        nodes, h, [](double x) { return 0.3 + 0.2 * x; }, [](double) { return 0.2; });
+    std::vector<double> kappa(mesh.n_sections());
+    mesh.curvatures(q, kappa);
+    // Rounding of displacements, as second differences see it.
+    for (const double k : kappa) EXPECT_NEAR(k, 0.0, 4e-16 * 6.0 / (h * h));
+  }
+}
+
+TEST(HermiteMesh, CubicsHaveTheirCurvatureInEverySection) {
+  const Beam beam = paper_beam();
+  const double h = beam.length / 12;
+  const auto w = [](double x) { return 0.35 * x * x - 0.8 * x * x * x; };
+  const auto t = [](double x) { return 0.7 * x - 2.4 * x * x; };
+  for (const std::size_t sections : {2u, 3u, 4u}) {
+    const HermiteMesh mesh(beam, 0.5, 12, sections, Extent::whole);
+    const std::vector<double> q = nodal(equal_nodes(beam, 12, 12), h, w, t);
+    std::vector<double> kappa(mesh.n_sections());
+    mesh.curvatures(q, kappa);
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      EXPECT_NEAR(kappa[i], 0.7 - 4.8 * mesh.section_positions()[i], 1e-12);
+    }
+  }
+}
+
+TEST(HermiteMesh, OfConstantCurvatureIsBentByMomentsAtItsEndsAlone) {
+  const Beam beam = paper_beam();
+  const HermiteMesh mesh(beam, 0.3, 10, 2, Extent::whole);
+  const std::vector<double> moments(mesh.n_sections(), 5.0);
+  std::vector<double> forces(mesh.n_unknowns());
+  mesh.bending_forces(moments, forces);
+  const double h = beam.length / 10;
+  // The couple M belongs to the slope t, of which the unknown is h t.
+  EXPECT_NEAR(forces[1], 5.0 / h, 1e-12);
+  EXPECT_NEAR(forces[forces.size() - 1], -5.0 / h, 1e-12);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const bool couple = i == 1 || i + 1 == forces.size();
+    EXPECT_NEAR(couple ? 0.0 : forces[i], 0.0, 1e-11) << i;
+  }
+}
+
+TEST(HermiteMesh, BendingHasNoNetForce) {
+  for (const HermiteMesh& mesh : meshes()) {
+    if (mesh.translation().empty()) continue;
+    const std::vector<double> moments = random_numbers(4, mesh.n_sections());
+    std::vector<double> forces(mesh.n_unknowns());
+    mesh.bending_forces(moments, forces);
+    double size = 0.0;
+    for (const double f : forces) size += std::abs(f);
+    EXPECT_NEAR(dot(forces, mesh.translation()), 0.0, 1e-14 * size) << mesh.description();
+  }
+}
+
+TEST(HermiteMesh, HasMassMomentumAndRotaryInertiaOfTheBeam) {
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    Beam beam = paper_beam();
+    beam.theory = theory;
+    for (const Extent extent : {Extent::whole, Extent::half}) {
+      const HermiteMesh mesh(beam, 0.5, 8, 2, extent);
+      EXPECT_NEAR(mesh.mass().quadratic_form(mesh.translation()), beam.mass(), 1e-13);
+      EXPECT_NEAR(dot(mesh.momentum_functional(), mesh.translation()), beam.mass(), 1e-13);
+      std::vector<double> product(mesh.n_unknowns());
+      mesh.mass().multiply(mesh.translation(), product);
+      for (std::size_t i = 0; i < product.size(); ++i) {
+        EXPECT_NEAR(product[i], mesh.momentum_functional()[i], 1e-14);
+      }
+    }
+    const HermiteMesh mesh(beam, 0.3, 8, 2, Extent::whole);
+    // Elements of two lengths: 2 over 0.3 l, 6 over 0.7 l.
+    std::vector<double> nodes;
+    for (std::size_t i = 0; i <= 8; ++i) {
+      const double part = i <= 2 ? 0.15 * static_cast<double>(i)
+                                 : 0.3 + 0.7 / 6.0 * static_cast<double>(i - 2);
+      nodes.push_back(part * beam.length);
+    }
+    const double middle = 0.5 * beam.length;
+    const std::vector<double> rotation = nodal(
+        nodes, beam.length / 8, [&](double x) { return x - middle; }, [](double) { return 1.0; });
+    const double exact = beam.mass() * beam.length * beam.length / 12.0 +
+                         beam.rotary_inertia() * beam.length;
+    EXPECT_NEAR(mesh.mass().quadratic_form(rotation), exact, 1e-13 * exact);
+  }
+}
+
+TEST(HermiteMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
+  for (const EndSupport end : all_ends) {
+    Beam beam = paper_beam();
+    beam.ends = {end, end};
+    const HermiteMesh half(beam, 0.5, 8, 3, Extent::half);
+    const HermiteMesh whole(beam, 0.5, 8, 3, Extent::whole);
+    const std::vector<double> w = random_numbers(3, half.n_unknowns());
+    // The mirror image: displacements the same, slopes with the other sign.
+    const std::size_t held = end == EndSupport::free ? 0 : end == EndSupport::pinned ? 1 : 2;
+    const auto padded = [&](std::size_t i) { return i < held ? 0.0 : w[i - held]; };
+    std::vector<double> both;
+    for (std::size_t node = 0; node <= 8; ++node) {
+      const bool mirrored = node > 4;
+      const std::size_t from = mirrored ? 8 - node : node;
+      const double slope = from == 4 ? 0.0 : padded(2 * from + 1);
+      const bool at_end = node == 0 || node == 8;
+      if (!at_end || end == EndSupport::free) both.push_back(padded(2 * from));
+      if (!at_end || end != EndSupport::clamped) both.push_back(mirrored ? -slope : slope);
+    }
+    ASSERT_EQ(both.size(), whole.n_unknowns());
+    EXPECT_NEAR(half.mass().quadratic_form(w), whole.mass().quadratic_form(both), 1e-12);
+    EXPECT_EQ(half.struck_point()(w), whole.struck_point()(both));
+    EXPECT_EQ(half.first_end()(w), whole.first_end()(both));
+    EXPECT_NEAR(dot(half.momentum_functional(), w), dot(whole.momentum_functional(), both), 1e-13);
+    std::vector<double> kappa(half.n_sections()), both_kappa(whole.n_sections());
+    half.curvatures(w, kappa);
+    whole.curvatures(both, both_kappa);
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      EXPECT_NEAR(kappa[i], both_kappa[i], 1e-11);
+      EXPECT_NEAR(kappa[i], both_kappa[both_kappa.size() - 1 - i], 1e-10);
+    }
+  }
+}
+
+TEST(HermiteMesh, HasANodeAtTheStrikeAndASectionBesideIt) {
+  const Beam beam = paper_beam();
+  for (const double position : {0.0, 0.05, 0.31, 0.5, 0.77, 1.0}) {
+    const HermiteMesh mesh(beam, position, 20, 2, Extent::whole);
+    ASSERT_EQ(mesh.struck_point().terms.size(), 1u);
+    EXPECT_EQ(mesh.struck_point().terms.front().coefficient, 1.0);
+    EXPECT_NEAR(mesh.section_positions()[mesh.struck_section()], position * beam.length,
+                0.5 * beam.length / 20);
+  }
+}
+
+TEST(HermiteMesh, IsSolvedForItsMassByTheBandedSolver) {
+  for (const HermiteMesh& mesh : meshes()) {
+    const std::vector<double> x = random_numbers(5, mesh.n_unknowns());
+    std::vector<double> b(mesh.n_unknowns());
+    mesh.mass().multiply(x, b);
+    BandedSolver(mesh.mass()).solve(b);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(b[i], x[i], 1e-10);
+  }
+}
+
+TEST(HermiteMesh, HighestFrequencyIsAnUpperBoundAndClose) {
+  for (const HermiteMesh& mesh : meshes()) {
+    const double stiffness = paper_beam().bending_stiffness();
+    const double highest =
+        std::sqrt(squared_frequencies(mesh, stiffness)(index(mesh.n_unknowns() - 1)));
+    EXPECT_GE(mesh.highest_frequency(stiffness), highest * (1.0 - 1e-12)) << mesh.description();
+  }
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    Beam beam = paper_beam();
+    beam.theory = theory;
+    const HermiteMesh mesh(beam, 0.5, 200, 2, Extent::half);
+    const double stiffness = beam.bending_stiffness();
+    const double highest =
+        std::sqrt(squared_frequencies(mesh, stiffness)(index(mesh.n_unknowns() - 1)));
+    EXPECT_LE(mesh.highest_frequency(stiffness), (1.0 + 1e-5) * highest);
+  }
+}
+
+TEST(HermiteMesh, RefusesShapesItCannotModel) {
+  const Beam beam = paper_beam();
+  EXPECT_THROW(HermiteMesh(beam, 0.5, 3, 2, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(HermiteMesh(beam, 0.5, 8, 1, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(HermiteMesh(beam, 0.5, 8, 5, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(HermiteMesh(beam, 0.5, 9, 2, Extent::half), std::invalid_argument);
+  EXPECT_THROW(HermiteMesh(beam, 0.4, 8, 2, Extent::half), std::invalid_argument);
+  Beam pinned = beam;
+  pinned.ends = {EndSupport::pinned, EndSupport::free};
+  EXPECT_THROW(HermiteMesh(pinned, 0.5, 8, 2, Extent::half), std::invalid_argument);
+  EXPECT_THROW(HermiteMesh(pinned, 0.0, 8, 2, Extent::whole), std::invalid_argument);
+  EXPECT_NO_THROW(HermiteMesh(pinned, 1.0, 8, 2, Extent::whole));
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,214 @@
+// The paper's example on Hermite elements: against the limit of fine meshes, by every method.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "order_table.h"
+#include "paper_case.h"
+
+namespace subimpact {
+namespace {
+
+Case hermite_case(SectionKind section, double end_time, int half_model_elements) {
+  Case input = paper_case(section, end_time);
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 2 * half_model_elements;
+  input.solver.method = Method::nystrom;
+  return input;
+}
+
+// Errors of the times, start and end by turns, without the first start.
+std::vector<double> errors_us(const Result& result, const std::vector<ReferenceEvent>& reference,
+                              std::size_t n_events) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < n_events; ++i) {
+    const SubImpact& here = result.sub_impacts.at(i);
+    if (i > 0) errors.push_back(std::abs(start_us(here) - reference[i].start_us));
+    errors.push_back(std::abs(end_us(here) - reference[i].end_us));
+  }
+  return errors;
+}
+
+constexpr std::size_t third_start = 3;  // of those errors
+
+TEST(HermiteElements, ComeToTheLimitOfFineMeshes) {
+  const std::vector<ReferenceEvent> reference = reference_table("mesh_limit_elastic");
+  struct Expected {
+    int elements;
+    double bound_us, third_start_us;
+  };
+  // The third contact begins at a graze, so its start is the most sensitive of these times.
+  for (const Expected& expected : {Expected{100, 0.04, 0.075}, Expected{200, 2.5e-3, 4.3e-3}}) {
+    const Result result =
+        simulate(hermite_case(SectionKind::elastic, 0.84e-3, expected.elements));
+    ASSERT_EQ(result.sub_impacts.size(), 9u);
+    std::vector<double> errors = errors_us(result, reference, 9);
+    std::printf("%d elements: third start %.2e us,", expected.elements, errors[third_start]);
+    EXPECT_LT(errors[third_start], expected.third_start_us);
+    errors[third_start] = 0.0;
+    const double worst = *std::max_element(errors.begin(), errors.end());
+    std::printf(" all others to %.2e us\n", worst);
+    EXPECT_LT(worst, expected.bound_us);
+  }
+}
+
+TEST(HermiteElements, BringTheFirstFiveSubImpactsAtFourthOrder) {
+  const std::vector<ReferenceEvent> reference = reference_table("mesh_limit_elastic");
+  OrderTable first("end of sub-impact 1, us, over elements of the half model");
+  OrderTable five("starts and ends of sub-impacts 1 to 5, root of the sum of squares");
+  for (const int elements : {100, 140, 200}) {
+    const Result result = simulate(hermite_case(SectionKind::elastic, 0.4e-3, elements));
+    ASSERT_EQ(result.sub_impacts.size(), 5u);
+    double squares = 0.0;
+    const std::vector<double> errors = errors_us(result, reference, 5);
+    for (const double error : errors) squares += error * error;
+    first.add(elements, errors.front());
+    five.add(elements, std::sqrt(squares));
+  }
+  first.print();
+  five.print();
+  first.expect_overall_order_within(3.6, 4.4);
+  five.expect_overall_order_within(3.6, 4.4);
+}
+
+struct Setting {
+  const char* name;
+  Method method;
+  double rtol;
+  double bound_us;
+};
+
+std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out << setting.name; }
+
+class HermiteElementsBy : public testing::TestWithParam<Setting> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    , HermiteElementsBy,
+    testing::Values(Setting{"central_difference", Method::central_difference, 1e-8, 2.0},
+                    Setting{"erk", Method::erk, 1e-9, 1e-4},
+                    Setting{"dirk", Method::dirk, 1e-6, 5e-3},
+                    Setting{"imex", Method::imex, 1e-6, 5e-2},
+                    Setting{"adams", Method::adams, 1e-8, 1e-3},
+                    Setting{"bdf", Method::bdf, 1e-8, 1e-3},
+                    Setting{"exponential", Method::exponential, 1e-9, 1e-4}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(HermiteElementsBy, EveryMethodFindsTheSameSubImpacts) {
+  Case input = hermite_case(SectionKind::elastic, 0.32e-3, 40);
+  input.solver.rtol = 1e-11;
+  const Result reference = simulate(input);
+  input.solver.method = GetParam().method;
+  input.solver.rtol = GetParam().rtol;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_EQ(result.sub_impacts.size(), reference.sub_impacts.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
+    const SubImpact& here = result.sub_impacts[i];
+    const SubImpact& there = reference.sub_impacts[i];
+    worst = std::max(worst, std::abs(start_us(here) - start_us(there)));
+    if (here.end && there.end) worst = std::max(worst, std::abs(end_us(here) - end_us(there)));
+  }
+  std::printf("%s: largest time difference %.2e us\n", GetParam().name, worst);
+  EXPECT_LT(worst, GetParam().bound_us);
+}
+
+TEST_P(HermiteElementsBy, EveryMethodButTheExponentialGoesThroughAYieldingBeam) {
+  if (GetParam().method == Method::exponential) return;
+  Case input = hermite_case(SectionKind::exact, 0.15e-3, 40);
+  input.solver.rtol = 1e-11;
+  const Result reference = simulate(input);
+  input.solver.method = GetParam().method;
+  input.solver.rtol = GetParam().rtol;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_GT(result.n_yielded_sections, 10u);
+  EXPECT_NEAR(result.striker_velocity, reference.striker_velocity, 0.2 * GetParam().bound_us);
+}
+
+TEST(HermiteElements, HaveNoStableStepOfCentralDifferencesBeyondTheirOwn) {
+  Case input = hermite_case(SectionKind::elastic, 0.3e-3, 40);
+  input.solver.method = Method::central_difference;
+  const double critical = explain(input).critical_step;
+  input.solver.step = 0.999 * critical;
+  EXPECT_TRUE(simulate(input).outcome.completed());
+  input.solver.step = 1.001 * critical;
+  EXPECT_THROW(simulate(input), InvalidCase);
+  input.solver.beyond_critical = true;
+  EXPECT_EQ(simulate(input).outcome.kind, OutcomeKind::unstable);
+}
+
+TEST(HermiteElements, InHalfAndWholeModelGiveTheSameEvents) {
+  for (const SectionKind section : {SectionKind::elastic, SectionKind::exact}) {
+    Case input = hermite_case(section, 0.3e-3, 40);
+    input.solver.step = 1e-7;
+    const Result half = simulate(input);
+    input.model.symmetry = SymmetryUse::off;
+    const Result whole = simulate(input);
+    EXPECT_EQ(whole.used.n_sections, 2 * half.used.n_sections);
+    ASSERT_EQ(half.sub_impacts.size(), whole.sub_impacts.size());
+    for (std::size_t i = 0; i + 1 < half.sub_impacts.size(); ++i) {
+      EXPECT_NEAR(end_us(half.sub_impacts[i]), end_us(whole.sub_impacts[i]), 1e-6);
+    }
+  }
+}
+
+TEST(HermiteElements, StruckOnTheOtherSideGiveTheMirroredEvents) {
+  Case input = hermite_case(SectionKind::exact, 0.3e-3, 40);
+  input.solver.step = 5e-8;
+  input.scene.striker.position = 0.31;
+  input.scene.beam.ends = {EndSupport::pinned, EndSupport::clamped};
+  const Result left = simulate(input);
+  input.scene.striker.position = 0.69;
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::pinned};
+  const Result right = simulate(input);
+  ASSERT_EQ(left.sub_impacts.size(), right.sub_impacts.size());
+  EXPECT_NEAR(left.striker_velocity, right.striker_velocity, 1e-9);
+  EXPECT_LT(left.max_energy_error, 1e-6);
+}
+
+// Two meshes that have nothing in common come to the same motion.
+TEST(HermiteElements, AgreeWithFineCellsOnEverySupport) {
+  for (const EndSupport end : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+    Case input = hermite_case(SectionKind::elastic, 0.25e-3, 100);
+    input.scene.striker.position = 0.4;
+    input.scene.beam.ends = {end, EndSupport::pinned};
+    const double elements = simulate(input).sub_impacts.at(0).end.value();
+    input.model.mesh = MeshKind::cells;
+    input.model.segments = 1205;
+    const double cells = simulate(input).sub_impacts.at(0).end.value();
+    EXPECT_NEAR(1e6 * elements, 1e6 * cells, 0.3);
+  }
+}
+
+TEST(HermiteElements, AreRefusedWhereTheyDoNotFit) {
+  const auto refused = [](const Case& input) {
+    try {
+      explain(input);
+    } catch (const InvalidCase& error) {
+      return error.key;
+    }
+    return std::string("accepted");
+  };
+  Case input = hermite_case(SectionKind::elastic, 1e-4, 40);
+  EXPECT_EQ(refused(input), "accepted");
+  input.model.elements = 81;
+  EXPECT_EQ(refused(input), "model.elements");
+  input.model.symmetry = SymmetryUse::off;
+  EXPECT_EQ(refused(input), "accepted");
+  input.scene.striker.position = 0.003;
+  EXPECT_EQ(refused(input), "striker.position");
+  input.scene.striker.position = 0.0;
+  EXPECT_EQ(refused(input), "accepted");
+  input.scene.beam.ends[0] = EndSupport::pinned;
+  EXPECT_EQ(refused(input), "striker.position");
+  input.model.sections_per_element = 5;
+  EXPECT_EQ(refused(input), "model.sections_per_element");
+}
+
+}  // namespace
+}  // namespace subimpact
