@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace subimpact {
 
@@ -23,6 +24,22 @@ class HermiteCubic {
   double peak() const {
     const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
     return std::clamp(c1_ / (root - c2_), 0.0, 1.0);
+  }
+
+  /// Where, between equal senses at both ends, the slope is farthest in the other sense; nothing if
+  /// it never is.
+  std::optional<double> reversed_at() const {
+    const double last = c1_ + 2.0 * c2_ + 3.0 * c3_;
+    const double s = -c2_ / (3.0 * c3_);
+    if (c1_ * last > 0.0 && s > 0.0 && s < 1.0 && c1_ * slope(s) < 0.0) return s;
+    return std::nullopt;
+  }
+  /// The first of the two turns if there is a reversed_at().
+  double first_turn() const {
+    const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
+    const double a = (-c2_ - root) / (3.0 * c3_);
+    const double b = (-c2_ + root) / (3.0 * c3_);
+    return std::clamp(std::min(a, b), 0.0, 1.0);
   }
 
   /// Where the value rises through zero between `a` (not above) and `b` (above).
@@ -49,6 +66,57 @@ class HermiteCubic {
   }
 
   double c0_, c1_, c2_, c3_;
+};
+
+/// Septic through a value and its first three rates at both ends of a step, as a function of s in
+/// [0, 1].
+class HermiteSeptic {
+ public:
+  struct End {
+    double value, rate, second, third;
+  };
+  HermiteSeptic(const End& start, const End& end, double step) {
+    const double h2 = step * step;
+    const double h3 = h2 * step;
+    c_[0] = start.value;
+    c_[1] = step * start.rate;
+    c_[2] = h2 * start.second / 2.0;
+    c_[3] = h3 * start.third / 6.0;
+    // By how much the start's cubic misses the end.
+    const double d0 = end.value - (c_[0] + c_[1] + c_[2] + c_[3]);
+    const double d1 = step * end.rate - (c_[1] + 2.0 * c_[2] + 3.0 * c_[3]);
+    const double d2 = h2 * end.second - (2.0 * c_[2] + 6.0 * c_[3]);
+    const double d3 = h3 * end.third - 6.0 * c_[3];
+    c_[4] = 35.0 * d0 - 15.0 * d1 + 2.5 * d2 - d3 / 6.0;
+    c_[5] = -84.0 * d0 + 39.0 * d1 - 7.0 * d2 + 0.5 * d3;
+    c_[6] = 70.0 * d0 - 34.0 * d1 + 6.5 * d2 - 0.5 * d3;
+    c_[7] = -20.0 * d0 + 10.0 * d1 - 2.0 * d2 + d3 / 6.0;
+  }
+
+  double operator()(double s) const {
+    double sum = c_[7];
+    for (int i = 6; i >= 0; --i) sum = sum * s + c_[i];
+    return sum;
+  }
+  double slope(double s) const {
+    double sum = 7.0 * c_[7];
+    for (int i = 6; i >= 1; --i) sum = sum * s + i * c_[i];
+    return sum;
+  }
+  double second(double s) const {
+    double sum = 42.0 * c_[7];
+    for (int i = 6; i >= 2; --i) sum = sum * s + i * (i - 1) * c_[i];
+    return sum;
+  }
+  /// Where the slope vanishes near a guess: Newton's method, kept in [0, 1].
+  double turn(double guess) const {
+    double s = guess;
+    for (int i = 0; i < 4; ++i) s = std::clamp(s - slope(s) / second(s), 0.0, 1.0);
+    return s;
+  }
+
+ private:
+  double c_[8];
 };
 
 }  // namespace subimpact

@@ -12,10 +12,7 @@ struct GuardValue {
 };
 
 struct RootOptions {
-  double tolerance = 0.0;  ///< on time, s: two iterates closer than this end the search
-  /// For a guard that is the rate of something: by how much that something may be short of its
-  /// turning point, value^2/(2 rate), for an iterate to be good enough. Negative: not asked.
-  double turn_tolerance = -1.0;
+  double tolerance = 0.0;   ///< on time, s: two iterates closer than this end the search
   int max_iterations = 60;  ///< bisection alone needs about 50
 };
 
@@ -31,7 +28,6 @@ double find_rise(Guard guard, double a, double b, double guess, RootOptions opti
   for (int i = 1;; ++i) {
     const GuardValue at = guard(t);
     if (at.value == 0.0 || i == options.max_iterations) return t;
-    if (at.rate > 0.0 && at.value * at.value <= 2.0 * at.rate * options.turn_tolerance) return t;
     (at.value < 0.0 ? a : b) = t;
     double next = t - at.value / at.rate;
     const bool usable = at.rate > 0.0 && next >= a && next <= b;

@@ -92,18 +92,60 @@ double SectionField::tangent(std::size_t section, double curvature) const {
   return law_->tangent(history(section), curvature);
 }
 
+void SectionField::smooth_moments(std::span<const double> curvatures,
+                                  std::span<double> moments) const {
+  const std::size_t n = curvatures.size();
+  const double* k = curvatures.data();
+  const double* offset = offset_.data();
+  double* m = moments.data();
+  for (std::size_t i = 0; i < n; ++i) m[i] = stiffness_ * k[i] - offset[i];
+  for (const Flow& flow : flowing_) {
+    m[flow.section] = law_->moment_on(flow.branch, k[flow.section]);
+  }
+}
+
+double SectionField::smooth_tangent(std::size_t section, double curvature) const {
+  for (const Flow& flow : flowing_) {
+    if (flow.section == section) return law_->tangent_on(flow.branch, curvature);
+  }
+  return stiffness_;
+}
+
+void SectionField::commit_turn(std::size_t section, double curvature) {
+  SectionHistory& history = stored_history(section);
+  if (history.direction == 0) ++n_yielded_;
+  law_->commit(history, curvature);
+  const ElasticWindow window = law_->window(history);
+  low_[section] = window.low;
+  high_[section] = window.high;
+  offset_[section] = window.offset;
+}
+
+void SectionField::restore(const Memory& memory) {
+  const std::size_t i = memory.section;
+  SectionHistory& now = stored_history(i);
+  if (now.direction != 0 && memory.history.direction == 0) --n_yielded_;
+  now = memory.history;
+  low_[i] = memory.low;
+  high_[i] = memory.high;
+  offset_[i] = memory.offset;
+}
+
 std::size_t SectionField::commit(std::span<const double> curvatures) {
+  return commit(curvatures, {});
+}
+
+std::size_t SectionField::commit(std::span<const double> curvatures,
+                                 std::span<const double> rates) {
+  flowing_.clear();
   if (!law_) return 0;
   std::size_t n_flowed = 0;
   for_each_outside(curvatures, low_, high_, [&](std::size_t i) {
-    SectionHistory& history = stored_history(i);
-    if (history.direction == 0) ++n_yielded_;
-    law_->commit(history, curvatures[i]);
-    const ElasticWindow window = law_->window(history);
-    low_[i] = window.low;
-    high_[i] = window.high;
-    offset_[i] = window.offset;
+    commit_turn(i, curvatures[i]);
     ++n_flowed;
+    const SectionHistory& now = history(i);
+    const bool flows_on = !rates.empty() && now.direction * rates[i] > 0.0;
+    if (flows_on) flowing_.push_back({i, law_->branch_from_edge(now)});
   });
   return n_flowed;
 }

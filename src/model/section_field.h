@@ -36,8 +36,45 @@ class SectionField {
   /// -dM/dkappa of one section, N m2.
   double tangent(std::size_t section, double curvature) const;
 
+  /// The same on the smooth pieces that held at the last commit, each continued beyond its range: a
+  /// section that flowed on stays on its branch, every other one is linear. No kink lies in them.
+  void smooth_moments(std::span<const double> curvatures, std::span<double> moments) const;
+  double smooth_tangent(std::size_t section, double curvature) const;
+
+  /// -M of a section at rest, its window continued.
+  double resting_moment(std::size_t section, double curvature) const {
+    return stiffness_ * curvature - offset_[section];
+  }
+
   /// Takes the curvatures as reached (an accepted state). Returns how many sections flowed.
   std::size_t commit(std::span<const double> curvatures);
+  /// The same, and notes which of the sections that flowed flow on, by their curvature rates (1/(m
+  /// s)).
+  std::size_t commit(std::span<const double> curvatures, std::span<const double> rates);
+  /// Takes one section's curvature as reached on the way, where it turned back.
+  void commit_turn(std::size_t section, double curvature);
+
+  /// One section's memory, to be put back.
+  struct Memory {
+    std::size_t section;
+    SectionHistory history;
+    double low, high, offset;
+  };
+  Memory memory(std::size_t section) const {
+    return {section, history(section), low_[section], high_[section], offset_[section]};
+  }
+  void restore(const Memory& memory);
+
+  /// A section that flows on from its edge.
+  struct Flow {
+    std::size_t section;
+    SectionBranch branch;
+  };
+  /// Those that flowed on at the last commit, in the order of their sections.
+  const std::vector<Flow>& flowing() const { return flowing_; }
+  /// The law (none for a field that never yields) and a section's memory.
+  const SectionLaw& law() const { return *law_; }
+  const SectionHistory& history(std::size_t section) const;
 
   /// Bounds of the windows within which nothing flows, 1/m.
   std::span<const double> window_low() const { return low_; }
@@ -58,7 +95,6 @@ class SectionField {
   double outer_stress(std::size_t section, double curvature, double modulus_reach) const;
 
  private:
-  const SectionHistory& history(std::size_t section) const;
   SectionHistory& stored_history(std::size_t section);
 
   std::optional<SectionLaw> law_;
@@ -67,6 +103,7 @@ class SectionField {
   std::vector<double> low_, high_, offset_;  // windows
   std::vector<int> slot_;                    // index into memory_, -1: never yielded
   std::vector<SectionHistory> memory_;
+  std::vector<Flow> flowing_;
   std::size_t n_yielded_ = 0;
 };
 

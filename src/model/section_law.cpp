@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace subimpact {
@@ -58,7 +59,7 @@ ElasticWindow SectionLaw::window(const SectionHistory& history) const {
                                : ElasticWindow{edge, edge + 2.0 * reach, offset};
 }
 
-SectionLaw::Branch SectionLaw::branch_at(const SectionHistory& history, double x) const {
+SectionBranch SectionLaw::branch_at(const SectionHistory& history, double x) const {
   const bool turned = turns_back(history, x);
   const double sense = turned ? -history.direction : history.direction;
   const ReversalsInForce points(history, turned);
@@ -66,18 +67,18 @@ SectionLaw::Branch SectionLaw::branch_at(const SectionHistory& history, double x
   while (n > 0) {
     const Point& origin = points[n - 1];
     const double limit = n >= 2 ? points[n - 2].x : -origin.x;
-    if (sense * (x - limit) <= 0.0) return {origin, sense, false};
+    if (sense * (x - limit) <= 0.0) return {origin, sense, false, limit * yield_curvature_};
     n -= n >= 2 ? 2 : 1;
   }
-  return {{0.0, 0.0}, sense, true};
+  return {{0.0, 0.0}, sense, true, sense * std::numeric_limits<double>::infinity()};
 }
 
-double SectionLaw::branch_moment(const Branch& branch, double x) const {
+double SectionLaw::branch_moment(const SectionBranch& branch, double x) const {
   if (branch.virgin) return fibres_.moment(x);
   return branch.origin.m + 2.0 * fibres_.moment(0.5 * (x - branch.origin.x));
 }
 
-double SectionLaw::branch_work(const Branch& branch, double from, double to) const {
+double SectionLaw::branch_work(const SectionBranch& branch, double from, double to) const {
   if (branch.virgin) return fibres_.work(to) - fibres_.work(from);
   return branch.origin.m * (to - from) + 4.0 * (fibres_.work(0.5 * (to - branch.origin.x)) -
                                                 fibres_.work(0.5 * (from - branch.origin.x)));
@@ -92,12 +93,24 @@ double SectionLaw::moment(const SectionHistory& history, double curvature) const
   return yield_moment_ * branch_moment(branch_at(history, x), x);
 }
 
+SectionBranch SectionLaw::branch_from_edge(const SectionHistory& history) const {
+  return branch_at(history, history.edge.x);
+}
+
+double SectionLaw::moment_on(const SectionBranch& branch, double curvature) const {
+  return yield_moment_ * branch_moment(branch, curvature / yield_curvature_);
+}
+
+double SectionLaw::tangent_on(const SectionBranch& branch, double curvature) const {
+  const double x = curvature / yield_curvature_;
+  const double scale = yield_moment_ / yield_curvature_;
+  return scale * fibres_.tangent(branch.virgin ? x : 0.5 * (x - branch.origin.x));
+}
+
 double SectionLaw::tangent(const SectionHistory& history, double curvature) const {
   const double x = curvature / yield_curvature_;
   if (inside_window(history, x)) return stiffness_;
-  const Branch branch = branch_at(history, x);
-  const double scale = yield_moment_ / yield_curvature_;
-  return scale * fibres_.tangent(branch.virgin ? x : 0.5 * (x - branch.origin.x));
+  return tangent_on(branch_at(history, x), curvature);
 }
 
 void SectionLaw::commit(SectionHistory& history, double curvature) const {
@@ -114,7 +127,7 @@ void SectionLaw::commit(SectionHistory& history, double curvature) const {
   double from = history.edge.x;
   for (;;) {
     const std::size_t n = history.reversals.size();
-    Branch branch{{0.0, 0.0}, static_cast<double>(history.direction), true};
+    SectionBranch branch{{0.0, 0.0}, static_cast<double>(history.direction), true, 0.0};
     double to = x;
     bool closes = false;
     if (n > 0) {

@@ -27,6 +27,15 @@ struct ElasticWindow {
   double offset;  ///< N m
 };
 
+/// The curve a flowing section moves along until it turns back or closes a loop: from `origin` (or
+/// the virgin curve), in units of kappa_y and M_y.
+struct SectionBranch {
+  SectionHistory::Point origin;
+  double sense;  ///< of the flow, +1 or -1
+  bool virgin;
+  double limit;  ///< 1/m: curvature at which the branch ends on an older one; infinite: nowhere
+};
+
 /// Moment of a rectangular section whose fibres are elastic-perfectly plastic, with memory.
 ///
 /// The virgin curve is that of the fibres (Fibres). From a reversal point r the branch is
@@ -53,6 +62,11 @@ class SectionLaw {
   double moment(const SectionHistory& history, double curvature) const;   ///< -M, N m
   double tangent(const SectionHistory& history, double curvature) const;  ///< -dM/dkappa, N m2
 
+  /// The branch on which a section goes on that flows on from the edge of its history.
+  SectionBranch branch_from_edge(const SectionHistory& history) const;
+  double moment_on(const SectionBranch& branch, double curvature) const;   ///< -M, N m
+  double tangent_on(const SectionBranch& branch, double curvature) const;  ///< -dM/dkappa, N m2
+
   /// Takes the curvature as reached. Inside the window nothing changes.
   void commit(SectionHistory& history, double curvature) const;
 
@@ -65,15 +79,9 @@ class SectionLaw {
   double outer_stress(const SectionHistory& history, double curvature) const;
 
  private:
-  // The branch (its origin, and the sense in which it leaves it) that holds at a point.
-  struct Branch {
-    SectionHistory::Point origin;
-    double sense;
-    bool virgin;
-  };
-  Branch branch_at(const SectionHistory& history, double x) const;
-  double branch_moment(const Branch& branch, double x) const;
-  double branch_work(const Branch& branch, double from, double to) const;
+  SectionBranch branch_at(const SectionHistory& history, double x) const;
+  double branch_moment(const SectionBranch& branch, double x) const;
+  double branch_work(const SectionBranch& branch, double from, double to) const;
   bool inside_window(const SectionHistory& history, double x) const;
   // Visits the zones of fibres from the outermost inwards: visit(a, b, constant, slope), stress/Y =
   // constant + slope zeta for a < zeta <= b; stops when it returns false.

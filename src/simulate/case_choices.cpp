@@ -104,7 +104,7 @@ std::span<const Named<EventHandling>> names_of(EventHandling) {
 
 std::span<const Named<ReversalHandling>> names_of(ReversalHandling) {
   static constexpr Named<ReversalHandling> names[] = {
-      {ReversalHandling::located, "located", "steps end where a flowing section turns back"},
+      {ReversalHandling::located, "located", "found within steps, whose ends are put right"},
       {ReversalHandling::step_end, "step-end", "section memory advances at step ends only"},
   };
   return names;

@@ -224,7 +224,7 @@ std::vector<CaseKey> make_case_keys() {
     with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),
     row("solver.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(solver.mass_solver)),
     row("solver.events", "", any_value, "treatment of an event inside a step", "central-difference: \"interpolated\"; others: \"located\"", AT(solver.events)),
-    row("solver.reversals", "", any_value, "treatment of flowing sections that turn back", "adams, bdf: \"step-end\"; others: \"located\"", AT(solver.reversals)),
+    row("solver.reversals", "", any_value, "treatment of sections that begin to flow or turn back", "adams, bdf: \"step-end\"; others: \"located\"", AT(solver.reversals)),
     row("solver.pair_detection", "", any_value, "search for contacts that open and close within one step", as_in_case, AT(solver.pair_detection)),
     row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", "adams: 12; bdf: 5", AT(solver.max_order)),
     row("solver.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(solver.vector_operations)),

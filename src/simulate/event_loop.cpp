@@ -12,10 +12,8 @@
 namespace subimpact {
 namespace {
 
-// Roots are found to rounding. A section's turn is good enough when the curvature is within the
-// reversal tolerance of its turning point, or when its time is known to a small part of the step.
+// Roots are found to rounding.
 constexpr double root_tolerance = 8.0 * std::numeric_limits<double>::epsilon();
-constexpr double turn_tolerance = 1e-5;
 
 // How often the energy is looked at, in steps (and at the end), and by which part of the initial
 // energy it may be off before the run is called unstable.
@@ -28,8 +26,12 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
                      LoopOptions options)
     : beam_(beam), integrator_(integrator), observer_(observer), options_(options) {
   beam_.set_contact_evaluation(options.events == EventHandling::located
-                                   ? StruckBeam::ContactEvaluation::smooth
-                                   : StruckBeam::ContactEvaluation::switching);
+                                   ? StruckBeam::Evaluation::smooth
+                                   : StruckBeam::Evaluation::switching);
+  const bool smooth_sections =
+      options.events == EventHandling::located && std::isfinite(options.kink_tolerance);
+  beam_.set_section_evaluation(smooth_sections ? StruckBeam::Evaluation::smooth
+                                               : StruckBeam::Evaluation::switching);
 }
 
 void EventLoop::start() {
@@ -97,38 +99,66 @@ void EventLoop::locate_events() {
   const double t0 = whole.t0;
   double t1 = whole.t1;
   const State* y1 = &whole.y1;
-  // The earliest event by estimate is located; the step then ends there, and what remains of it is
-  // looked at again, in case an estimate had the order wrong.
+  const auto end_at_event_state = [&](double time) {
+    t1 = time;
+    y1 = &event_state_;
+  };
   std::optional<Guard> event;
   Crossing crossing;
-  dealt_with_.clear();
-  while (
-      beam_.find_crossing({t0, t1, y0, *y1}, options_.reversal_tolerance, dealt_with_, crossing)) {
-    const StepEnds step{t0, t1, y0, *y1};
-    dealt_with_.push_back(crossing.guard);
-    if (crossing.in_doubt && !confirm(crossing, step)) continue;
-    t1 = locate(crossing, step);
-    std::swap(event_state_, trial_state_);
-    y1 = &event_state_;
-    event = crossing.guard;
+  for (;;) {
+    // The earliest event by estimate is located; the step then ends there, and what remains of it
+    // is looked at again, in case an estimate had the order wrong.
+    event.reset();
+    dealt_with_.clear();
+    while (beam_.find_crossing({t0, t1, y0, *y1}, dealt_with_, crossing)) {
+      const StepEnds step{t0, t1, y0, *y1};
+      dealt_with_.push_back(crossing.guard);
+      if (crossing.in_doubt && !confirm(crossing, step)) continue;
+      const double time = locate(crossing, step);
+      std::swap(event_state_, trial_state_);
+      end_at_event_state(time);
+      event = crossing.guard;
+    }
+    const double good_until = beam_.find_section_kinks({t0, t1, y0, *y1}, options_.kink_tolerance);
+    if (!(good_until < t1)) break;
+    integrator_.state_at(good_until, event_state_);
+    end_at_event_state(good_until);
   }
   observer_.on_step({t0, t1, y0, *y1}, beam_, integrator_);
+  const bool kinked = !beam_.section_kinks().empty();
+  if (kinked) put_sections_right(y1);
   time_ = t1;
   state_ = y1;
-  if (!event) {
+  if (event) {
+    report(*event, t1, *y1, true);
+  } else {
     beam_.commit(*y1);
-    return;
+    if (!kinked && t1 == whole.t1) return;
   }
-  report(*event, t1, *y1, true);
   integrator_.restart(t1, *y1);
   state_ = &integrator_.state();
+}
+
+void EventLoop::put_sections_right(const State*& y) {
+  if (y != &event_state_) event_state_ = *y;
+  y = &event_state_;
+  beam_.put_right(event_state_);
+  turns_.clear();
+  for (const SectionKink& kink : beam_.section_kinks()) {
+    if (!kink.turn) continue;
+    turns_.push_back(
+        {kink.turn->time, EventKind::section_reverses, kink.section, kink.turn->curvature});
+  }
+  std::sort(turns_.begin(), turns_.end(),
+            [](const Transition& a, const Transition& b) { return a.time < b.time; });
+  for (const Transition& turn : turns_) observer_.on_turn(turn);
 }
 
 bool EventLoop::confirm(Crossing& crossing, const StepEnds& step) {
   // The top of the hump is where the indentation turns: from growing, or from falling for the end
   // of contact.
   const double sense = crossing.guard.kind == EventKind::contact_ends ? -1.0 : 1.0;
-  const Guard turn{EventKind::contact_unloads, 0, sense};
+  const Guard turn{EventKind::contact_unloads, sense};
   RootOptions options;
   options.tolerance = root_tolerance * step.t1;
   const double top = find_rise(
@@ -151,10 +181,8 @@ double EventLoop::locate(const Crossing& crossing, const StepEnds& step) {
     trial_state_ = step.y0;
     return step.t0;
   }
-  const bool is_turn = crossing.guard.kind == EventKind::section_reverses;
   RootOptions options;
-  options.tolerance = is_turn ? turn_tolerance * step.length() : root_tolerance * step.t1;
-  if (is_turn) options.turn_tolerance = options_.reversal_tolerance;
+  options.tolerance = root_tolerance * step.t1;
   const auto guard_at = [&](double t) {
     integrator_.state_at(t, trial_state_);
     return beam_.evaluate(crossing.guard, trial_state_);
@@ -175,8 +203,7 @@ void EventLoop::report(const Guard& guard, double time, const State& y, bool swi
   Transition event;
   event.time = time;
   event.kind = guard.kind;
-  if (guard.kind == EventKind::section_reverses) event.section = guard.section;
-  event.value = beam_.event_value(guard, y);
+  event.value = beam_.indentation(y);
   ++n_events_;
   observer_.before_event(event, y, beam_);
   if (switch_branch) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "integrate/integrator.h"
 #include "subimpact/simulate/case.h"
@@ -9,16 +11,21 @@
 
 namespace subimpact {
 
-/// Watches a run. All states handed over are accepted ones.
+/// Watches a run; this one does not look. All states handed over are accepted ones, but for the
+/// ends of steps.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
-  /// A step ends at `step.t1`, before its end is committed: the equations are still those of the
-  /// step, so `integrator.state_at` may be asked for any time within it.
-  virtual void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) = 0;
+  /// A step ends at `step.t1`, before its end is put right and committed: the equations are still
+  /// those of the step, so `integrator.state_at` may be asked for any time within it.
+  virtual void on_step(const StepEnds& /*step*/, StruckBeam& /*beam*/, Integrator& /*integrator*/) {
+  }
+  /// A section turned back within the step last seen.
+  virtual void on_turn(const Transition& /*turn*/) {}
   /// An event, once with the equations before it and once with those after it.
-  virtual void before_event(const Transition& event, const State& y, StruckBeam& beam) = 0;
-  virtual void after_event(const Transition& event, const State& y, StruckBeam& beam) = 0;
+  virtual void before_event(const Transition& /*event*/, const State& /*y*/, StruckBeam& /*beam*/) {
+  }
+  virtual void after_event(const Transition& /*event*/, const State& /*y*/, StruckBeam& /*beam*/) {}
 };
 
 /// The run has to stop where it is: the state is not to be believed any further.
@@ -33,9 +40,10 @@ class RunStopped : public std::runtime_error {
 struct LoopOptions {
   double end_time = 0.0;  ///< s
   EventHandling events = EventHandling::located;
-  /// Overshoot of a section's turning point, 1/m, above which the turn ends its step; infinite:
-  /// never.
-  double reversal_tolerance = 0.0;
+  /// How well what sections do within a step is put right at its end (m/s, see
+  /// StruckBeam::find_section_kinks); infinite: not at all, their memory advances at step ends
+  /// only.
+  double kink_tolerance = std::numeric_limits<double>::infinity();
   double largest_indentation = 0.0;  ///< m; beyond it the contact law means nothing
 };
 
@@ -63,6 +71,7 @@ class EventLoop {
   StepEnds step_to_end_time();
   void locate_events();
   void interpolate_events();
+  void put_sections_right(const State*& y);
   // The instant of a crossing, its state in trial_state_.
   double locate(const Crossing& crossing, const StepEnds& step);
   // Whether a doubtful crossing happens; if so, narrows it to the time before the hump's top.
@@ -77,7 +86,8 @@ class EventLoop {
   double time_ = 0.0;
   const State* state_ = nullptr;
   State end_state_, event_state_, trial_state_;
-  GuardList dealt_with_;  // in the step being looked at
+  GuardList dealt_with_;           // in the step being looked at
+  std::vector<Transition> turns_;  // in it, in their order
   double initial_energy_ = 0.0;
   long n_events_ = 0;
   long n_steps_ = 0;

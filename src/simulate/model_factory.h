@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "integrate/integrator.h"
+#include "simulate/event_loop.h"
 #include "subimpact/simulate/case.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/simulate/simulate.h"
@@ -20,6 +21,9 @@ StruckBeam make_struck_beam(const Case& input,
 
 /// What is derived from the case. Throws InvalidCase for a step beyond the stability limit.
 Used describe(const Case& input, const StruckBeam& beam);
+
+/// How the event loop is to treat the case.
+LoopOptions loop_options(const Case& input, const Used& used);
 
 /// The integrator the case asks for.
 std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used, StruckBeam& beam);

@@ -21,14 +21,12 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
   if (interval_ > 0.0) {
     for (;;) {
       const double t = static_cast<double>(next_row_) * interval_;
-      if (t > step.t1) break;
-      if (t == step.t1) {
-        add_row(t, step.y1, beam);
-      } else if (t <= step.t0) {
+      if (t >= step.t1) break;  // the end itself is the next step's start
+      if (t <= step.t0) {
         add_row(t, step.y0, beam);
       } else {
         integrator.state_at(t, state_);
-        add_row(t, state_, beam);
+        beam.look_within(step, t, state_, [&](const State& y) { add_row(t, y, beam); });
       }
       ++next_row_;
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "simulate/event_loop.h"
 #include "simulate/model_factory.h"
@@ -14,14 +13,6 @@ namespace subimpact {
 namespace {
 
 constexpr long progress_interval = 512;  // steps
-
-double reversal_tolerance(const Case& input, const Used& used) {
-  if (used.reversals == ReversalHandling::step_end || used.events == EventHandling::interpolated) {
-    return std::numeric_limits<double>::infinity();
-  }
-  // What a turn overshoots by less than this is left to the step's end.
-  return input.solver.rtol * used.yield_curvature;
-}
 
 // The sections nearest to the positions asked for; in a half model their mirror images stand for
 // those of the other half.
@@ -65,13 +56,8 @@ Result simulate(const Case& input, const Progress& progress) {
   beam.set_pair_detection(input.solver.pair_detection);
   const auto integrator = make_integrator(input, result.used, beam);
   Recorder recorder(beam, beam.initial_state(), input.output.interval, result.used.events, result);
-  LoopOptions options;
-  options.end_time = input.end_time;
-  options.events = result.used.events;
-  options.reversal_tolerance = reversal_tolerance(input, result.used);
-  options.largest_indentation = input.scene.beam.thickness;
   recorder.keep_sections(sections_at(input, beam.mesh()));
-  EventLoop loop(beam, *integrator, recorder, options);
+  EventLoop loop(beam, *integrator, recorder, loop_options(input, result.used));
   result.work.setup_seconds = seconds_since(start);
 
   try {

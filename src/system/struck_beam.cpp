@@ -16,18 +16,20 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       striker_mass_(scene.striker.mass),
       striker_velocity_(scene.striker.velocity),
       stress_reach_(0.5 * scene.beam.youngs_modulus * scene.beam.thickness),
+      highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
-      trial_(n_ + 1) {
+      trial_(n_ + 1),
+      start_(mesh_->n_sections()),
+      end_(mesh_->n_sections()),
+      velocity_change_(n_),
+      position_change_(n_),
+      answer_(n_) {
   const double exponent = contact_law_.exponent();
   const double contact_time = std::pow(
       striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),
       1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
-  for (Kinematics* at : {&start_, &end_}) {
-    at->curvatures.assign(mesh_->n_sections(), 0.0);
-    at->rates.assign(mesh_->n_sections(), 0.0);
-  }
 }
 
 State StruckBeam::initial_state() const {
@@ -37,10 +39,18 @@ State StruckBeam::initial_state() const {
 }
 
 double StruckBeam::force(double indentation) const {
-  if (contact_evaluation_ == ContactEvaluation::switching) {
+  if (contact_evaluation_ == Evaluation::switching) {
     return contact_law_.force(contact_history_, indentation);
   }
   return contact_law_.branch_force(contact_branch_, contact_history_, indentation);
+}
+
+void StruckBeam::section_moments(std::span<const double> curvatures) {
+  if (section_evaluation_ == Evaluation::smooth) {
+    sections_.smooth_moments(curvatures, moments_);
+  } else {
+    sections_.moments(curvatures, moments_);
+  }
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {
@@ -48,7 +58,7 @@ void StruckBeam::acceleration(std::span<const double> positions, std::span<doubl
   const auto unknowns = positions.first(n_);
   const auto forces = result.first(n_);
   mesh_->curvatures(unknowns, curvatures_);
-  sections_.moments(curvatures_, moments_);
+  section_moments(curvatures_);
   mesh_->bending_forces(moments_, forces);
   const double contact = force(positions[n_] - mesh_->struck_point()(unknowns));
   mesh_->struck_point().add_to(forces, contact);
@@ -64,7 +74,7 @@ void StruckBeam::force(std::span<const double> positions, Part part, std::span<d
   } else {
     ++n_forces_;
     mesh_->curvatures(unknowns, curvatures_);
-    sections_.moments(curvatures_, moments_);
+    section_moments(curvatures_);
     mesh_->bending_forces(moments_, forces);
   }
   result[n_] = 0.0;
@@ -75,7 +85,7 @@ void StruckBeam::force(std::span<const double> positions, Part part, std::span<d
 }
 
 double StruckBeam::force_slope(double indentation) const {
-  const ContactBranch branch = contact_evaluation_ == ContactEvaluation::switching
+  const ContactBranch branch = contact_evaluation_ == Evaluation::switching
                                    ? contact_law_.branch(contact_history_, indentation)
                                    : contact_branch_;
   return contact_law_.branch_slope(branch, contact_history_, indentation);
@@ -88,7 +98,9 @@ void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
   if (part != Part::rest) {
     mesh_->curvatures(unknowns, curvatures_);
     for (std::size_t i = 0; i < moments_.size(); ++i) {
-      moments_[i] = sections_.tangent(i, curvatures_[i]);
+      moments_[i] = section_evaluation_ == Evaluation::smooth
+                        ? sections_.smooth_tangent(i, curvatures_[i])
+                        : sections_.tangent(i, curvatures_[i]);
     }
   }
   const double slope =
@@ -124,25 +136,26 @@ void StruckBeam::apply(const Guard& guard, const State& y) {
       contact_branch_ = ContactBranch::separated;
       break;
     case EventKind::section_reverses:
-      break;  // committing the curvature is all there is to it
+      break;  // see put_right
   }
 }
 
 bool StruckBeam::commit(const State& y) {
-  if (contact_branch_ == ContactBranch::plastic ||
-      contact_evaluation_ == ContactEvaluation::switching) {
+  if (contact_branch_ == ContactBranch::plastic || contact_evaluation_ == Evaluation::switching) {
     contact_history_ = contact_law_.commit(contact_history_, indentation(y));
   }
   if (!sections_.can_yield()) return false;
-  read_kinematics(y, start_);
-  return sections_.commit(start_.curvatures) > 0;
+  read_motion(y, start_);
+  return section_evaluation_ == Evaluation::smooth
+             ? sections_.commit(start_.curvatures, start_.rates) > 0
+             : sections_.commit(start_.curvatures) > 0;
 }
 
 void StruckBeam::follow_branch(const State& y) {
   contact_branch_ = contact_law_.branch(contact_history_, indentation(y));
 }
 
-void StruckBeam::read_kinematics(const State& y, Kinematics& at) const {
+void StruckBeam::read_motion(const State& y, SectionMotion& at) const {
   mesh_->curvatures(beam_positions(y), at.curvatures);
   mesh_->curvatures(beam_velocities(y), at.rates);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include "subimpact/events/records.h"
 #include "system/beam_jacobian.h"
 #include "system/second_order_ode.h"
+#include "system/section_kinks.h"
 
 namespace subimpact {
 
@@ -31,11 +33,10 @@ struct Energies {
   }
 };
 
-/// An event that may happen next: what, and at which section.
+/// An event that may happen next.
 struct Guard {
   EventKind kind;
-  std::size_t section = 0;
-  double sense = 1.0;  ///< of a section's flow; of the indentation's motion before contact_unloads
+  double sense = 1.0;  ///< of the indentation's motion before contact_unloads
 };
 
 /// A guard found to have been crossed within a step.
@@ -74,7 +75,7 @@ struct StepEnds {
 /// that do not locate events.
 class StruckBeam final : public MechanicalSystem {
  public:
-  enum class ContactEvaluation { smooth, switching };
+  enum class Evaluation { smooth, switching };
 
   StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
              std::unique_ptr<MassSolver> mass_solver);
@@ -103,7 +104,7 @@ class StruckBeam final : public MechanicalSystem {
   State initial_state() const;
 
   // --- contact -----------------------------------------------------------------------------------
-  void set_contact_evaluation(ContactEvaluation how) { contact_evaluation_ = how; }
+  void set_contact_evaluation(Evaluation how) { contact_evaluation_ = how; }
   /// Puts the contact into a state of its own, to start from one that is not at rest.
   void set_contact(ContactBranch branch, ContactHistory history) {
     contact_branch_ = branch;
@@ -120,25 +121,52 @@ class StruckBeam final : public MechanicalSystem {
   double contact_force(const State& y) const;
 
   // --- events ------------------------------------------------------------------------------------
-  /// The earliest crossing within a step that began at the last committed state, if any: the end of
-  /// the contact's branch (also when it may be left and regained within the step: `in_doubt`), or a
-  /// section that flowed and turned back by more than `reversal_tolerance` (1/m of curvature;
-  /// infinite: reversals are not looked for). Earliest by estimate; those in `without` are left
-  /// out.
-  bool find_crossing(const StepEnds& step, double reversal_tolerance, const GuardList& without,
-                     Crossing& earliest);
+  /// The earliest end of the contact's branch within a step that began at the last committed state,
+  /// if any; also when the branch may be left and regained within the step (`in_doubt`). Earliest
+  /// by estimate; those in `without` are left out.
+  bool find_crossing(const StepEnds& step, const GuardList& without, Crossing& earliest);
   /// Whether a branch left and regained within one step is looked for; off only to show what is
   /// then missed.
   void set_pair_detection(bool on) { pair_detection_ = on; }
   /// By how much a guard must be crossed within a step that ends at y, and held again at its end,
   /// to count (m): less is below the rounding of the displacements.
   double negligible_excursion(const State& y) const;
-  /// A guard's value and rate at a state; costs an acceleration for the guards on a rate.
+  /// A guard's value and rate at a state; costs an acceleration for contact_unloads.
   GuardValue evaluate(const Guard& guard, const State& y);
   /// Takes an event as having happened at y: switches the contact's branch. Call after commit(y).
   void apply(const Guard& guard, const State& y);
-  /// The quantity recorded with an event: indentation or curvature.
-  double event_value(const Guard& guard, const State& y);
+  // --- sections ----------------------------------------------------------------------------------
+  void set_section_evaluation(Evaluation how) { section_evaluation_ = how; }
+  /// Finds the sections that left their smooth pieces within a step that began at the last
+  /// committed state, and the beam's answer to that: with A = Mass^-1 B^T W (dM/dkappa) B and
+  /// a_k = Mass^-1 (-B^T W) amount_k,
+  ///
+  ///     change of w' = a_0 + A a_2,   change of w = a_1 + A a_3,
+  ///
+  /// the first terms of its expansion in the time since the first kink. Returns the step's end if
+  /// the next term is below `tolerance` (root mean square of velocities, m/s), else an earlier time
+  /// at which to end the step. Costs two accelerations and four mass solves if there are kinks.
+  double find_section_kinks(const StepEnds& step, double tolerance);
+  /// What the last search found.
+  const std::vector<SectionKink>& section_kinks() const { return kinks_.kinks(); }
+  /// Adds to y, the end of the step searched last, what the kinks found would have done, and takes
+  /// the sections that turned as having done so.
+  void put_right(State& y);
+
+  /// Looks at a state y that the method gives for a time t within the step: calls look(y) with y
+  /// and the sections that turned put right as if the step ended there, and all else as it was.
+  template <class Look>
+  void look_within(const StepEnds& step, double t, State& y, Look look) {
+    find_section_kinks({step.t0, t, step.y0, y}, std::numeric_limits<double>::infinity());
+    std::vector<SectionField::Memory> before;
+    for (const SectionKink& kink : section_kinks()) {
+      if (kink.turn) before.push_back(sections_.memory(kink.section));
+    }
+    put_right(y);
+    look(y);
+    for (const SectionField::Memory& memory : before) sections_.restore(memory);
+    find_section_kinks(step, std::numeric_limits<double>::infinity());
+  }
 
   /// Takes y as reached: advances the memory of contact and sections. Returns whether any section
   /// flowed.
@@ -172,11 +200,7 @@ class StruckBeam final : public MechanicalSystem {
   std::span<const double> beam_velocities(const State& y) const { return {y.data() + n_ + 1, n_}; }
   double force(double indentation) const;
   double force_slope(double indentation) const;
-  bool find_contact_crossing(const StepEnds& step, const GuardList& without, Crossing& earliest);
-  bool find_reversal(const StepEnds& step, double tolerance, const GuardList& without,
-                     Crossing& earliest);
   GuardValue contact_guard(EventKind kind, double indentation, double rate) const;
-  double curvature(const Guard& guard, std::span<const double> unknowns);
 
   std::unique_ptr<BeamMesh> mesh_;
   SectionField sections_;
@@ -185,25 +209,33 @@ class StruckBeam final : public MechanicalSystem {
   std::size_t n_;
   double striker_mass_;
   double striker_velocity_;
-  double stress_reach_;  // E h/2
+  double stress_reach_;       // E h/2
+  double highest_frequency_;  // rad/s
   Scales scales_;
 
-  ContactEvaluation contact_evaluation_ = ContactEvaluation::smooth;
+  Evaluation contact_evaluation_ = Evaluation::smooth;
   bool pair_detection_ = true;
   ContactBranch contact_branch_ = ContactBranch::separated;
   ContactHistory contact_history_;
 
+  Evaluation section_evaluation_ = Evaluation::switching;
+  void section_moments(std::span<const double> curvatures);
   BeamJacobian& jacobian() const;
   mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first asks
   long n_accelerations_ = 0;
   long n_forces_ = 0;
   std::vector<double> curvatures_, moments_;  // of the last evaluation
-  std::vector<double> trial_;                 // accelerations for guards on rates
-  struct Kinematics {
-    std::vector<double> curvatures, rates;
-  };
-  void read_kinematics(const State& y, Kinematics& at) const;
-  Kinematics start_, end_;  // of the step being looked at; start_ is that of the last commit
+  std::vector<double> trial_;                 // accelerations
+  void read_motion(const State& y, SectionMotion& at) const;
+  void read_higher_rates(const State& y, SectionMotion& at);
+  // moments_ = tangents of the smooth pieces, taken at `curvatures`, times changes of curvature.
+  void linear_moments(std::span<const double> changes, std::span<const double> curvatures);
+  // a_order, and A a_order added to `change`; the latter's root mean square.
+  void answer_to_kinks(std::size_t order, std::vector<double>& answer);
+  double add_stiffness_term(std::size_t order, std::vector<double>& change);
+  SectionMotion start_, end_;  // of the step being looked at; start_ is that of the last commit
+  SectionKinks kinks_;
+  std::vector<double> velocity_change_, position_change_, answer_;
 };
 
 }  // namespace subimpact

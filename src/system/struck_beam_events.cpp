@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "events/hermite.h"
-#include "model/lanes.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {
@@ -15,10 +14,9 @@ namespace {
 // of it; a hump that comes closer to zero is looked at on the trajectory.
 constexpr double doubtful_share = 0.5;
 
-bool contains(const GuardList& guards, EventKind kind, std::size_t section) {
-  return std::any_of(guards.begin(), guards.end(), [&](const Guard& guard) {
-    return guard.kind == kind && guard.section == section;
-  });
+bool contains(const GuardList& guards, EventKind kind) {
+  return std::any_of(guards.begin(), guards.end(),
+                     [&](const Guard& guard) { return guard.kind == kind; });
 }
 
 }  // namespace
@@ -36,11 +34,6 @@ GuardValue StruckBeam::contact_guard(EventKind kind, double indentation, double 
   }
 }
 
-double StruckBeam::curvature(const Guard& guard, std::span<const double> unknowns) {
-  mesh_->curvatures(unknowns, curvatures_);
-  return curvatures_[guard.section];
-}
-
 double StruckBeam::negligible_excursion(const State& y) const {
   const double size = std::abs(y[n_]) + std::abs(mesh_->struck_point()(beam_positions(y)));
   return 8.0 * std::numeric_limits<double>::epsilon() * size;
@@ -52,34 +45,18 @@ GuardValue StruckBeam::evaluate(const Guard& guard, const State& y) {
     const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
     return {-guard.sense * indentation_rate(y), -guard.sense * second};
   }
-  if (guard.kind == EventKind::section_reverses) {
-    acceleration({y.data(), n_ + 1}, trial_);
-    const double second = curvature(guard, {trial_.data(), n_});
-    const double rate = curvature(guard, beam_velocities(y));
-    return {-guard.sense * rate, -guard.sense * second};
-  }
   return contact_guard(guard.kind, indentation(y), indentation_rate(y));
 }
 
-bool StruckBeam::find_crossing(const StepEnds& step, double reversal_tolerance,
-                               const GuardList& without, Crossing& earliest) {
+bool StruckBeam::find_crossing(const StepEnds& step, const GuardList& without, Crossing& earliest) {
   earliest.guess = std::numeric_limits<double>::infinity();
-  bool found = find_contact_crossing(step, without, earliest);
-  if (sections_.can_yield() && std::isfinite(reversal_tolerance)) {
-    found = find_reversal(step, reversal_tolerance, without, earliest) || found;
-  }
-  return found;
-}
-
-bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& without,
-                                       Crossing& earliest) {
   const double lambda0 = indentation(step.y0);
   const double lambda1 = indentation(step.y1);
   const double rate0 = indentation_rate(step.y0);
   const double rate1 = indentation_rate(step.y1);
   bool found = false;
   const auto consider = [&](EventKind kind) {
-    if (contains(without, kind, 0)) return;
+    if (contains(without, kind)) return;
     const GuardValue g0 = contact_guard(kind, lambda0, rate0);
     const GuardValue g1 = contact_guard(kind, lambda1, rate1);
     double after = 0.0;
@@ -137,63 +114,8 @@ bool StruckBeam::find_contact_crossing(const StepEnds& step, const GuardList& wi
   return found;
 }
 
-bool StruckBeam::find_reversal(const StepEnds& step, double tolerance, const GuardList& without,
-                               Crossing& earliest) {
-  read_kinematics(step.y1, end_);
-  const double h = step.length();
-  const double* k0 = start_.curvatures.data();
-  const double* k1 = end_.curvatures.data();
-  const double* r0 = start_.rates.data();
-  const double* r1 = end_.rates.data();
-  const double* low = sections_.window_low().data();
-  const double* high = sections_.window_high().data();
-  bool found = false;
-  const auto consider = [&](std::size_t i) {
-    const double sense = r0[i] > 0.0 ? 1.0 : -1.0;
-    if (contains(without, EventKind::section_reverses, i)) return;
-    const HermiteCubic path(sense * k0[i], sense * r0[i], sense * k1[i], sense * r1[i], h);
-    const double at = path.peak();
-    const double edge = sense > 0.0 ? high[i] : -low[i];
-    if (path(at) - std::max(edge, sense * k1[i]) <= tolerance) return;
-    const double guess = step.t0 + at * h;
-    if (guess < earliest.guess) {
-      earliest = {{EventKind::section_reverses, i, sense}, step.t0, step.t1, guess};
-      found = true;
-    }
-  };
-  // A cubic exceeds its ends by at most 4/27 of the step times each end's rate.
-  const double reach = 4.0 / 27.0 * h;
-  for_each_found(
-      sections_.size(),
-      [=](std::size_t i) {
-        const Lanes start = lanes_at(r0 + i);
-        const Lanes end = lanes_at(r1 + i);
-        const Lanes up = start > 0.0 ? start : -start;
-        const Lanes down = end > 0.0 ? end : -end;
-        const Lanes margin = reach * (up + down);
-        const Lanes a = lanes_at(k0 + i);
-        const Lanes b = lanes_at(k1 + i);
-        const Lanes upper = a > b ? a : b;
-        const Lanes lower = a > b ? b : a;
-        return (start * end < 0.0) &
-               ((upper + margin > lanes_at(high + i)) | (lower - margin < lanes_at(low + i)));
-      },
-      [=](std::size_t i) {
-        const double margin = reach * (std::abs(r0[i]) + std::abs(r1[i]));
-        return r0[i] * r1[i] < 0.0 && (std::max(k0[i], k1[i]) + margin > high[i] ||
-                                       std::min(k0[i], k1[i]) - margin < low[i]);
-      },
-      consider);
-  return found;
-}
-
-double StruckBeam::event_value(const Guard& guard, const State& y) {
-  return guard.kind == EventKind::section_reverses ? curvature(guard, beam_positions(y))
-                                                   : indentation(y);
-}
-
 std::optional<double> StruckBeam::first_flow(const StepEnds& step) {
-  read_kinematics(step.y1, end_);
+  read_motion(step.y1, end_);
   std::optional<double> first;
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     const double high = sections_.window_high()[i];

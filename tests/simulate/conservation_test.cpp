@@ -10,14 +10,14 @@
 namespace subimpact {
 namespace {
 
-// Audits every accepted step.
+// Audits every accepted state: the start of every step, and both sides of every event.
 class Audit final : public RunObserver {
  public:
   Audit(StruckBeam& beam, const State& initial)
       : energy_(beam.energies(initial).total()), momentum_(beam.momentum(initial)) {}
 
   void on_step(const StepEnds& step, StruckBeam& beam, Integrator&) override {
-    look_at(step.y1, beam);
+    look_at(step.y0, beam);
     ++steps;
   }
   void before_event(const Transition&, const State& y, StruckBeam& beam) override {
@@ -51,12 +51,7 @@ Audit audited(const Case& input) {
   const Used used = describe(input, beam);
   const auto integrator = make_integrator(input, used, beam);
   Audit audit(beam, beam.initial_state());
-  LoopOptions options;
-  options.end_time = input.end_time;
-  options.events = used.events;
-  options.reversal_tolerance = input.solver.rtol * used.yield_curvature;
-  options.largest_indentation = input.scene.beam.thickness;
-  EventLoop loop(beam, *integrator, audit, options);
+  EventLoop loop(beam, *integrator, audit, loop_options(input, used));
   loop.start();
   while (!loop.finished()) loop.advance();
   printf("%ld steps: energy %.1e, momentum %.1e, dissipation falls by %.1e J at most\n",

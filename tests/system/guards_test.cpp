@@ -3,14 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "beam_under_test.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unit = 1.56337e-5;  // yield indentation
 
 TEST(Guards, RatesAreThoseOfTheirValuesAlongTheFlow) {
@@ -20,14 +18,13 @@ TEST(Guards, RatesAreThoseOfTheirValuesAlongTheFlow) {
   } guards[] = {{EventKind::contact_begins, ContactBranch::separated},
                 {EventKind::contact_ends, ContactBranch::elastic},
                 {EventKind::contact_yields, ContactBranch::elastic},
-                {EventKind::contact_unloads, ContactBranch::plastic},
-                {EventKind::section_reverses, ContactBranch::elastic}};
+                {EventKind::contact_unloads, ContactBranch::plastic}};
   for (const Model& model : models()) {
     for (const auto& [kind, branch] : guards) {
       for (const double sense : {1.0, -1.0}) {
         StruckBeam beam = make_beam(model);
         enter(beam, branch, 2.0 * unit);
-        const Guard guard{kind, beam.mesh().n_sections() / 3, sense};
+        const Guard guard{kind, sense};
         const State y = smooth_state(beam, 5, 2.0, 3.0 * unit, 4.0);
         const double h = 1e-9;
         const GuardValue at = beam.evaluate(guard, y);
@@ -69,7 +66,7 @@ class ContactCrossing : public testing::Test {
     y0_ = state(lambda0, rate0);
     y1_ = state(lambda1, rate1);
     beam_.commit(y0_);
-    return beam_.find_crossing({2.0, 2.0 + step_, y0_, y1_}, infinity, without, crossing_);
+    return beam_.find_crossing({2.0, 2.0 + step_, y0_, y1_}, without, crossing_);
   }
   // Where the striker's motion, uniform in time, is a part of the step.
   double part() const { return (crossing_.guess - 2.0) / step_; }
@@ -153,29 +150,6 @@ TEST_F(ContactCrossing, EventsSwitchTheBranchTheySpeakOf) {
   beam_.apply({EventKind::contact_ends}, y);
   EXPECT_EQ(beam_.contact_branch(), ContactBranch::separated);
   EXPECT_FALSE(beam_.in_contact());
-}
-
-TEST(SectionCrossing, AFlowingSectionThatTurnsWithinTheStepIsFound) {
-  StruckBeam beam = make_beam(models()[1]);
-  enter(beam, ContactBranch::separated, 0.0);
-  const std::size_t n = beam.n_positions() - 1;
-  // Bending 1.5 to 1.5 yield curvatures, rates 4 and -4 of them a step: peak 1 higher, half way.
-  const double step = 1e-6;
-  State y0 = smooth_state(beam, 6, 1.5, -1e-4, 0.0);
-  for (std::size_t i = 0; i <= n; ++i) y0[n + 1 + i] = 4.0 / 1.5 * y0[i] / step;
-  State y1 = y0;
-  for (std::size_t i = n + 1; i < y1.size(); ++i) y1[i] = -y1[i];
-  beam.commit(y0);
-  Crossing crossing;
-  const double kappa_y = paper_beam().yield_curvature();
-  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, infinity, {}, crossing));
-  EXPECT_FALSE(beam.find_crossing({0.0, step, y0, y1}, 2.0 * kappa_y, {}, crossing));
-  ASSERT_TRUE(beam.find_crossing({0.0, step, y0, y1}, 1e-6 * kappa_y, {}, crossing));
-  EXPECT_EQ(crossing.guard.kind, EventKind::section_reverses);
-  EXPECT_NEAR(crossing.guess, 0.5 * step, 1e-6 * step);
-  // The section named did flow outwards: its guard is negative at the start.
-  EXPECT_LT(beam.evaluate(crossing.guard, y0).value, 0.0);
-  EXPECT_GT(beam.evaluate(crossing.guard, y1).value, 0.0);
 }
 
 TEST(SectionCrossing, FirstFlowIsWhenTheFirstSectionLeavesItsWindow) {

@@ -163,7 +163,7 @@ TEST(StruckBeam, SmoothContactGoesOnWhereSwitchingContactLetsGo) {
   const double force = beam.contact_force(inside);
   EXPECT_GT(force, 0.0);
   EXPECT_LT(beam.contact_force(apart), 0.0);
-  beam.set_contact_evaluation(StruckBeam::ContactEvaluation::switching);
+  beam.set_contact_evaluation(StruckBeam::Evaluation::switching);
   EXPECT_EQ(beam.contact_force(inside), force);
   EXPECT_EQ(beam.contact_force(apart), 0.0);
 }

@@ -51,7 +51,7 @@ enum class EventHandling {
 };
 
 enum class ReversalHandling {
-  located,  ///< a flowing section's turn ends the step
+  located,  ///< where sections begin to flow or turn is found, and the step's end put right
   step_end  ///< history advances at step ends only
 };
 
