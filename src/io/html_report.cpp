@@ -90,12 +90,13 @@ void add_figures(Page& page, const DrawnFigures& figures,
 void add_table(Page& page, const Result& result) {
   page.heading("Sub-impacts");
   const bool with_errors = result.trust.has_value();
-  page.add("<div class=\"wide\"><table><thead><tr><th>no.</th><th>start<small>µs</small></th>"
-           "<th>end<small>µs</small></th><th>duration<small>µs</small></th>"
-           "<th>peak force<small>N</small></th><th>impulse<small>mN s</small></th>"
-           "<th>indentation<small>max, mm</small></th><th>residual<small>mm</small></th>"
-           "<th>striker<small>m/s</small></th>{}</tr></thead><tbody>",
-           with_errors ? "<th>± start<small>µs</small></th><th>± end<small>µs</small></th>" : "");
+  page.add(
+      "<div class=\"wide\"><table><thead><tr><th>no.</th><th>start<small>µs</small></th>"
+      "<th>end<small>µs</small></th><th>duration<small>µs</small></th>"
+      "<th>peak force<small>N</small></th><th>impulse<small>mN s</small></th>"
+      "<th>indentation<small>max, mm</small></th><th>residual<small>mm</small></th>"
+      "<th>striker<small>m/s</small></th>{}</tr></thead><tbody>",
+      with_errors ? "<th>± start<small>µs</small></th><th>± end<small>µs</small></th>" : "");
   const auto error = [](const std::optional<double>& e) {
     return e ? fmt::format("<td>{:.1e}</td>", 1e6 * *e) : std::string("<td>?</td>");
   };
@@ -108,13 +109,13 @@ void add_table(Page& page, const Result& result) {
       zone = s.zone;
       subzone = s.subzone;
     }
-    page.add("<tr><td>{}</td><td>{:.4f}</td><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.4f}</td>"
-             "<td>{:.6f}</td><td>{:.6f}</td><td>{:.5f}</td>{}</tr>",
-             ++index, 1e6 * s.start, s.end ? fmt::format("{:.4f}", 1e6 * *s.end) : "(open)",
-             s.end ? fmt::format("{:.4f}", 1e6 * (*s.end - s.start)) : "", s.peak_force,
-             1e3 * s.impulse, 1e3 * s.max_indentation, 1e3 * s.residual_indentation,
-             s.striker_velocity,
-             with_errors ? error(s.start_error) + error(s.end_error) : std::string());
+    page.add(
+        "<tr><td>{}</td><td>{:.4f}</td><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.4f}</td>"
+        "<td>{:.6f}</td><td>{:.6f}</td><td>{:.5f}</td>{}</tr>",
+        ++index, 1e6 * s.start, s.end ? fmt::format("{:.4f}", 1e6 * *s.end) : "(open)",
+        s.end ? fmt::format("{:.4f}", 1e6 * (*s.end - s.start)) : "", s.peak_force, 1e3 * s.impulse,
+        1e3 * s.max_indentation, 1e3 * s.residual_indentation, s.striker_velocity,
+        with_errors ? error(s.start_error) + error(s.end_error) : std::string());
   }
   page.add("</tbody></table></div>");
 }
@@ -154,41 +155,44 @@ void add_method(Page& page, const FinishedRun& run) {
 void add_trust(Page& page, const Result& result) {
   page.heading("Error bars");
   if (!result.trust) {
-    page.add("<p>None were asked for; <code>subimpact run --error-bars</code> states the error of "
-             "every start and end.</p>");
+    page.add(
+        "<p>None were asked for; <code>subimpact run --error-bars</code> states the error of "
+        "every start and end.</p>");
     return;
   }
   const Trust& trust = *result.trust;
-  page.add("<p>By comparison with a companion run ({}): {}</p>", escaped(trust.companion),
-           trust.first_undecided
-               ? fmt::format("times before sub-impact {} are good to {:.1e} µs; from there on count "
-                             "and order are uncertain: {}.",
-                             *trust.first_undecided + 1, 1e6 * trust.largest_error,
-                             escaped(trust.reason))
-               : fmt::format("all times are good to {:.1e} µs. This is the error of the integration "
-                             "in time; that of the mesh is not in it.",
-                             1e6 * trust.largest_error));
+  page.add(
+      "<p>By comparison with a companion run ({}): {}</p>", escaped(trust.companion),
+      trust.first_undecided
+          ? fmt::format("times before sub-impact {} are good to {:.1e} µs; from there on count "
+                        "and order are uncertain: {}.",
+                        *trust.first_undecided + 1, 1e6 * trust.largest_error,
+                        escaped(trust.reason))
+          : fmt::format("all times are good to {:.1e} µs. This is the error of the integration "
+                        "in time; that of the mesh is not in it.",
+                        1e6 * trust.largest_error));
 }
 
 void add_conservation(Page& page, const Result& result) {
   page.heading("Conservation");
-  page.add("<p>Of the initial {:.6g} J nothing is lost or made up beyond {:.1e} of it at any row. {}"
-           "</p>",
-           result.used.initial_energy, result.max_energy_error,
-           result.max_momentum_error
-               ? fmt::format("Total momentum is kept to {:.1e} of its value.",
-                             *result.max_momentum_error)
-               : std::string("Momentum is taken up by the supports."));
+  page.add(
+      "<p>Of the initial {:.6g} J nothing is lost or made up beyond {:.1e} of it at any row. {}"
+      "</p>",
+      result.used.initial_energy, result.max_energy_error,
+      result.max_momentum_error ? fmt::format("Total momentum is kept to {:.1e} of its value.",
+                                              *result.max_momentum_error)
+                                : std::string("Momentum is taken up by the supports."));
   if (result.history.empty()) return;
   const HistoryRow& last = result.history.back();
-  page.add("<table><thead><tr><th>at {}<small>J</small></th><th>striker<small>kinetic</small></th>"
-           "<th>beam<small>kinetic</small></th><th>bending<small>elastic</small></th>"
-           "<th>bending<small>plastic</small></th><th>contact<small>elastic</small></th>"
-           "<th>contact<small>plastic</small></th></tr></thead><tbody><tr><td></td>"
-           "<td>{:.5g}</td><td>{:.5g}</td><td>{:.5g}</td><td>{:.5g}</td><td>{:.5g}</td>"
-           "<td>{:.5g}</td></tr></tbody></table>",
-           escaped(duration_text(last.time)), last.striker_energy, last.beam_kinetic_energy,
-           last.bending_elastic, last.bending_plastic, last.contact_elastic, last.contact_plastic);
+  page.add(
+      "<table><thead><tr><th>at {}<small>J</small></th><th>striker<small>kinetic</small></th>"
+      "<th>beam<small>kinetic</small></th><th>bending<small>elastic</small></th>"
+      "<th>bending<small>plastic</small></th><th>contact<small>elastic</small></th>"
+      "<th>contact<small>plastic</small></th></tr></thead><tbody><tr><td></td>"
+      "<td>{:.5g}</td><td>{:.5g}</td><td>{:.5g}</td><td>{:.5g}</td><td>{:.5g}</td>"
+      "<td>{:.5g}</td></tr></tbody></table>",
+      escaped(duration_text(last.time)), last.striker_energy, last.beam_kinetic_energy,
+      last.bending_elastic, last.bending_plastic, last.contact_elastic, last.contact_plastic);
 }
 
 }  // namespace
@@ -203,11 +207,11 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   page.add("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>");
   page.add("<title>{}</title><style>{}</style></head><body>", title, style);
   page.add("<h1>{}</h1>", title);
-  page.add("<p class=\"sub\">A beam of {:.4g} kg struck by {:.4g} kg at {:.4g} m/s; outcome: {} at "
-           "{}.</p>",
-           run.input.scene.beam.mass(), run.input.scene.striker.mass,
-           run.input.scene.striker.velocity, to_string(result.outcome.kind),
-           escaped(duration_text(result.outcome.time)));
+  page.add(
+      "<p class=\"sub\">A beam of {:.4g} kg struck by {:.4g} kg at {:.4g} m/s; outcome: {} at "
+      "{}.</p>",
+      run.input.scene.beam.mass(), run.input.scene.striker.mass, run.input.scene.striker.velocity,
+      to_string(result.outcome.kind), escaped(duration_text(result.outcome.time)));
   add_tiles(page, result);
   page.heading("In words");
   for (const std::string& paragraph : strike_words(run.input, result)) {
@@ -220,7 +224,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   add_trust(page, result);
   add_conservation(page, result);
   std::string libraries;
-  for (const auto& [name, version] : run.libraries) libraries += fmt::format(", {} {}", name, version);
+  for (const auto& [name, version] : run.libraries)
+    libraries += fmt::format(", {} {}", name, version);
   page.add("<p class=\"sub\">subimpact {}{}</p>", escaped(run.program_version), escaped(libraries));
   page.add("</body></html>");
   return page.str();

@@ -30,17 +30,17 @@ std::string sub_impact_words(const Result& result) {
   std::string text = fmt::format("What looks like one blow is {} in {}",
                                  counted(hits.size(), "sub-impact"), counted(zones.size(), "zone"));
   if (hits.size() == 1) text = "The strike is a single contact";
-  text += hits.back().end ? fmt::format("; the last separation comes at {}. ",
-                                        duration_text(*hits.back().end))
-                          : "; the run ended while the bodies still touched. ";
+  text += hits.back().end
+              ? fmt::format("; the last separation comes at {}. ", duration_text(*hits.back().end))
+              : "; the run ended while the bodies still touched. ";
   if (hits.size() > 1) {
     for (std::size_t k = 0; k < zones.size(); ++k) {
       const ZoneSummary& zone = zones[k];
-      text += fmt::format(
-          "Zone {}, {} to {}, holds {} in {}. ", zone.zone, duration_text(zone.start),
-          zone.end ? duration_text(*zone.end) : "the end of the run",
-          counted(static_cast<std::size_t>(zone.n_sub_impacts), "sub-impact"),
-          counted(static_cast<std::size_t>(zone.n_subzones), "sub-zone"));
+      text +=
+          fmt::format("Zone {}, {} to {}, holds {} in {}. ", zone.zone, duration_text(zone.start),
+                      zone.end ? duration_text(*zone.end) : "the end of the run",
+                      counted(static_cast<std::size_t>(zone.n_sub_impacts), "sub-impact"),
+                      counted(static_cast<std::size_t>(zone.n_subzones), "sub-zone"));
       if (k + 1 < zones.size() && zone.end) {
         text += fmt::format("Then the bodies are apart for {}. ",
                             duration_text(zones[k + 1].start - *zone.end));
@@ -75,11 +75,11 @@ std::string yield_words(const Case& input, const Result& result) {
     text += "The contact stays elastic. ";
   }
   if (result.first_section_yield) {
-    text += fmt::format("A fibre of the beam first yields after {}; by the end {} of {} sections "
-                        "{}have yielded.",
-                        duration_text(*result.first_section_yield), result.n_yielded_sections,
-                        result.used.n_sections,
-                        result.used.half_model ? "(of the half that is modelled) " : "");
+    text += fmt::format(
+        "A fibre of the beam first yields after {}; by the end {} of {} sections "
+        "{}have yielded.",
+        duration_text(*result.first_section_yield), result.n_yielded_sections,
+        result.used.n_sections, result.used.half_model ? "(of the half that is modelled) " : "");
   } else {
     text += input.model.section == SectionKind::elastic
                 ? "The beam's sections are modelled as elastic."
@@ -91,22 +91,24 @@ std::string yield_words(const Case& input, const Result& result) {
 std::string striker_words(const Result& result, const StrikeAccount& account) {
   const double first = result.history.front().striker_energy;
   std::string text =
-      fmt::format("The striker enters with {:.4g} J and leaves with {:.4g} J at {:.4g} m/s. ", first,
-                  first - account.striker_loss, result.striker_velocity);
+      fmt::format("The striker enters with {:.4g} J and leaves with {:.4g} J at {:.4g} m/s. ",
+                  first, first - account.striker_loss, result.striker_velocity);
   if (account.striker_gain <= negligible_gain * first) {
     text += "At no time does it gain energy: measured by the striker there is no recovery.";
   } else {
-    text += fmt::format("It gains energy at times, up to {:.3g} J above an earlier value: measured "
-                        "by the striker there is a recovery.",
-                        account.striker_gain);
+    text += fmt::format(
+        "It gains energy at times, up to {:.3g} J above an earlier value: measured "
+        "by the striker there is a recovery.",
+        account.striker_gain);
   }
   return text;
 }
 
 // "rises from 1.01 J to 3.34 J".
 std::string change_words(const StrikePart& part) {
-  return fmt::format("{} from {:.3g} J to {:.3g} J", part.elastic_change() > 0.0 ? "rises" : "falls",
-                     part.elastic_start, part.elastic_end);
+  return fmt::format("{} from {:.3g} J to {:.3g} J",
+                     part.elastic_change() > 0.0 ? "rises" : "falls", part.elastic_start,
+                     part.elastic_end);
 }
 
 std::string part_name(const StrikePart& part) {
@@ -156,10 +158,10 @@ std::string recovery_words(const StrikeAccount& account) {
     }
     text += ". ";
   }
-  text += fmt::format("Its largest value, {:.3g} J, is reached at {}; what follows is recovery, down "
-                      "to {:.3g} J at the last separation.",
-                      account.largest_elastic, duration_text(account.largest_elastic_at),
-                      account.elastic_at_end);
+  text += fmt::format(
+      "Its largest value, {:.3g} J, is reached at {}; what follows is recovery, down "
+      "to {:.3g} J at the last separation.",
+      account.largest_elastic, duration_text(account.largest_elastic_at), account.elastic_at_end);
   return text;
 }
 

@@ -29,8 +29,7 @@ Quadrature gauss(std::size_t n) {
       const double inner = std::sqrt((3.0 - 2.0 * root) / 7.0);
       const double outer = std::sqrt((3.0 + 2.0 * root) / 7.0);
       const double part = std::sqrt(30.0) / 72.0;
-      return {{-outer, -inner, inner, outer},
-              {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part}};
+      return {{-outer, -inner, inner, outer}, {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part}};
     }
     default:
       throw std::invalid_argument("hermite mesh: 2, 3 or 4 sections an element");
@@ -73,8 +72,7 @@ Eigen::Matrix4d element_mass(double a, double h, double mass_per_length, double 
 
 HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
                          std::size_t sections_per_element, Extent extent)
-    : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 3,
-               extent == Extent::half),
+    : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 3, extent == Extent::half),
       n_elements_whole_(n_elements),
       n_elements_(symmetric() ? n_elements / 2 : n_elements),
       slope_unit_(beam.length / static_cast<double>(n_elements)),
@@ -93,7 +91,8 @@ HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elemen
   const auto add_run = [&](std::size_t first, std::size_t end, double length) {
     if (first == end) return;
     const double a = length / static_cast<double>(end - first);
-    runs_.push_back({first, end, a, 1.0 / (a * slope_unit_), 6.0 / (a * a), 3.0 / (a * slope_unit_)});
+    runs_.push_back(
+        {first, end, a, 1.0 / (a * slope_unit_), 6.0 / (a * a), 3.0 / (a * slope_unit_)});
   };
   std::size_t struck_node = n_elements_;
   if (symmetric()) {
@@ -113,7 +112,8 @@ HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elemen
   beam_mass_ = beam.mass();
   if (beam.is_free()) {
     translation_.assign(n_unknowns(), 0.0);
-    for (std::size_t node = 0; node <= n_elements_; ++node) translation_[unknown(node, false)] = 1.0;
+    for (std::size_t node = 0; node <= n_elements_; ++node)
+      translation_[unknown(node, false)] = 1.0;
   }
   assemble_mass();
   place_sections();
@@ -323,8 +323,8 @@ double HermiteMesh::highest_element_frequency_squared(double bending_stiffness) 
     }
     const Eigen::Matrix4d mass =
         element_mass(run.length, slope_unit_, mass_per_length_, rotary_inertia_);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix4d> solver(
-        stiffness, mass, Eigen::EigenvaluesOnly);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix4d> solver(stiffness, mass,
+                                                                           Eigen::EigenvaluesOnly);
     highest = std::max(highest, solver.eigenvalues()(3));
   }
   return highest;

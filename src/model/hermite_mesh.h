@@ -46,11 +46,11 @@ class HermiteMesh final : public BeamMesh {
  private:
   // Equal elements in a row, and the factors of their curvature.
   struct Run {
-    std::size_t first, end;  // elements
-    double length;           // a, m
-    double mean;             // of the difference of slopes: 1/(a h)
-    double of_displacements; // 6/a^2
-    double of_slopes;        // 3/(a h)
+    std::size_t first, end;   // elements
+    double length;            // a, m
+    double mean;              // of the difference of slopes: 1/(a h)
+    double of_displacements;  // 6/a^2
+    double of_slopes;         // 3/(a h)
   };
   // The four unknowns of an element, w_0, h t_0, w_1, h t_1.
   using Local = std::array<double, 4>;

@@ -85,8 +85,8 @@ std::optional<StrikeAccount> account_of(const Result& result) {
     lowest = std::min(lowest, row.striker_energy);
     account.striker_gain = std::max(account.striker_gain, row.striker_energy - lowest);
   }
-  account.striker_loss = result.history.front().striker_energy -
-                         row_at(result, account.strike_end).striker_energy;
+  account.striker_loss =
+      result.history.front().striker_energy - row_at(result, account.strike_end).striker_energy;
   return account;
 }
 

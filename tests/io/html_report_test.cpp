@@ -64,7 +64,8 @@ std::string xml_problem(const std::string& page) {
       if (quote != 0) {
         if (page[end] == quote) quote = 0;
       } else if (page[end] == '"' || page[end] == '\'') {
-        if (page[page.find_last_not_of(' ', end - 1)] != '=') return "a quote out of place in " + page.substr(at, 60);
+        if (page[page.find_last_not_of(' ', end - 1)] != '=')
+          return "a quote out of place in " + page.substr(at, 60);
         quote = page[end];
       } else if (page[end] == '<') {
         return "< within " + page.substr(at, 60);
@@ -92,9 +93,9 @@ std::string xml_problem(const std::string& page) {
 
 TEST(XmlProblem, IsFoundWhereThereIsOne) {
   EXPECT_EQ(xml_problem("<!DOCTYPE html><a b=\"c\"><d/>&amp;</a>"), "");
-  for (const char* spoilt : {"<!DOCTYPE html><a><b></a>", "<!DOCTYPE html><a>x & y</a>",
-                             "<!DOCTYPE html><a>x < y</a>", "<!DOCTYPE html><a>",
-                             "<!DOCTYPE html><a id=\"x\"><b id='x'/></a>"}) {
+  for (const char* spoilt :
+       {"<!DOCTYPE html><a><b></a>", "<!DOCTYPE html><a>x & y</a>", "<!DOCTYPE html><a>x < y</a>",
+        "<!DOCTYPE html><a>", "<!DOCTYPE html><a id=\"x\"><b id='x'/></a>"}) {
     EXPECT_NE(xml_problem(spoilt), "") << spoilt;
   }
 }
@@ -151,9 +152,9 @@ TEST(StrikeWords, TellZonesYieldsTheStrikersLossAndTheBeamsRecovery) {
 
 TEST(StrikeWords, OfAnElasticReboundSayThatTheStrikerGains) {
   // A light ball on a heavy rigid body comes back: compression and recovery in one contact.
-  const FinishedRun run = small_run({parse_override("model.mesh=rigid"),
-                                     parse_override("beam.yield_stress=inf"),
-                                     parse_override("striker.mass=0.01")});
+  const FinishedRun run =
+      small_run({parse_override("model.mesh=rigid"), parse_override("beam.yield_stress=inf"),
+                 parse_override("striker.mass=0.01")});
   const auto account = account_of(run.result);
   ASSERT_TRUE(account);
   EXPECT_GT(account->striker_gain, 0.5 * run.result.used.initial_energy);

@@ -197,15 +197,15 @@ TEST(HermiteMesh, HasMassMomentumAndRotaryInertiaOfTheBeam) {
     // Elements of two lengths: 2 over 0.3 l, 6 over 0.7 l.
     std::vector<double> nodes;
     for (std::size_t i = 0; i <= 8; ++i) {
-      const double part = i <= 2 ? 0.15 * static_cast<double>(i)
-                                 : 0.3 + 0.7 / 6.0 * static_cast<double>(i - 2);
+      const double part =
+          i <= 2 ? 0.15 * static_cast<double>(i) : 0.3 + 0.7 / 6.0 * static_cast<double>(i - 2);
       nodes.push_back(part * beam.length);
     }
     const double middle = 0.5 * beam.length;
     const std::vector<double> rotation = nodal(
         nodes, beam.length / 8, [&](double x) { return x - middle; }, [](double) { return 1.0; });
-    const double exact = beam.mass() * beam.length * beam.length / 12.0 +
-                         beam.rotary_inertia() * beam.length;
+    const double exact =
+        beam.mass() * beam.length * beam.length / 12.0 + beam.rotary_inertia() * beam.length;
     EXPECT_NEAR(mesh.mass().quadratic_form(rotation), exact, 1e-13 * exact);
   }
 }

@@ -43,8 +43,7 @@ TEST(HermiteElements, ComeToTheLimitOfFineMeshes) {
   };
   // The third contact begins at a graze, so its start is the most sensitive of these times.
   for (const Expected& expected : {Expected{100, 0.04, 0.075}, Expected{200, 2.5e-3, 4.3e-3}}) {
-    const Result result =
-        simulate(hermite_case(SectionKind::elastic, 0.84e-3, expected.elements));
+    const Result result = simulate(hermite_case(SectionKind::elastic, 0.84e-3, expected.elements));
     ASSERT_EQ(result.sub_impacts.size(), 9u);
     std::vector<double> errors = errors_us(result, reference, 9);
     std::printf("%d elements: third start %.2e us,", expected.elements, errors[third_start]);
@@ -86,16 +85,16 @@ std::ostream& operator<<(std::ostream& out, const Setting& setting) { return out
 
 class HermiteElementsBy : public testing::TestWithParam<Setting> {};
 
-INSTANTIATE_TEST_SUITE_P(
-    , HermiteElementsBy,
-    testing::Values(Setting{"central_difference", Method::central_difference, 1e-8, 2.0},
-                    Setting{"erk", Method::erk, 1e-9, 1e-4},
-                    Setting{"dirk", Method::dirk, 1e-6, 5e-3},
-                    Setting{"imex", Method::imex, 1e-6, 5e-2},
-                    Setting{"adams", Method::adams, 1e-8, 1e-3},
-                    Setting{"bdf", Method::bdf, 1e-8, 1e-3},
-                    Setting{"exponential", Method::exponential, 1e-9, 1e-4}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(, HermiteElementsBy,
+                         testing::Values(Setting{"central_difference", Method::central_difference,
+                                                 1e-8, 2.0},
+                                         Setting{"erk", Method::erk, 1e-9, 1e-4},
+                                         Setting{"dirk", Method::dirk, 1e-6, 5e-3},
+                                         Setting{"imex", Method::imex, 1e-6, 5e-2},
+                                         Setting{"adams", Method::adams, 1e-8, 1e-3},
+                                         Setting{"bdf", Method::bdf, 1e-8, 1e-3},
+                                         Setting{"exponential", Method::exponential, 1e-9, 1e-4}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(HermiteElementsBy, EveryMethodFindsTheSameSubImpacts) {
   Case input = hermite_case(SectionKind::elastic, 0.32e-3, 40);

@@ -29,17 +29,17 @@ struct StrikePart {
 /// Poisson's picture in terms of the beam's elastic energy U_e: compression while it rises overall,
 /// recovery while it falls.
 struct StrikeAccount {
-  /// In order of time; a zone before its sub-zones. Zones and sub-zones run from their first contact
-  /// to their last separation; separations lie between them.
+  /// In order of time; a zone before its sub-zones. Zones and sub-zones run from their first
+  /// contact to their last separation; separations lie between them.
   std::vector<StrikePart> parts;
-  double strike_end = 0.0;         ///< s, last separation (or the end of the run)
-  double largest_elastic = 0.0;    ///< J, of U_e
-  double largest_elastic_at = 0.0; ///< s: compression before, recovery after
-  double elastic_at_end = 0.0;     ///< J, at strike_end
-  /// The largest rise of the striker's energy above an earlier value, J; up to rounding 0 if it only
-  /// ever loses.
+  double strike_end = 0.0;          ///< s, last separation (or the end of the run)
+  double largest_elastic = 0.0;     ///< J, of U_e
+  double largest_elastic_at = 0.0;  ///< s: compression before, recovery after
+  double elastic_at_end = 0.0;      ///< J, at strike_end
+  /// The largest rise of the striker's energy above an earlier value, J; up to rounding 0 if it
+  /// only ever loses.
   double striker_gain = 0.0;
-  double striker_loss = 0.0;       ///< J, from the first touch to strike_end
+  double striker_loss = 0.0;  ///< J, from the first touch to strike_end
 };
 
 /// Nothing for a run without history or sub-impacts.
