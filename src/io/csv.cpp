@@ -11,7 +11,9 @@ std::string events_csv(const std::vector<SubImpact>& sub_impacts) {
                   [](const SubImpact& s) { return s.start_error.has_value(); });
   CsvText csv(std::string("index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
                           "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s") +
-              (with_errors ? ",start_error_s,end_error_s\n" : "\n"));
+              (with_errors ? ",start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
+                             "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s\n"
+                           : "\n"));
   std::size_t index = 0;
   for (const SubImpact& s : sub_impacts) {
     const std::optional<double> duration =
@@ -22,7 +24,11 @@ std::string events_csv(const std::vector<SubImpact>& sub_impacts) {
     csv.number(s.start).number(s.end).number(duration);
     csv.number(s.peak_force).number(s.impulse).number(s.max_indentation);
     csv.number(s.residual_indentation).number(s.striker_velocity);
-    if (with_errors) csv.number(s.start_error).number(s.end_error);
+    if (with_errors) {
+      csv.number(s.start_error).number(s.end_error);
+      csv.number(s.error_time).number(s.error_mesh).number(s.error_layers);
+      csv.number(s.start_mesh_limit).number(s.end_mesh_limit).number(s.mesh_limit_error);
+    }
     csv.end_row();
   }
   return csv.str();

@@ -134,6 +134,17 @@ std::optional<Trust> trust_from(const Json& json) {
     trust.first_undecided = index.get<std::size_t>() - 1;
   }
   trust.reason = optional_text(json.at("reason")).value_or("");
+  for (const Json& entry : json.at("parts")) {
+    Trust::Part part;
+    part.name = entry.at("name").get<std::string>();
+    part.companion = entry.at("companion").get<std::string>();
+    part.largest_error = number(entry.at("max_error_s"));
+    if (const Json& index = entry.at("first_undecided_index"); !index.is_null()) {
+      part.first_undecided = index.get<std::size_t>() - 1;
+    }
+    part.reason = optional_text(entry.at("reason")).value_or("");
+    trust.parts.push_back(std::move(part));
+  }
   return trust;
 }
 
@@ -191,6 +202,12 @@ std::vector<SubImpact> read_events(const std::filesystem::path& path) {
     if (with_errors) {
       s.start_error = csv.number(row, csv.column("start_error_s"));
       s.end_error = csv.number(row, csv.column("end_error_s"));
+      s.error_time = csv.number(row, csv.column("error_time_s"));
+      s.error_mesh = csv.number(row, csv.column("error_mesh_s"));
+      s.error_layers = csv.number(row, csv.column("error_layers_s"));
+      s.start_mesh_limit = csv.number(row, csv.column("start_mesh_limit_s"));
+      s.end_mesh_limit = csv.number(row, csv.column("end_mesh_limit_s"));
+      s.mesh_limit_error = csv.number(row, csv.column("mesh_limit_error_s"));
     }
   }
   return sub_impacts;

@@ -28,21 +28,34 @@ std::string zone_text(const std::vector<ZoneSummary>& zones) {
   return fmt::to_string(text);
 }
 
-// Which sub-impacts the error bars vouch for.
-std::string trust_text(const Result& result) {
-  const Trust& trust = *result.trust;
-  const std::string companion = fmt::format("(companion: {})", trust.companion);
-  if (!trust.first_undecided) {
-    return fmt::format("all times to {:.1e} us {}", trust.largest_error * us, companion);
-  }
-  const std::size_t i = *trust.first_undecided;
+std::string trust_text(const Result& result, double largest_error,
+                       const std::optional<std::size_t>& first_undecided,
+                       const std::string& reason) {
+  if (!first_undecided) return fmt::format("all times to {:.1e} us", largest_error * us);
+  const std::size_t i = *first_undecided;
   const std::string when = i < result.sub_impacts.size()
                                ? fmt::format(" at {:.3f} us", result.sub_impacts[i].start * us)
                                : std::string(", which this run does not have");
   return fmt::format(
       "times to {:.1e} us before sub-impact {}{}; from there on count and order are "
-      "uncertain: {} {}",
-      trust.largest_error * us, i + 1, when, trust.reason, companion);
+      "uncertain: {}",
+      largest_error * us, i + 1, when, reason);
+}
+
+// Which sub-impacts the error bars vouch for, part by part and in all.
+void add_trust(const Result& result, fmt::memory_buffer& text) {
+  const Trust& trust = *result.trust;
+  const auto line = [&](const std::string& label, const std::string& value) {
+    fmt::format_to(std::back_inserter(text), "  {:<19} {}\n", label, value);
+  };
+  for (const Trust::Part& part : trust.parts) {
+    line("error of " + part.name,
+         fmt::format("{} (companion: {})",
+                     trust_text(result, part.largest_error, part.first_undecided, part.reason),
+                     part.companion));
+  }
+  if (trust.parts.size() == 1) return;
+  line("error bars", trust_text(result, trust.largest_error, trust.first_undecided, trust.reason));
 }
 
 }  // namespace
@@ -126,7 +139,7 @@ std::string run_summary(const Case& input, const Result& result) {
                          *result.max_momentum_error)
            : fmt::format("energy to {:.1e}, relative; momentum is not kept: supports take it up",
                          result.max_energy_error));
-  if (result.trust) line("error bars", trust_text(result));
+  if (result.trust) add_trust(result, text);
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));
   line("work", fmt::format("{} steps, {} rejected, {} right-hand sides, {} events; {}", work.steps,

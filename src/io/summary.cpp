@@ -126,14 +126,29 @@ Json work_counts(const Work& work) {
   };
 }
 
+Json undecided(const std::optional<std::size_t>& index) {
+  return index ? Json(*index + 1) : Json(nullptr);
+}
+
 Json trust_in_times(const std::optional<Trust>& trust) {
   if (!trust) return nullptr;
+  const auto text = [](const std::string& words) {
+    return words.empty() ? Json(nullptr) : Json(words);
+  };
+  Json parts = Json::array();
+  for (const Trust::Part& part : trust->parts) {
+    parts.push_back({{"name", part.name},
+                     {"companion", part.companion},
+                     {"max_error_s", number(part.largest_error)},
+                     {"first_undecided_index", undecided(part.first_undecided)},
+                     {"reason", text(part.reason)}});
+  }
   return {
       {"companion", trust->companion},
       {"max_time_error_s", number(trust->largest_error)},
-      {"first_undecided_index",
-       trust->first_undecided ? Json(*trust->first_undecided + 1) : Json(nullptr)},
-      {"reason", trust->reason.empty() ? Json(nullptr) : Json(trust->reason)},
+      {"first_undecided_index", undecided(trust->first_undecided)},
+      {"reason", text(trust->reason)},
+      {"parts", parts},
   };
 }
 

@@ -1,5 +1,7 @@
 #include "study/method_choice.h"
 
+#include <cmath>
+
 #include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
@@ -21,6 +23,11 @@ Case with_method(const Case& input, const std::string& name) {
   const bool fixed = chosen.solver.method == Method::central_difference;
   if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
   return chosen;
+}
+
+bool may_yield(const Case& input) {
+  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
+         std::isfinite(input.scene.beam.yield_stress);
 }
 
 }  // namespace subimpact

@@ -23,11 +23,6 @@ Case accurate(const Case& input, const char* method) {
   return chosen;
 }
 
-bool may_yield(const Case& input) {
-  return input.model.section != SectionKind::elastic &&
-         input.scene.beam.yield_stress < std::numeric_limits<double>::infinity();
-}
-
 void require_completed(const Result& result, const char* method) {
   if (result.outcome.completed() || result.outcome.kind == OutcomeKind::stopped) return;
   throw InvalidCase(

@@ -59,14 +59,22 @@ TEST(ReadResults, IsTheInverseOfWritingThem) {
 TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
   const TemporaryDirectory directory;
   Result result = sample_result();
-  for (SubImpact& s : result.sub_impacts) s.start_error = s.end_error = 1e-9;
-  result.trust = Trust{"the same, finer", 2, "they part", 3e-9};
+  for (SubImpact& s : result.sub_impacts) {
+    s.start_error = s.end_error = 1e-9;
+    s.error_mesh = 0.9e-9;
+    s.start_mesh_limit = s.start + 1e-10;
+  }
+  result.trust = Trust{
+      "the same, finer", 2, "they part", 3e-9, {{"mesh", "the same, finer", 2, "they part", 3e-9}}};
   write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
   const FinishedRun run = read_results(directory.path);
   EXPECT_EQ(events_csv(run.result.sub_impacts), events_csv(result.sub_impacts));
   ASSERT_TRUE(run.result.trust);
   EXPECT_EQ(run.result.trust->first_undecided, 2u);
   EXPECT_EQ(run.result.trust->reason, "they part");
+  ASSERT_EQ(run.result.trust->parts.size(), 1u);
+  EXPECT_EQ(run.result.trust->parts.front().name, "mesh");
+  EXPECT_EQ(run.result.trust->parts.front().first_undecided, 2u);
   EXPECT_FALSE(run.result.sub_impacts.back().end);
 }
 

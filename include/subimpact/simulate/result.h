@@ -100,12 +100,22 @@ struct Work {
 
 /// How far the event times of a result can be trusted.
 struct Trust {
-  std::string companion;  ///< the run it was compared with, in words
-  /// The first sub-impact (from 0) whose existence or place in the order the companion run does not
-  /// confirm; none if all are confirmed.
+  std::string companion;  ///< the runs it was compared with, in words
+  /// The first sub-impact (from 0) whose existence or place in the order is not certain; none if
+  /// all are.
   std::optional<std::size_t> first_undecided;
   std::string reason;          ///< why it is undecided
-  double largest_error = 0.0;  ///< s, of the times before that
+  double largest_error = 0.0;  ///< s, of the times before that, all parts together
+
+  /// One source of error by itself, as seen by one companion run.
+  struct Part {
+    std::string name;       ///< "time", "mesh", "layers"
+    std::string companion;  ///< the run, in words
+    std::optional<std::size_t> first_undecided;
+    std::string reason;
+    double largest_error = 0.0;  ///< s, before first_undecided
+  };
+  std::vector<Part> parts;
 };
 
 struct Result {

@@ -1,0 +1,135 @@
+#include "study/error_part.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "subimpact/study/match.h"
+
+namespace subimpact {
+namespace {
+
+// Of a duration or separation, the error that makes it uncertain. Two errors of half of it may
+// close it; small differences in time may grow faster than one companion tells, so there half of
+// that.
+constexpr double undecided_share = 0.5;
+constexpr double undecided_share_in_time = 0.25;
+constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+
+// The larger of the differences of start and end; an end is missing where contact lasts to the end.
+double difference(const SubImpact& here, const SubImpact& there) {
+  const double start = std::abs(here.start - there.start);
+  return here.end && there.end ? std::max(start, std::abs(*here.end - *there.end)) : start;
+}
+
+// Why a sub-impact with this error in its times is not certain; empty if it is.
+std::string undecided_reason(const std::vector<SubImpact>& all, std::size_t i, double error,
+                             double share) {
+  const SubImpact& here = all[i];
+  if (here.end && error > share * (*here.end - here.start)) {
+    return "its estimated error is not small beside its duration";
+  }
+  if (i > 0 && all[i - 1].end && error > share * (here.start - *all[i - 1].end)) {
+    return "its estimated error is not small beside the separation before it";
+  }
+  if (i + 1 < all.size() && here.end && error > share * (all[i + 1].start - *here.end)) {
+    return "its estimated error is not small beside the separation after it";
+  }
+  return {};
+}
+
+// The trust that some errors deserve; `n_companion` sub-impacts were there to correspond.
+Trust::Part judge(const std::vector<SubImpact>& all, const ErrorPart& part) {
+  Trust::Part trust{part.name, part.companion, std::nullopt, {}, 0.0};
+  const std::size_t n = part.errors.size();
+  const double share = part.name == "time" ? undecided_share_in_time : undecided_share;
+  for (std::size_t i = 0; i < n; ++i) {
+    trust.reason = undecided_reason(all, i, part.errors[i], share);
+    if (!trust.reason.empty()) {
+      trust.first_undecided = i;
+      return trust;
+    }
+    trust.largest_error = std::max(trust.largest_error, part.errors[i]);
+  }
+  if (n < all.size() || n < part.n_companion) {
+    trust.first_undecided = n;
+    trust.reason = fmt::format(
+        "the companion run has {} sub-impacts in all, this one {}; from here on they do not "
+        "correspond",
+        part.n_companion, all.size());
+  } else if (!part.failure.empty()) {
+    trust.first_undecided = n;
+    trust.reason = "the companion run did not complete: " + part.failure;
+  }
+  return trust;
+}
+
+std::optional<double>& member_of(SubImpact& s, const std::string& part) {
+  if (part == "mesh") return s.error_mesh;
+  return part == "layers" ? s.error_layers : s.error_time;
+}
+
+}  // namespace
+
+ErrorPart compare_events(const Result& result, const Result& companion, std::string name,
+                         std::string description, double factor) {
+  const std::vector<SubImpact>& here = result.sub_impacts;
+  const std::vector<SubImpact>& there = companion.sub_impacts;
+  ErrorPart part{std::move(name), std::move(description), {}, there.size(), {}};
+  if (!companion.outcome.completed()) part.failure = companion.outcome.message;
+  const std::size_t n = n_leading_matches(match_sub_impacts(here, there));
+  std::vector<double> differences(n);
+  for (std::size_t i = 0; i < n; ++i) differences[i] = difference(here[i], there[i]);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto first = differences.begin() + static_cast<std::ptrdiff_t>(i > 0 ? i - 1 : 0);
+    const auto last = differences.begin() + static_cast<std::ptrdiff_t>(std::min(i + 2, n));
+    part.errors.push_back(factor * *std::max_element(first, last));
+  }
+  return part;
+}
+
+void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
+  std::vector<SubImpact>& all = result.sub_impacts;
+  Trust trust;
+  ErrorPart total;  // only what all companions have
+  total.errors.assign(all.size(), 0.0);
+  for (const ErrorPart& part : parts) {
+    for (std::size_t i = 0; i < part.errors.size(); ++i) {
+      member_of(all[i], part.name) = part.errors[i];
+    }
+    total.errors.resize(std::min(total.errors.size(), part.errors.size()));
+    for (std::size_t i = 0; i < total.errors.size(); ++i) total.errors[i] += part.errors[i];
+    trust.parts.push_back(judge(all, part));
+    trust.companion += (trust.companion.empty() ? "" : "; ") + part.companion;
+  }
+  for (std::size_t i = 0; i < total.errors.size(); ++i) {
+    SubImpact& s = all[i];
+    // The first start is where time begins.
+    s.start_error = i == 0 ? 0.0 : total.errors[i] + rounding * s.start;
+    if (s.end) s.end_error = total.errors[i] + rounding * *s.end;
+  }
+  total.n_companion = all.size();
+  if (parts.size() == 1) total.name = parts.front().name;
+  const Trust::Part together = judge(all, total);
+  // A part by itself comes first where it says why.
+  const auto first = [](const Trust::Part& part) {
+    return part.first_undecided.value_or(std::numeric_limits<std::size_t>::max());
+  };
+  const Trust::Part* earliest = &together;
+  for (const Trust::Part& part : trust.parts) {
+    if (part.first_undecided && first(part) <= first(*earliest)) earliest = &part;
+  }
+  trust.first_undecided = earliest->first_undecided;
+  trust.reason = earliest->reason;
+  const std::size_t n_certain = std::min(first(*earliest), total.errors.size());
+  for (std::size_t i = 0; i < n_certain; ++i) {
+    trust.largest_error =
+        std::max({trust.largest_error, *all[i].start_error, all[i].end_error.value_or(0.0)});
+  }
+  result.trust = trust;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// What one companion run says of the errors of another run's sub-impacts.
+struct ErrorPart {
+  std::string name;             ///< "time", "mesh", "layers"
+  std::string companion;        ///< the companion run, in words
+  std::vector<double> errors;   ///< s, of the leading sub-impacts that correspond
+  std::size_t n_companion = 0;  ///< sub-impacts the companion run has
+  std::string failure;          ///< why the companion run did not complete; empty: it did
+};
+
+/// The error of each leading sub-impact that both runs have: `factor` times the largest difference
+/// of starts and ends over it and its neighbours, so that a difference that happens to pass through
+/// zero does not pose as accuracy.
+ErrorPart compare_events(const Result& result, const Result& companion, std::string name,
+                         std::string description, double factor);
+
+/// Gives every sub-impact its errors, part by part and in sum, and says from where on neither count
+/// nor order is certain: Result::trust.
+void set_error_bars(Result& result, const std::vector<ErrorPart>& parts);
+
+}  // namespace subimpact

@@ -1,0 +1,173 @@
+#include "subimpact/study/mesh_error_bars.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <future>
+#include <vector>
+
+#include "model/cell_mesh.h"
+#include "model/hermite_mesh.h"
+#include "simulate/model_factory.h"
+#include "study/error_part.h"
+#include "study/method_choice.h"
+#include "subimpact/study/match.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double safety = 3.0;         // of differences in time
+constexpr double mesh_safety = 1.5;    // of what the finer mesh tells
+constexpr double layers_safety = 1.5;  // of one that is the error but for the mesh
+constexpr double part_of_critical = 0.9;
+constexpr double order_doubt = 0.35;  // of the ratio of differences that an order asks for
+
+// The whole number nearest to x that is odd (or even), or just the nearest.
+int nearest(double x, bool any, bool odd) {
+  const int n = static_cast<int>(std::lround(x));
+  if (any || (n % 2 != 0) == odd) return n;
+  return x >= n ? n + 1 : n - 1;
+}
+
+// Starts and ends extrapolated from three meshes, h the size of their parts.
+struct MeshSequence {
+  double order;
+  double coarse_h, h, fine_h;
+
+  std::optional<double> limit(double coarse, double here, double fine) const {
+    const double spread = std::pow(h, order) - std::pow(fine_h, order);
+    const double expected = (std::pow(coarse_h, order) - std::pow(h, order)) / spread;
+    const double found = (coarse - here) / (here - fine);
+    if (!(std::abs(found / expected - 1.0) <= order_doubt)) return std::nullopt;
+    return fine + (fine - here) * std::pow(fine_h, order) / spread;
+  }
+};
+
+void extrapolate(Result& result, const Result& coarse, const Result& fine,
+                 const MeshSequence& meshes) {
+  auto& here = result.sub_impacts;
+  const std::size_t n = std::min(n_leading_matches(match_sub_impacts(here, coarse.sub_impacts)),
+                                 n_leading_matches(match_sub_impacts(here, fine.sub_impacts)));
+  for (std::size_t i = 0; i < n; ++i) {
+    const SubImpact& below = coarse.sub_impacts[i];
+    const SubImpact& above = fine.sub_impacts[i];
+    double error = here[i].error_time.value_or(0.0);
+    if (i > 0) here[i].start_mesh_limit = meshes.limit(below.start, here[i].start, above.start);
+    if (here[i].end && below.end && above.end) {
+      here[i].end_mesh_limit = meshes.limit(*below.end, *here[i].end, *above.end);
+    }
+    if (here[i].start_mesh_limit) {
+      error = std::max(error, std::abs(*here[i].start_mesh_limit - above.start));
+    }
+    if (here[i].end_mesh_limit) {
+      error = std::max(error, std::abs(*here[i].end_mesh_limit - *above.end));
+    }
+    if (here[i].start_mesh_limit || here[i].end_mesh_limit) here[i].mesh_limit_error = error;
+  }
+}
+
+}  // namespace
+
+std::optional<int> mesh_order(const Case& input) {
+  switch (input.model.mesh) {
+    case MeshKind::cells:
+      return 2;
+    case MeshKind::hermite:
+      return may_yield(input) ? 1 : 4;
+    case MeshKind::rigid:
+      break;
+  }
+  return std::nullopt;
+}
+
+int mesh_count(const Case& input) {
+  switch (input.model.mesh) {
+    case MeshKind::cells:
+      return input.model.segments;
+    case MeshKind::hermite:
+      return input.model.elements;
+    case MeshKind::rigid:
+      break;
+  }
+  return 1;
+}
+
+std::optional<Companion> on_other_mesh(const Case& input, double factor) {
+  Companion companion{input, {}};
+  Case& other = companion.input;
+  other.output.interval = 0.0;
+  other.output.sections.clear();
+  const bool symmetric = uses_symmetry(input);
+  const double wanted = factor * mesh_count(input);
+  if (input.model.mesh == MeshKind::cells) {
+    other.model.segments = nearest(wanted, !symmetric, true);
+    if (other.model.segments < static_cast<int>(CellMesh::fewest_cells_if_clamped)) return {};
+    companion.description = fmt::format("the same with {} cells", other.model.segments);
+  } else if (input.model.mesh == MeshKind::hermite) {
+    other.model.elements = nearest(wanted, !symmetric, false);
+    if (other.model.elements < static_cast<int>(HermiteMesh::fewest_elements)) return {};
+    companion.description = fmt::format("the same with {} elements", other.model.elements);
+  } else {
+    return {};
+  }
+  if (input.solver.method == Method::central_difference && input.solver.step) {
+    other.solver.step.reset();
+    const double largest = part_of_critical * explain(other).critical_step;
+    other.solver.step = std::min(*input.solver.step, largest);
+    if (*other.solver.step < *input.solver.step) {
+      companion.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
+    }
+  }
+  return companion;
+}
+
+Result simulate_with_all_error_bars(const Case& input, const Progress& progress) {
+  const Companion in_time = companion_of(input);
+  const std::optional<Companion> fine = on_other_mesh(input, 2.0);
+  const std::optional<Companion> coarse = on_other_mesh(input, 0.5);
+  std::atomic<bool> stop = false;
+  const Progress go_on = [&stop](double) { return !stop; };
+  const auto beside = [&](const Case& other) {
+    return std::async(std::launch::async, [other, go_on] { return simulate(other, go_on); });
+  };
+  // Each of the two runs here shows half of the progress.
+  const auto half = [&](double offset) -> Progress {
+    return [&progress, &stop, offset, end = input.end_time](double t) {
+      if (progress && !progress(0.5 * (offset * end + t))) stop = true;
+      return !stop;
+    };
+  };
+  std::future<Result> on_fine;
+  if (fine) on_fine = beside(fine->input);
+  Result result = simulate(input, half(0.0));
+  std::vector<ErrorPart> parts;
+  const auto compare = [&](const Result& other, const char* name, const std::string& description,
+                           double factor) {
+    parts.push_back(compare_events(result, other, name, description, factor));
+  };
+  if (result.outcome.kind == OutcomeKind::stopped) stop = true;
+  if (!stop) compare(simulate(in_time.input, half(1.0)), "time", in_time.description, safety);
+  if (!stop && input.model.section == SectionKind::layers && may_yield(input)) {
+    Case exact = companion_of(input).input;
+    exact.solver = input.solver;
+    exact.model.section = SectionKind::exact;
+    compare(simulate(exact, go_on), "layers", "the same with the exact section", layers_safety);
+  }
+  if (fine && !stop) {
+    const Result below = coarse ? simulate(coarse->input, go_on) : Result{};
+    const Result above = on_fine.get();
+    const int order = *mesh_order(input);
+    const auto h = [](const Case& of) { return 1.0 / mesh_count(of); };
+    const double told = 1.0 - std::pow(h(fine->input) / h(input), order);  // of the mesh's error
+    compare(above, "mesh", fine->description, mesh_safety / told);
+    if (coarse) {
+      extrapolate(result, below, above,
+                  {static_cast<double>(order), h(coarse->input), h(input), h(fine->input)});
+    }
+  }
+  if (!stop) set_error_bars(result, parts);
+  return result;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,207 @@
+// Stated errors of event times, mesh and layers included, against a far finer computation.
+
+#include "subimpact/study/mesh_error_bars.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "paper_scene.h"
+#include "subimpact/study/match.h"
+
+namespace subimpact {
+namespace {
+
+Case scene(SectionKind section, double end_time, int segments = 201) {
+  Case input;
+  input.scene = paper_scene();
+  input.model.section = section;
+  input.model.segments = segments;
+  input.end_time = end_time;
+  input.solver.method = Method::nystrom;
+  input.solver.rtol = 1e-8;
+  input.output.interval = 0.0;
+  return input;
+}
+
+Case on_elements(Case input, int elements) {
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = elements;
+  return input;
+}
+
+// Ten scenes unlike each other in speed, mass, place, thickness, theory, supports, section, mesh
+// and method.
+std::vector<Case> ten_scenes() {
+  std::vector<Case> cases;
+  cases.push_back(scene(SectionKind::elastic, 1.6e-3, 501));
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.6e-3), 160));
+  cases.push_back(scene(SectionKind::exact, 0.9e-3, 401));
+  cases.back().scene.striker.velocity = 7.0;
+  cases.push_back(scene(SectionKind::layers, 0.9e-3, 401));
+  cases.back().scene.striker.mass = 0.08;
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.5e-3), 120));
+  cases.back().scene.striker.mass = 0.5;
+  cases.back().solver.method = Method::exponential;
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.5e-3), 100));
+  cases.back().scene.striker.velocity = 8.0;
+  cases.back().scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  cases.push_back(scene(SectionKind::elastic, 1.5e-3, 301));
+  cases.back().scene.beam.thickness = 0.01;
+  cases.back().scene.beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  cases.back().solver.method = Method::erk;
+  cases.push_back(on_elements(scene(SectionKind::elastic, 1.5e-3), 160));
+  cases.back().scene.striker.position = 0.37;
+  cases.push_back(scene(SectionKind::elastic, 1.2e-3, 401));
+  cases.back().scene.striker.velocity = 25.0;
+  cases.back().solver.method = Method::central_difference;
+  cases.push_back(on_elements(scene(SectionKind::exact, 0.6e-3), 160));
+  cases.back().scene.striker.velocity = 10.0;
+  return cases;
+}
+
+// The same without errors worth the name: the exact section, a mesh many times as fine.
+Case far_finer(const Case& input) {
+  Case accurate = input;
+  const bool elastic = input.model.section == SectionKind::elastic;
+  accurate.solver = {};
+  accurate.solver.method = elastic ? Method::exponential : Method::nystrom;
+  accurate.solver.rtol = 1e-10;
+  if (elastic) {
+    accurate.model.mesh = MeshKind::hermite;
+    accurate.model.elements = 480;
+  } else {
+    accurate.model.mesh = MeshKind::cells;
+    accurate.model.segments = 2001;
+    accurate.model.section = SectionKind::exact;
+  }
+  return accurate;
+}
+
+TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
+  int n_events = 0;
+  int n_covered = 0;
+  std::vector<double> ratios;
+  int number = 0;
+  for (const Case& input : ten_scenes()) {
+    const Result result = simulate_with_all_error_bars(input);
+    const Result exact = simulate(far_finer(input));
+    const auto& here = result.sub_impacts;
+    const std::size_t n = std::min(n_leading_matches(match_sub_impacts(here, exact.sub_impacts)),
+                                   result.trust->first_undecided.value_or(here.size()));
+    int covered = 0;
+    int events = 0;
+    double largest = 0.0;
+    double limit = 0.0;
+    const auto judge = [&](double stated, double error) {
+      ++events;
+      covered += error <= stated;
+      largest = std::max(largest, error);
+      if (error > 0.0) ratios.push_back(stated / error);
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      const SubImpact& there = exact.sub_impacts[i];
+      if (i > 0) judge(here[i].start_error.value(), std::abs(here[i].start - there.start));
+      if (!here[i].end || !there.end) continue;
+      judge(here[i].end_error.value(), std::abs(*here[i].end - *there.end));
+      if (here[i].end_mesh_limit) {
+        limit = std::max(limit, std::abs(*here[i].end_mesh_limit - *there.end));
+      }
+    }
+    printf(
+        "scene %2d: %2zu sub-impacts, %2zu decided; %2d of %2d times covered; true error up to "
+        "%.1e us, stated %.1e; of extrapolated ends %.1e\n",
+        ++number, here.size(), n, covered, events, 1e6 * largest, 1e6 * result.trust->largest_error,
+        1e6 * limit);
+    n_events += events;
+    n_covered += covered;
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
+                   ratios.end());
+  const double median = ratios[ratios.size() / 2];
+  printf("%d of %d event times covered (%.1f %%), median stated/true %.1f\n", n_covered, n_events,
+         100.0 * n_covered / n_events, median);
+  EXPECT_GE(n_events, 80);
+  EXPECT_GE(n_covered, 0.95 * n_events);
+  EXPECT_LT(median, 8.0);
+  EXPECT_GT(median, 1.0);
+}
+
+TEST(PartsOfErrors, AddUpAndNameTheirCompanions) {
+  Case input = scene(SectionKind::layers, 0.2e-3, 101);
+  const Result result = simulate_with_all_error_bars(input);
+  ASSERT_EQ(result.trust->parts.size(), 3u);
+  EXPECT_NE(result.trust->companion.find("203 cells"), std::string::npos);
+  EXPECT_NE(result.trust->companion.find("exact section"), std::string::npos);
+  const SubImpact& first = result.sub_impacts.front();
+  if (first.end_error) {
+    EXPECT_NEAR(*first.end_error, *first.error_time + *first.error_mesh + *first.error_layers,
+                1e-18);
+  }
+  input.model.section = SectionKind::elastic;
+  EXPECT_EQ(simulate_with_all_error_bars(input).trust->parts.size(), 2u);
+}
+
+TEST(AMeshTooCoarse, NamesTheFirstSubImpactItDoesNotDecide) {
+  // 501 cells keep the first contact closed, which 1003 split in two.
+  const Result result = simulate_with_all_error_bars(scene(SectionKind::exact, 0.3e-3, 501));
+  ASSERT_TRUE(result.trust->first_undecided.has_value());
+  EXPECT_EQ(*result.trust->first_undecided, 0u);
+  const auto mesh = std::find_if(result.trust->parts.begin(), result.trust->parts.end(),
+                                 [](const Trust::Part& part) { return part.name == "mesh"; });
+  ASSERT_NE(mesh, result.trust->parts.end());
+  EXPECT_EQ(mesh->first_undecided, result.trust->first_undecided);
+  EXPECT_FALSE(mesh->reason.empty());
+}
+
+TEST(TimesExtrapolatedToTheMeshLimit, ComeMuchCloserToItThanTheMeshAsked) {
+  const Case input = scene(SectionKind::elastic, 0.25e-3, 501);
+  const Result result = simulate_with_all_error_bars(input);
+  const SubImpact& first = result.sub_impacts.front();
+  ASSERT_TRUE(first.end_mesh_limit.has_value());
+  constexpr double limit = 218.049244e-6;  // tests/data/mesh_limit_elastic.csv
+  printf("501 cells: off by %.2e us, extrapolated by %.2e us (+- %.1e)\n",
+         1e6 * std::abs(*first.end - limit), 1e6 * std::abs(*first.end_mesh_limit - limit),
+         1e6 * *first.mesh_limit_error);
+  EXPECT_LT(std::abs(*first.end_mesh_limit - limit), 0.1 * std::abs(*first.end - limit));
+  EXPECT_LT(std::abs(*first.end_mesh_limit - limit), *first.mesh_limit_error);
+}
+
+TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
+  Case input = scene(SectionKind::elastic, 1e-4, 501);
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 2.0)->input), 1003);
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input), 251);
+  input.model.symmetry = SymmetryUse::off;
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 2.0)->input), 1002);
+  input = on_elements(input, 50);
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input), 25);
+  input.model.symmetry = SymmetryUse::automatic;
+  EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input) % 2, 0);
+  EXPECT_EQ(mesh_order(input), 4);
+  input.model.section = SectionKind::exact;
+  EXPECT_EQ(mesh_order(input), 1);
+  input.model.elements = 4;
+  EXPECT_FALSE(on_other_mesh(input, 0.5).has_value());
+  input.model.mesh = MeshKind::rigid;
+  EXPECT_FALSE(on_other_mesh(input, 2.0).has_value());
+  input = scene(SectionKind::elastic, 1e-4, 501);
+  input.solver.method = Method::central_difference;
+  input.solver.step = 0.9 * explain(input).critical_step;
+  const Companion fine = *on_other_mesh(input, 2.0);
+  EXPECT_LT(*fine.input.solver.step, *input.solver.step);
+  EXPECT_NO_THROW(explain(fine.input));
+  EXPECT_NE(fine.description.find("step"), std::string::npos);
+}
+
+TEST(AStoppedRun, StopsItsCompanionsToo) {
+  Case input = scene(SectionKind::elastic, 5e-3, 501);
+  const Result result = simulate_with_all_error_bars(input, [](double) { return false; });
+  EXPECT_EQ(result.outcome.kind, OutcomeKind::stopped);
+  EXPECT_FALSE(result.trust.has_value());
+}
+
+}  // namespace
+}  // namespace subimpact
