@@ -34,6 +34,7 @@ void add_compare(CLI::App& program, int& status);
 void add_work_precision(CLI::App& program, int& status);
 void add_explain(CLI::App& program, int& status);
 void add_plot(CLI::App& program, int& status);
+void add_report(CLI::App& program, int& status);
 void add_methods(CLI::App& program, int& status);
 void add_keys(CLI::App& program, int& status);
 

@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
   app::add_work_precision(program, status);
   app::add_explain(program, status);
   app::add_plot(program, status);
+  app::add_report(program, status);
   app::add_methods(program, status);
   app::add_keys(program, status);
 

@@ -12,7 +12,7 @@ void expect_in(const std::string& text, const std::string& piece) {
 TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
-  for (const char* piece : {"run", "work-precision", "plot", "explain", "methods", "keys",
+  for (const char* piece : {"run", "work-precision", "plot", "report", "explain", "methods", "keys",
                             "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
@@ -20,7 +20,7 @@ TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
   for (const std::string command :
-       {"run", "work-precision", "plot", "explain", "methods", "keys"}) {
+       {"run", "work-precision", "plot", "report", "explain", "methods", "keys"}) {
     const Finished finished = run_program({command, "--help"});
     EXPECT_EQ(finished.status, 0) << command;
     expect_in(finished.output, "Example");

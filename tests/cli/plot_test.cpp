@@ -61,6 +61,17 @@ TEST(Plot, OfWhatIsNoRunEndsWithStatus2AndSaysWhatIsMissing) {
   expect_in(empty.errors, "summary.json: cannot be read");
 }
 
+TEST(Report, IsOnePageBesideTheRun) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  const Finished finished = run_program({"report", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  expect_in(finished.output, "here/report.html");
+  const std::string page = read_file(directory.path / "here" / "report.html");
+  expect_in(page, "<!DOCTYPE html>");
+  expect_in(page, "</html>");
+}
+
 TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
   const TemporaryDirectory directory;
   make_run(directory);

@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "subimpact/io/html_report.h"
+#include "subimpact/io/results.h"
+
+namespace subimpact::app {
+namespace {
+
+struct ReportOptions {
+  std::string run;
+  std::string directory;
+};
+
+int report(const ReportOptions& options) {
+  const FinishedRun run = read_results(options.run);
+  const std::string& directory = options.directory.empty() ? options.run : options.directory;
+  prepare_output_directory(directory);
+  fmt::print("{}\n", write_html_report(directory, run).string());
+  return done;
+}
+
+}  // namespace
+
+void add_report(CLI::App& program, int& status) {
+  CLI::App* command =
+      program.add_subcommand("report", "Write a finished run up as one page of HTML");
+  auto options = std::make_shared<ReportOptions>();
+  command->add_option("DIR", options->run, "Directory that `subimpact run` left its files in")
+      ->required();
+  command->add_option("--out", options->directory,
+                      "Directory for report.html and its figures; made if missing. Default: DIR");
+  command->footer(
+      "report.html holds case, summary in words, figures, table, method, error bars and "
+      "conservation; it needs no other file and no network. Figures are drawn with gnuplot.\n"
+      "Examples:\n"
+      "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
+      "  subimpact report out/first\n"
+      "Exit status: 0 done; 2 bad command line, files that are no run's, or gnuplot missing.");
+  command->callback([options, &status] { status = report(*options); });
+}
+
+}  // namespace subimpact::app

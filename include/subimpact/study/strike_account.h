@@ -1,0 +1,48 @@
+#pragma once
+
+/// What a strike amounts to as a story: who gained and lost energy, when.
+
+#include <optional>
+#include <vector>
+
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// A part of the strike: a zone, a sub-zone, or the separation after one.
+struct StrikePart {
+  enum class Kind { zone, subzone, separation, subzone_separation };
+  Kind kind = Kind::zone;
+  int zone = 0;                ///< of a separation: the one before it
+  int subzone = 0;             ///< 0 for zones and the separations between them
+  double start = 0.0;          ///< s
+  double end = 0.0;            ///< s
+  double elastic_start = 0.0;  ///< U_e, J
+  double elastic_end = 0.0;    ///< J
+  double striker_start = 0.0;  ///< U_m, J
+  double striker_end = 0.0;    ///< J
+
+  double length() const { return end - start; }
+  double elastic_change() const { return elastic_end - elastic_start; }
+};
+
+/// Poisson's picture in terms of the beam's elastic energy U_e: compression while it rises overall,
+/// recovery while it falls.
+struct StrikeAccount {
+  /// In order of time; a zone before its sub-zones. Zones and sub-zones run from their first
+  /// contact to their last separation; separations lie between them.
+  std::vector<StrikePart> parts;
+  double strike_end = 0.0;          ///< s, last separation (or the end of the run)
+  double largest_elastic = 0.0;     ///< J, of U_e
+  double largest_elastic_at = 0.0;  ///< s: compression before, recovery after
+  double elastic_at_end = 0.0;      ///< J, at strike_end
+  /// The largest rise of the striker's energy above an earlier value, J; up to rounding 0 if it
+  /// only ever loses.
+  double striker_gain = 0.0;
+  double striker_loss = 0.0;  ///< J, from the first touch to strike_end
+};
+
+/// Nothing for a run without history or sub-impacts.
+std::optional<StrikeAccount> account_of(const Result& result);
+
+}  // namespace subimpact
