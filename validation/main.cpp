@@ -82,8 +82,9 @@ int run(const std::vector<std::string>& chosen, bool update) {
       fmt::print("{}", notes_of(outcome));
     }
   }
-  const std::string sum = fmt::format("{} of {} quantities agree; {} differ for stated reasons, {} fail.",
-                                      n_agree, n_rows, n_rows - n_agree - n_fail, n_fail);
+  const std::string sum =
+      fmt::format("{} of {} quantities agree; {} differ for stated reasons, {} fail.", n_agree,
+                  n_rows, n_rows - n_agree - n_fail, n_fail);
   fmt::print("\n{}\n", sum);
   if (update && chosen.empty()) {
     renew(std::string(SUBIMPACT_VALIDATION) + "/README.md", all + "\n" + sum + "\n");

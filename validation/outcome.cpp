@@ -64,8 +64,7 @@ bool Row::agrees() const {
 double Row::digits() const {
   if (bound == Bound::within || bound == Bound::holds || published == 0.0) return -1.0;
   const double difference = std::abs(ours / published - 1.0);
-  return difference == 0.0 ? most_digits
-                           : std::clamp(-std::log10(difference), 0.0, most_digits);
+  return difference == 0.0 ? most_digits : std::clamp(-std::log10(difference), 0.0, most_digits);
 }
 
 Case case_of(const std::string& folder, const std::vector<std::string>& settings) {
@@ -85,7 +84,7 @@ std::string table(const Outcome& outcome, const std::string& name) {
   std::string text;
   for (const Row& row : outcome.rows) {
     if (!name.empty()) text += fmt::format("| [{0}]({0}/) | {1} ", name, outcome.source);
-    const std::string verdict = row.agrees() ? "agrees"
+    const std::string verdict = row.agrees()  ? "agrees"
                                 : row.fails() ? "**FAILS**"
                                               : "differs: " + row.why_it_differs;
     text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", row.quantity, published_text(row),

@@ -57,6 +57,9 @@ FigureScript energies_figure(const Case&, const Result& result) {
                       {800, 660});
   const TimeUnit unit = time_unit(result.outcome.time);
   const double end = result.outcome.time * unit.per_second;
+  const Unit joule = energy_unit(result.used.initial_energy);
+  const Unit metre = length_unit(std::max(largest(result, &HistoryRow::struck_deflection),
+                                          largest(result, &HistoryRow::striker_relative)));
   const auto zones = spans(result, unit, [](const SubImpact& s) { return s.zone; });
   const auto subzones = spans(result, unit, [](const SubImpact& s) { return s.subzone; });
 
@@ -91,21 +94,24 @@ FigureScript energies_figure(const Case&, const Result& result) {
                              {&HistoryRow::bending_elastic, "bending, elastic U_e"},
                              {&HistoryRow::bending_plastic, "bending, plastic U_p"},
                              {&HistoryRow::contact_plastic, "contact, plastic D_c"}};
-  figure << "set ylabel 'energy, J'\nset yrange [0:*]\nset key top center maxrows 3 "
+  figure << fmt::format("set ylabel 'energy, {}'\n", joule.name)
+         << "set yrange [0:*]\nset key top center maxrows 3 "
             "samplen 2.5\n";
   std::string plot = "plot ";
   for (const Column& column : energies) {
-    const std::string data = figure.line(history_line(result, unit, column.member, 1.0), upper);
+    const std::string data =
+        figure.line(history_line(result, unit, column.member, joule.factor), upper);
     plot += fmt::format("{} with lines title '{}', ", data, column.title);
   }
   figure << plot + "NaN notitle\n";
 
   figure.place(lower);
   const std::string u =
-      figure.line(history_line(result, unit, &HistoryRow::striker_relative, 1e3), lower);
+      figure.line(history_line(result, unit, &HistoryRow::striker_relative, metre.factor), lower);
   const std::string f =
-      figure.line(history_line(result, unit, &HistoryRow::struck_deflection, 1e3), lower);
-  figure << "set ylabel 'deformation, mm'\nset yrange [*:*]\nset format x '% h'\n"
+      figure.line(history_line(result, unit, &HistoryRow::struck_deflection, metre.factor), lower);
+  figure << fmt::format("set ylabel 'deformation, {}'\n", metre.name)
+         << "set yrange [*:*]\nset format x '% h'\n"
             "set key bottom right maxrows 2\nset offsets 0, 0, graph 0.05, 0\n"
          << fmt::format("set xlabel 'time, {}'\n", unit.name)
          << fmt::format(

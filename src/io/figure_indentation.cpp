@@ -10,26 +10,29 @@
 namespace subimpact {
 namespace {
 
-constexpr double mm = 1e3;
-constexpr double kN = 1e-3;
+struct Units {
+  Unit length, force;
+};
 constexpr std::size_t most_insets = 3;
 
 // Between two rows the indentation moves one way (its turns are events and have rows of their own),
 // so the contact law draws the force in between.
-std::vector<Point> loop(const ContactLaw& law, const Result& result, double from, double to) {
+std::vector<Point> loop(const ContactLaw& law, const Units& units, const Result& result,
+                        double from, double to) {
   constexpr int parts = 8;
   std::vector<Point> line;
   ContactHistory history;
   const HistoryRow* last = nullptr;
+  const double length = units.length.factor, force = units.force.factor;
   for (const HistoryRow& row : result.history) {
     const bool shown = row.time >= from && row.time <= to;
     if (shown && last != nullptr && last->time >= from && row.time > last->time) {
       for (int k = 1; k < parts; ++k) {
         const double lambda = last->indentation + (row.indentation - last->indentation) * k / parts;
-        line.push_back({lambda * mm, law.force(history, lambda) * kN});
+        line.push_back({lambda * length, law.force(history, lambda) * force});
       }
     }
-    if (shown) line.push_back({row.indentation * mm, row.force * kN});
+    if (shown) line.push_back({row.indentation * length, row.force * force});
     history = law.commit(history, row.indentation);
     last = &row;
   }
@@ -75,18 +78,21 @@ double force_at(double time, const Result& result) {
   return 0.0;
 }
 
-void mark_point(FigureScript& figure, const Transition* event, const Result& result,
-                const char* text, const char* offset) {
+void mark_point(FigureScript& figure, const Units& units, const Transition* event,
+                const Result& result, const char* text, const char* offset) {
   if (event == nullptr) return;
   figure << fmt::format(
       "set label '{}' at {:.7g}, {:.7g} point pt 7 ps 1.2 lc rgb '#000000' {} front\n", text,
-      event->value * mm, force_at(event->time, result) * kN, offset);
+      event->value * units.length.factor, force_at(event->time, result) * units.force.factor,
+      offset);
 }
 
 }  // namespace
 
 FigureScript indentation_figure(const Case& input, const Result& result) {
   const ContactLaw law = ContactLaw::of(input.scene);
+  const Units units{length_unit(result.max_indentation), force_unit(result.max_force)};
+  const double length = units.length.factor, force = units.force.factor;
   const std::vector<std::size_t> again = yielding_again(result);
   FigureScript figure(
       "indentation",
@@ -99,22 +105,25 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
   const Box main{0.10, again.empty() ? 0.97 : 0.61, 0.14, 0.95};
   std::string rest;
   if (result.sub_impacts.size() > 1) {
-    rest = figure.line(loop(law, result, result.sub_impacts[1].start, result.outcome.time), main);
+    rest = figure.line(loop(law, units, result, result.sub_impacts[1].start, result.outcome.time),
+                       main);
   }
   const double first_end =
       result.sub_impacts.empty() ? 0.0 : end_of(result.sub_impacts.front(), result);
-  const std::string first_loop = figure.line(loop(law, result, 0.0, first_end), main);
+  const std::string first_loop = figure.line(loop(law, units, result, 0.0, first_end), main);
 
   figure.place(main);
-  figure << "set xlabel 'indentation, mm'\nset ylabel 'contact force, kN' offset 0.5\n"
-            "set yrange [0:*]\nset offsets 0, 0, graph 0.06, 0\n"
+  figure << fmt::format("set xlabel 'indentation, {}'\nset ylabel 'contact force, {}' offset 0.5\n",
+                        units.length.name, units.force.name)
+         << "set yrange [0:*]\nset offsets 0, 0, graph 0.06, 0\n"
             "set key bottom left Left reverse at graph 0.13, graph 0.05 samplen 2.5\n";
-  figure << fmt::format("set xrange [0:{:.7g}]\nset xtics {}\n", 1.06 * result.max_indentation * mm,
-                        tic_spacing(result.max_indentation * mm, 4));
-  mark_point(figure, first(EventKind::contact_yields, result), result, "A: contact yields",
+  figure << fmt::format("set xrange [0:{:.7g}]\nset xtics {}\n",
+                        1.06 * result.max_indentation * length,
+                        tic_spacing(result.max_indentation * length, 4));
+  mark_point(figure, units, first(EventKind::contact_yields, result), result, "A: contact yields",
              "left offset 1, -0.4");
-  mark_point(figure, first(EventKind::contact_unloads, result), result, "B: unloading begins",
-             "right offset -1, 1");
+  mark_point(figure, units, first(EventKind::contact_unloads, result), result,
+             "B: unloading begins", "right offset -1, 1");
   figure << "plot ";
   if (!rest.empty()) {
     figure << fmt::format("{} with lines lc rgb '#A0A0A0' lw 1 title 'later sub-impacts', ", rest);
@@ -128,19 +137,21 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
     const double top = 0.95 - height * static_cast<double>(k);
     const bool last = k + 1 == again.size();
     const Box inset{0.71, 0.97, top - height + (last ? 0.01 : 0.08), top - 0.045};
-    const std::string data = figure.line(loop(law, result, s.start, end_of(s, result)), inset);
+    const std::string data =
+        figure.line(loop(law, units, result, s.start, end_of(s, result)), inset);
     const double lowest = result.sub_impacts[again[k] - 1].residual_indentation;
-    const double margin = 0.1 * (s.max_indentation - lowest) * mm;
+    const double margin = 0.1 * (s.max_indentation - lowest) * length;
     figure.place(inset);
     figure << fmt::format("set title 'no. {}, at {:.4g} ms' offset 0, -0.7 font ',13'\n",
                           again[k] + 1, s.start * 1e3)
-           << (last ? "set xlabel 'indentation, mm'\n" : "unset xlabel\n")
+           << (last ? fmt::format("set xlabel 'indentation, {}'\n", units.length.name)
+                    : std::string("unset xlabel\n"))
            << fmt::format(
-                  "set ylabel 'kN' offset 1.5\nset xrange [{:.7g}:{:.7g}]\nset xtics {}\nset ytics "
+                  "set ylabel '{}' offset 1.5\nset xrange [{:.7g}:{:.7g}]\nset xtics {}\nset ytics "
                   "{}\nunset key\n",
-                  lowest * mm - margin, s.max_indentation * mm + margin,
-                  tic_spacing((s.max_indentation - lowest) * mm, 3),
-                  tic_spacing(s.peak_force * kN, 3))
+                  units.force.name, lowest * length - margin, s.max_indentation * length + margin,
+                  tic_spacing((s.max_indentation - lowest) * length, 3),
+                  tic_spacing(s.peak_force * force, 3))
            << fmt::format("plot {} with lines lc {} lw 1.2 notitle\n", data, k + 2);
   }
   return figure;

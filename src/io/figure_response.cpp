@@ -12,8 +12,6 @@ namespace {
 
 constexpr Box upper{0.11, 0.97, 0.56, 0.92};
 constexpr Box lower{0.11, 0.97, 0.12, 0.48};
-constexpr double mm = 1e3;
-constexpr double kN = 1e-3;
 
 std::string band_entry(const char* what) {
   return fmt::format("keyentry with boxes fillstyle solid noborder linecolor rgb '{}' title '{}'",
@@ -37,9 +35,13 @@ FigureScript response_figure(const Case&, const Result& result) {
                       "point. Shaded: sub-impacts.",
                       {800, 580});
   const TimeUnit unit = time_unit(result.outcome.time);
-  const std::string force = figure.line(history_line(result, unit, &HistoryRow::force, kN), upper);
+  const Unit newton = force_unit(result.max_force);
+  const Unit metre = length_unit(std::max(largest(result, &HistoryRow::struck_displacement),
+                                          largest(result, &HistoryRow::striker_displacement)));
+  const std::string force =
+      figure.line(history_line(result, unit, &HistoryRow::force, newton.factor), upper);
   const auto displacement = [&](double HistoryRow::*member) {
-    return figure.line(history_line(result, unit, member, mm), lower);
+    return figure.line(history_line(result, unit, member, metre.factor), lower);
   };
   const std::string struck = displacement(&HistoryRow::struck_displacement);
   const std::string striker = displacement(&HistoryRow::striker_displacement);
@@ -49,12 +51,14 @@ FigureScript response_figure(const Case&, const Result& result) {
   figure << fmt::format("set xrange [0:{:.7g}]\nset xtics {}\n", end, tic_spacing(end, 8));
   figure.shade(sub_impact_bands(result, unit));
   figure.place(upper);
-  figure << "set ylabel 'contact force, kN' offset 0.5\nset yrange [0:*]\nset format x ''\n"
+  figure << fmt::format("set ylabel 'contact force, {}' offset 0.5\n", newton.name)
+         << "set yrange [0:*]\nset format x ''\n"
             "set offsets 0, 0, graph 0.06, 0\nset key at graph 1, graph 1.16 right top horizontal "
             "maxrows 1 samplen 2.5 width -1\n"
          << fmt::format("plot {} with lines lw 1 notitle, {}\n", force, band_entry("sub-impacts"));
   figure.place(lower);
-  figure << "set ylabel 'displacement, mm'\nset yrange [*:*]\nset format x '% h'\n"
+  figure << fmt::format("set ylabel 'displacement, {}'\n", metre.name)
+         << "set yrange [*:*]\nset format x '% h'\n"
          << fmt::format("set xlabel 'time, {}'\n", unit.name)
          << fmt::format(
                 "plot {} with lines lw 2.5 lc 1 title 'struck point w_c', {} with lines lc 2 "
@@ -75,12 +79,13 @@ FigureScript first_sub_impact_figure(const Case& input, const Result& result) {
                          : result.sub_impacts.front().end.value_or(result.outcome.time);
   const double shown = std::min(1.08 * end, result.outcome.time);
   const TimeUnit unit = time_unit(shown);
+  const Unit newton = force_unit(result.max_force);
   const auto within = [&](std::vector<Point> line) {
     std::erase_if(line, [&](const Point& p) { return p.x > shown * unit.per_second; });
     return line;
   };
   const std::string force =
-      figure.line(within(history_line(result, unit, &HistoryRow::force, kN)), upper);
+      figure.line(within(history_line(result, unit, &HistoryRow::force, newton.factor)), upper);
   const std::string stress =
       figure.line(within(history_line(result, unit, &HistoryRow::back_stress, 1e-6)), lower);
 
@@ -96,8 +101,8 @@ FigureScript first_sub_impact_figure(const Case& input, const Result& result) {
         *yield * unit.per_second);
   }
   figure.place(upper);
-  figure << "set ylabel 'contact force, kN' offset 0.5\nset yrange [0:*]\nset offsets 0, 0, "
-            "graph 0.06, 0\nset format x ''\n"
+  figure << fmt::format("set ylabel 'contact force, {}' offset 0.5\n", newton.name)
+         << "set yrange [0:*]\nset offsets 0, 0, graph 0.06, 0\nset format x ''\n"
          << fmt::format("plot {} with lines notitle\n", force);
   figure.place(lower);
   if (yield_shown) {

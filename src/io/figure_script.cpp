@@ -119,6 +119,30 @@ double tic_spacing(double extent, int parts) {
   return 10.0 * decade;
 }
 
+Unit force_unit(double largest) {
+  if (largest >= 1e3) return {1e-3, "kN"};
+  if (largest >= 0.1) return {1.0, "N"};
+  return {1e3, "mN"};
+}
+
+Unit length_unit(double largest) {
+  if (largest >= 1e-4) return {1e3, "mm"};
+  if (largest >= 1e-7) return {1e6, "µm"};
+  return {1e9, "nm"};
+}
+
+Unit energy_unit(double largest) {
+  if (largest >= 0.1) return {1.0, "J"};
+  if (largest >= 1e-4) return {1e3, "mJ"};
+  return {1e6, "µJ"};
+}
+
+double largest(const Result& result, double HistoryRow::*member) {
+  double found = 0.0;
+  for (const HistoryRow& row : result.history) found = std::max(found, std::abs(row.*member));
+  return found;
+}
+
 TimeUnit time_unit(double length) {
   if (length > 1e-3) return {1e3, "ms"};
   return {1e6, "µs"};

@@ -66,6 +66,17 @@ class FigureScript {
 /// A spacing of tics, 1, 2 or 5 times a power of ten, that cuts an extent into about `parts`.
 double tic_spacing(double extent, int parts);
 
+/// A unit that suits the size of what is shown: values of the SI unit times `factor` are in `name`.
+struct Unit {
+  double factor;
+  const char* name;
+};
+Unit force_unit(double largest);   ///< of a force in N
+Unit length_unit(double largest);  ///< of a displacement in m
+Unit energy_unit(double largest);  ///< of an energy in J
+/// The largest magnitude of a column of the history.
+double largest(const Result& result, double HistoryRow::*member);
+
 /// How times of a run are shown: its unit suits its length.
 struct TimeUnit {
   double per_second;

@@ -14,6 +14,7 @@ constexpr double left = 0.11;
 constexpr double right = 0.98;
 constexpr double gap = 0.03;  // between columns
 constexpr std::size_t most_columns = 4;
+constexpr double edge = 0.022;           // of the width, free on either side of a column
 constexpr double least_share = 0.15;     // of a column in the width
 constexpr double number_spacing = 0.03;  // of the width, between labelled sub-impacts
 
@@ -101,7 +102,7 @@ FigureScript timeline_figure(const Case&, const Result& result) {
            << (top_row ? "set format x ''\n" : "set format x '% h'\n");
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const Column& column = columns[k];
-      const double margin = 0.05 * (column.to - column.from);
+      const double margin = edge * (column.to - column.from) / (column.box.right - column.box.left);
       const double from = (column.from - margin) * unit.per_second;
       const double to = (column.to + margin) * unit.per_second;
       std::vector<Point> points;

@@ -35,9 +35,9 @@ Outcome check_bending() {
   const SectionLaw exact(beam, Fibres::continuous());
   const SectionLaw layers(beam, Fibres::layered(40));
   Outcome outcome{"closed form", {}, {}};
-  const double virgin[][3] = {{1.0, 1.0, 0.999375},         {1.5, 1.277778, 1.2775781},
-                              {2.0, 1.375, 1.374375},       {3.0, 1.444444, 1.4442187},
-                              {5.0, 1.48, 1.479375},        {10.0, 1.495, 1.494375}};
+  const double virgin[][3] = {{1.0, 1.0, 0.999375},   {1.5, 1.277778, 1.2775781},
+                              {2.0, 1.375, 1.374375}, {3.0, 1.444444, 1.4442187},
+                              {5.0, 1.48, 1.479375},  {10.0, 1.495, 1.494375}};
   for (const auto& [x, m, m40] : virgin) {
     outcome.rows.push_back({fmt::format("M/M_y at κ/κ_y = {}", x), m,
                             exact.moment({}, x * unit) / moment, Bound::absolute, 0.6e-6});
@@ -56,10 +56,9 @@ Outcome check_bending() {
                             x - (1.5 - 0.5 / (x * x)), residual, Bound::relative, 1e-12});
     exact.commit(history, -x * unit);
     exact.commit(history, x * unit);
-    outcome.rows.push_back({fmt::format("area of the loop ± {}, M_y κ_y", x),
-                            6.0 * (x - 1.0) * (x - 1.0) / x,
-                            loop_area(exact, history, x, unit) / (moment * unit), Bound::relative,
-                            1e-6});
+    outcome.rows.push_back(
+        {fmt::format("area of the loop ± {}, M_y κ_y", x), 6.0 * (x - 1.0) * (x - 1.0) / x,
+         loop_area(exact, history, x, unit) / (moment * unit), Bound::relative, 1e-6});
   }
   return outcome;
 }

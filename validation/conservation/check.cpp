@@ -23,8 +23,8 @@ Outcome check_conservation() {
                             result.used.initial_energy * beam / (m + beam),
                             last.bending_plastic + last.contact_plastic, Bound::within, 0.0});
   }
-  outcome.rows.push_back({"bound on the loss, J", 13.449,
-                          outcome.rows[2].published, Bound::absolute, 0.0006});
+  outcome.rows.push_back(
+      {"bound on the loss, J", 13.449, outcome.rows[2].published, Bound::absolute, 0.0006});
   return outcome;
 }
 

@@ -80,10 +80,10 @@ Outcome check_contact() {
        0.005}};
   const double coarse = difference(scene, 1000);
   const double fine = difference(scene, 4000);
-  outcome.rows.push_back(
-      {"largest difference from 1000 columns, of the largest force", 1e-4, coarse, Bound::within, 0});
-  outcome.rows.push_back({"order in the number of columns", 2.0, std::log(coarse / fine) / std::log(4.0),
-                          Bound::absolute, 0.2});
+  outcome.rows.push_back({"largest difference from 1000 columns, of the largest force", 1e-4,
+                          coarse, Bound::within, 0});
+  outcome.rows.push_back({"order in the number of columns", 2.0,
+                          std::log(coarse / fine) / std::log(4.0), Bound::absolute, 0.2});
   return outcome;
 }
 

@@ -51,8 +51,9 @@ std::vector<double> roots(const Case& input, std::size_t n_cells, std::size_t n_
 Outcome check_glued_mass() {
   const Case input = case_of("glued_mass");
   Outcome outcome{"closed form", {}, {}};
-  outcome.rows.push_back({"mass ratio μ", 0.889164, input.scene.striker.mass / input.scene.beam.mass(),
-                          Bound::absolute, 0.6e-6});
+  outcome.rows.push_back({"mass ratio μ", 0.889164,
+                          input.scene.striker.mass / input.scene.beam.mass(), Bound::absolute,
+                          0.6e-6});
   const double published[] = {2.06733243, 4.88530895, 7.97751407};
   const std::vector<double> coarse = roots(input, 251, 3);
   const std::vector<double> middle = roots(input, 501, 3);

@@ -16,11 +16,13 @@ namespace {
 constexpr double us = 1e6;
 constexpr double ms = 1e3;
 
-Result run(const std::vector<std::string>& settings) { return simulate(case_of("paper", settings)); }
+Result run(const std::vector<std::string>& settings) {
+  return simulate(case_of("paper", settings));
+}
 
 std::vector<std::string> quick(std::vector<std::string> settings) {
-  settings.insert(settings.begin(), {"solver.method=nystrom", "output.sections=[]",
-                                     "output.interval=0"});
+  settings.insert(settings.begin(),
+                  {"solver.method=nystrom", "output.sections=[]", "output.interval=0"});
   return settings;
 }
 
@@ -33,7 +35,8 @@ const StrikePart& part(const StrikeAccount& account, StrikePart::Kind kind, int 
 
 // The study of step and mesh: what the numbers do as each is refined.
 std::string study_head() {
-  return "| run | sub-impacts | zone 1 + 2 | first separation, us | zone 1 ends, ms | zone 2, ms |\n"
+  return "| run | sub-impacts | zone 1 + 2 | first separation, us | zone 1 ends, ms | zone 2, ms "
+         "|\n"
          "|---|---|---|---|---|---|\n";
 }
 
@@ -44,11 +47,10 @@ std::string study_row(const std::string& name, const Result& result) {
     counts += fmt::format("{}{}", counts.empty() ? "" : " + ", zone.n_sub_impacts);
   }
   const auto end_ms = [](const ZoneSummary& zone) { return zone.end.value_or(NAN) * ms; };
-  return fmt::format("| {} | {} | {} | {:.3f} | {:.4f} | {:.4f} to {:.4f} |\n", name,
-                     result.sub_impacts.size(), counts,
-                     result.sub_impacts.at(0).end.value_or(NAN) * us, end_ms(zones.at(0)),
-                     zones.size() > 1 ? zones[1].start * ms : NAN,
-                     zones.size() > 1 ? end_ms(zones[1]) : NAN);
+  return fmt::format(
+      "| {} | {} | {} | {:.3f} | {:.4f} | {:.4f} to {:.4f} |\n", name, result.sub_impacts.size(),
+      counts, result.sub_impacts.at(0).end.value_or(NAN) * us, end_ms(zones.at(0)),
+      zones.size() > 1 ? zones[1].start * ms : NAN, zones.size() > 1 ? end_ms(zones[1]) : NAN);
 }
 
 void add_energies(Outcome& outcome, const Result& result) {
@@ -63,10 +65,12 @@ void add_energies(Outcome& outcome, const Result& result) {
   holds("U_e rises in the separation of the zones",
         part(account, Kind::separation, 1, 0).elastic_change() > 0.0);
   holds("U_e falls over zone 2", part(account, Kind::zone, 2, 0).elastic_change() < 0.0);
-  holds("U_e rises in the first sub-zone", part(account, Kind::subzone, 1, 1).elastic_change() > 0.0);
+  holds("U_e rises in the first sub-zone",
+        part(account, Kind::subzone, 1, 1).elastic_change() > 0.0);
   holds("U_e falls in the separation of the sub-zones",
         part(account, Kind::subzone_separation, 1, 1).elastic_change() < 0.0);
-  holds("U_e falls in the second sub-zone", part(account, Kind::subzone, 1, 2).elastic_change() < 0.0);
+  holds("U_e falls in the second sub-zone",
+        part(account, Kind::subzone, 1, 2).elastic_change() < 0.0);
 }
 
 }  // namespace
@@ -77,7 +81,8 @@ Outcome check_paper() {
   const Result fine = run(quick({"model.segments=2001"}));
   const auto zones = summarise_zones(ours.sub_impacts);
   const char* count_reason =
-      "the count is not a property of the beam: it changes with mesh and step, because many contacts "
+      "the count is not a property of the beam: it changes with mesh and step, because many "
+      "contacts "
       "graze (study below)";
   const auto count = [](std::size_t n) { return static_cast<double>(n); };
   outcome.rows = {
@@ -105,29 +110,30 @@ Outcome check_paper() {
        count_reason}};
   add_energies(outcome, ours);
 
-  std::string steps = "Step: the paper's scheme (central differences) on the paper's mesh and layers, "
-                      "and the accurate solution it tends to.\n\n" +
-                      study_head();
+  std::string steps =
+      "Step: the paper's scheme (central differences) on the paper's mesh and layers, "
+      "and the accurate solution it tends to.\n\n" +
+      study_head();
   for (const double step : {0.25e-6, 0.2e-6, 0.1e-6, 0.05e-6, 0.02e-6, 0.01e-6, 0.005e-6}) {
-    const Result result = run({"output.interval=0",
-                               "solver.method=central-difference",
+    const Result result = run({"output.interval=0", "solver.method=central-difference",
                                fmt::format("solver.step={}", step)});
     steps += study_row(fmt::format("step {:.3g} us", step * us), result);
   }
   steps += study_row("nystrom, rtol 1e-11", run(quick({"solver.rtol=1e-11"})));
   outcome.notes.push_back(steps);
 
-  std::string meshes = "Mesh and section law, integrated accurately in time (nystrom, rtol 1e-8).\n\n" +
-                       study_head();
+  std::string meshes =
+      "Mesh and section law, integrated accurately in time (nystrom, rtol 1e-8).\n\n" +
+      study_head();
   for (const int segments : {251, 501, 751, 1001, 2001, 4001}) {
     const Result result =
         segments == 2001 ? fine : run(quick({fmt::format("model.segments={}", segments)}));
     meshes += study_row(fmt::format("{} cells, 40 layers", segments), result);
   }
   for (const int segments : {501, 2001}) {
-    meshes += study_row(fmt::format("{} cells, exact section", segments),
-                        run(quick({fmt::format("model.segments={}", segments),
-                                   "model.section=exact"})));
+    meshes +=
+        study_row(fmt::format("{} cells, exact section", segments),
+                  run(quick({fmt::format("model.segments={}", segments), "model.section=exact"})));
   }
   meshes += study_row("501 cells, elastic section", run(quick({"model.section=elastic"})));
   outcome.notes.push_back(meshes);

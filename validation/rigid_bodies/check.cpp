@@ -51,10 +51,10 @@ Outcome check_rigid_bodies() {
                         (std::pow(x, 2.5) - std::pow(x - 1.0, 2.5));
     input.scene.striker.velocity = std::sqrt(2.0 * work / reduced_mass(input));
     const Result result = simulate(input);
-    outcome.rows.push_back({fmt::format("elasto-plastic: restitution at λ_m/λ_s = {}", x), e,
-                            (result.beam_mean_velocity - result.striker_velocity) /
-                                input.scene.striker.velocity,
-                            Bound::absolute, 1e-6});
+    outcome.rows.push_back(
+        {fmt::format("elasto-plastic: restitution at λ_m/λ_s = {}", x), e,
+         (result.beam_mean_velocity - result.striker_velocity) / input.scene.striker.velocity,
+         Bound::absolute, 1e-6});
   }
   return outcome;
 }

@@ -9,7 +9,8 @@
 namespace subimpact::validation {
 namespace {
 
-/// Moments of the mesh's half beam that moves as one rigid link, hinged at the struck point if asked.
+/// Moments of the mesh's half beam that moves as one rigid link, hinged at the struck point if
+/// asked.
 ///
 /// The unknowns: the link's acceleration (and its angular one), and the moments of all sections
 /// (that of the hinge is the yield moment). The equations: the mesh's own, one a cell.
@@ -32,7 +33,8 @@ class RigidLink {
     };
     inertia(translation_, [](std::size_t) { return 1.0; });
     // The distance from the struck cell, the last.
-    inertia(rotation_, [&](std::size_t i) { return dx * static_cast<double>(shape.size() - 1 - i); });
+    inertia(rotation_,
+            [&](std::size_t i) { return dx * static_cast<double>(shape.size() - 1 - i); });
     std::vector<double> moments(mesh_.n_sections(), 0.0), forces(mesh_.n_unknowns());
     for (Eigen::Index k = 0; k < n_sections; ++k) {
       moments[static_cast<std::size_t>(k)] = 1.0;
@@ -86,9 +88,8 @@ Outcome check_rigid_plastic() {
   Outcome outcome{"Lee and Symonds 1952", {}, {}};
   // A rigid beam: the moment at the middle is proportional to the force.
   const Eigen::VectorXd rigid = link.moments(1.0, false);
-  outcome.rows.push_back(
-      {"P L/M_p at which the first hinge forms", 4.0, half / rigid(rigid.size() - 1), Bound::relative,
-       2e-3});
+  outcome.rows.push_back({"P L/M_p at which the first hinge forms", 4.0,
+                          half / rigid(rigid.size() - 1), Bound::relative, 2e-3});
   // One hinge: the force at which the hogging moment further out reaches the yield moment, too.
   double low = 4.0 / half, high = 40.0 / half;
   Eigen::Index where = 0;
