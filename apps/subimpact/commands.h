@@ -28,10 +28,18 @@ struct CaseOptions {
   LoadedCase load() const;
 };
 
+/// A check of an option that is a time in seconds.
+std::string positive_seconds(const std::string& text);
+
+/// Refuses methods that do not exist or cannot run the case, naming the option. Throws
+/// CaseFileError.
+void check_methods(const Case& input, const std::vector<std::string>& methods);
+
 // Each adds its command, which leaves the exit status in `status` when it has run.
 void add_run(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
 void add_work_precision(CLI::App& program, int& status);
+void add_stability(CLI::App& program, int& status);
 void add_explain(CLI::App& program, int& status);
 void add_plot(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);

@@ -1,11 +1,8 @@
 #include "subimpact/io/work_precision.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,6 +10,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "status_line.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/case_keys.h"
 
@@ -26,29 +24,6 @@ struct WorkPrecisionCommand {
   std::string directory;
   double point_seconds = 10.0;
 };
-
-// What is running, on stderr if that is a terminal.
-class StatusLine {
- public:
-  ~StatusLine() { clear(); }
-  void show(const std::string& text) {
-    if (!shown_) return;
-    fmt::print(stderr, "\r\033[K{} ...", text);
-    std::fflush(stderr);
-  }
-  void clear() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
-  }
-
- private:
-  bool shown_ = isatty(STDERR_FILENO) != 0;
-};
-
-std::string positive_seconds(const std::string& text) {
-  const double value = std::strtod(text.c_str(), nullptr);
-  if (value > 0.0 && std::isfinite(value)) return {};
-  return fmt::format("is {}; allowed: seconds, finite and above 0", text);
-}
 
 struct LabelledCase {
   std::string label;
@@ -75,19 +50,6 @@ std::vector<LabelledCase> cases_of(const LoadedCase& loaded,
     }
   }
   return cases;
-}
-
-// Refuses a method with the option that named it, not with the case's own.
-void check_methods(const Case& input, const std::vector<std::string>& methods) {
-  for (const std::string& method : methods) {
-    try {
-      settings_of(input, method);
-    } catch (const InvalidCase& error) {
-      const bool of_method = error.key == "solver.method" || error.key == "solver.table";
-      if (!of_method) throw;
-      throw CaseFileError(fmt::format("--methods {}: {} {}", method, error.key, error.what()));
-    }
-  }
 }
 
 class Session {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -18,6 +19,12 @@ class CsvText {
   CsvText& number(const std::optional<double>& value) { return value ? number(*value) : empty(); }
   CsvText& whole(std::size_t value) { return put("{}", value); }
   CsvText& word(std::string_view value) { return put("{}", value); }
+  /// Words that may hold commas, which become semicolons: no column is quoted.
+  CsvText& text(std::string words) {
+    std::replace(words.begin(), words.end(), ',', ';');
+    std::replace(words.begin(), words.end(), '\n', ' ');
+    return word(words);
+  }
   CsvText& empty() { return word(""); }
   CsvText& end_row() {
     text_.push_back('\n');

@@ -29,12 +29,6 @@ constexpr Verdict verdicts[] = {Verdict::right,  Verdict::wrong_count, Verdict::
 
 std::size_t whole(long value) { return static_cast<std::size_t>(value); }
 
-std::string without_commas(std::string text) {
-  std::replace(text.begin(), text.end(), ',', ';');
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 std::string row(const std::string& id, const std::string& label, const WorkPrecisionPoint& point) {
   const EventErrors& errors = point.errors;
   const Work& work = point.work;
@@ -56,7 +50,7 @@ std::string row(const std::string& id, const std::string& label, const WorkPreci
                            work.jacobians, work.factorisations}) {
     csv.whole(whole(count));
   }
-  csv.word(without_commas(point.message)).end_row();
+  csv.text(point.message).end_row();
   return csv.str();
 }
 

@@ -12,15 +12,15 @@ void expect_in(const std::string& text, const std::string& piece) {
 TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
-  for (const char* piece : {"run", "work-precision", "plot", "report", "explain", "methods", "keys",
-                            "Examples:", "Exit status"}) {
+  for (const char* piece : {"run", "work-precision", "stability", "plot", "report", "explain",
+                            "methods", "keys", "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
 }
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
   for (const std::string command :
-       {"run", "work-precision", "plot", "report", "explain", "methods", "keys"}) {
+       {"run", "work-precision", "stability", "plot", "report", "explain", "methods", "keys"}) {
     const Finished finished = run_program({command, "--help"});
     EXPECT_EQ(finished.status, 0) << command;
     expect_in(finished.output, "Example");
@@ -81,6 +81,28 @@ TEST(WorkPrecision, RefusesAMethodItDoesNotKnowBeforeItWritesAnything) {
   EXPECT_EQ(finished.status, 2);
   expect_in(finished.errors, "--methods leapfrog: solver.method is \"leapfrog\"");
   EXPECT_FALSE(std::filesystem::exists(directory.path / "chart"));
+}
+
+TEST(Stability, WritesThePartsAskedFor) {
+  const TemporaryDirectory directory;
+  const Finished finished =
+      run_program({"stability", SUBIMPACT_PAPER_CASE, "--parts", "critical,contact", "--methods",
+                   "central-difference", "--set", "model.segments=101", "--out", "s"},
+                  directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  expect_in(finished.output, "euler-bernoulli");
+  expect_in(finished.output, "spring, N/m");
+  for (const char* name : {"critical_steps.csv", "critical_steps.svg", "stiff_contact.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(directory.path / "s" / name)) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "s" / "damping.csv"));
+}
+
+TEST(Stability, NamesThePartsThereAre) {
+  const Finished finished =
+      run_program({"stability", SUBIMPACT_PAPER_CASE, "--parts", "everything"});
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "--parts everything: unknown part; allowed: critical");
 }
 
 TEST(Explain, TellsWhatWillBeModelledAndWritesNothing) {

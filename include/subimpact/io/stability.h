@@ -1,0 +1,35 @@
+#pragma once
+
+/// Studies of stability as text, CSV and figures. Each function of a kind takes one part of the
+/// study; see subimpact/study/stability.h for what is in it.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "subimpact/study/stability.h"
+
+namespace subimpact {
+
+std::string critical_step_table(const std::vector<CriticalStep>& rows);
+std::string stiff_contact_table(const std::vector<StiffContact>& rows);
+std::string damping_table(const std::vector<Damping>& rows);
+std::string outcome_table(const OutcomeMap& map);
+std::string missed_pairs_table(const std::vector<MissedPairs>& rows);
+std::string layer_table(const LayerStudy& study);
+
+/// Each writes its CSV (critical_steps.csv, stiff_contact.csv, damping.csv, bdf_growth.csv,
+/// outcomes.csv, missed_pairs.csv, layers.csv) and its figure of the same name (SVG and PNG;
+/// damping and bdf_growth share one). Throw OutputError.
+void write_critical_steps(const std::filesystem::path& directory,
+                          const std::vector<CriticalStep>& rows);
+void write_stiff_contact(const std::filesystem::path& directory,
+                         const std::vector<StiffContact>& rows);
+void write_damping(const std::filesystem::path& directory, const std::vector<Damping>& rows,
+                   const std::vector<MultistepGrowth>& growths);
+void write_outcomes(const std::filesystem::path& directory, const OutcomeMap& map);
+void write_missed_pairs(const std::filesystem::path& directory,
+                        const std::vector<MissedPairs>& rows);
+void write_layers(const std::filesystem::path& directory, const LayerStudy& study);
+
+}  // namespace subimpact

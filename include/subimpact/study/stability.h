@@ -1,0 +1,130 @@
+#pragma once
+
+/// Where methods fail, and how: measured on a case's own beam, beside what theory says.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "subimpact/simulate/simulate.h"
+#include "subimpact/study/event_errors.h"
+#include "subimpact/study/reference.h"
+#include "subimpact/study/sweep.h"
+#include "subimpact/study/verdict.h"
+
+namespace subimpact {
+
+/// A method counts as stable if no mode's amplitude grows by more than this a step.
+constexpr double tolerated_growth = 1e-6;
+
+/// The largest stable step of an explicit method on one mesh of an elastic beam.
+struct CriticalStep {
+  std::string method;  ///< "central-difference", "erk:dop853"
+  BeamTheory theory = BeamTheory::rayleigh;
+  int segments = 0;
+  double highest_frequency = 0.0;  ///< rad/s, of the mesh
+  double limit = 0.0;      ///< of omega h, from the table's coefficients alone (see growth below)
+  double predicted = 0.0;  ///< s, limit/highest_frequency
+  double measured = 0.0;   ///< s, by stepping the highest mode and bisection
+};
+
+/// omega h up to which a method lets no undamped oscillation grow by more than tolerated_growth a
+/// step, from its coefficients: central differences 2; Runge-Kutta tables by |R(i omega h)|;
+/// Nystroem tables by the spectral radius of a step. Throws InvalidCase for other methods.
+double stability_limit(const std::string& method);
+
+/// Narrow ranges of omega h below stability_limit() in which a method grows all the same: where a
+/// step takes an oscillation by nearly half a turn, its two eigenvalues meet and part again. Looked
+/// for in steps of 1e-4.
+struct Resonance {
+  double from = 0.0, to = 0.0;  ///< omega h
+  double growth = 0.0;          ///< largest, a step
+};
+std::vector<Resonance> resonances(const std::string& method);
+
+/// Whether a list of methods asks for this one: a name without a table stands for all its tables,
+/// an empty list for all methods.
+bool asked_for(const std::vector<std::string>& methods, const std::string& method);
+
+/// Central differences and every explicit table, both beam theories, meshes of about a fifth, two
+/// fifths, four fifths and eight fifths of the case's cells.
+std::vector<CriticalStep> critical_steps(const Case& input,
+                                         const std::vector<std::string>& methods = {});
+
+/// The critical step of central differences while the striker is held in contact by a linear
+/// spring.
+struct StiffContact {
+  double stiffness = 0.0;  ///< of the spring, N/m
+  double beam_only = 0.0;  ///< s, 2/omega_max without the contact
+  double predicted = 0.0;  ///< s, 2/omega_max of beam, spring and striker together
+  double measured = 0.0;   ///< s
+};
+std::vector<StiffContact> stiff_contact(const Case& input);
+
+/// What an implicit table leaves of an oscillation in one step.
+struct Damping {
+  std::string method;      ///< "dirk:esdirk547"
+  double angle = 0.0;      ///< omega h
+  double predicted = 0.0;  ///< |R(i omega h)|
+  double measured = 0.0;   ///< on a mode of the case's beam
+};
+std::vector<Damping> damping_of_implicit_tables(const Case& input);
+
+/// Growth a step of the backward differentiation formulas on an undamped oscillation, from their
+/// coefficients.
+struct MultistepGrowth {
+  int order = 0;
+  double angle = 0.0;   ///< omega h
+  double growth = 0.0;  ///< above 1: the oscillation grows
+};
+std::vector<MultistepGrowth> bdf_growths();
+
+/// One run, made to see how it comes out.
+struct OutcomePoint {
+  std::string group;  ///< "fixed step" or "tolerance"
+  std::string row;    ///< method, and what else sets the row apart
+  double x = 0.0;     ///< omega_max h, or rtol
+  Verdict verdict = Verdict::refused;
+  EventErrors errors;
+  double energy_error = 0.0;  ///< largest relative one of the run
+  std::string message;        ///< what the user is told, where it is not right
+};
+
+struct OutcomeMap {
+  Reference reference;
+  std::vector<OutcomePoint> points;
+};
+
+/// Methods against fixed steps, from far below to far beyond what is stable, and against
+/// tolerances; backward differentiation order by order; implicit methods with steps at which high
+/// modes are damped away. Nothing is timed, so runs go on all cores. A run that takes more than
+/// `run_seconds` is left out. `progress` is told how many of how many are done.
+using Count = std::function<bool(std::size_t done, std::size_t all)>;
+OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
+                       double run_seconds = 20.0, const Count& progress = {});
+
+/// Sub-impacts and separations that begin and end within one step: of runs at several striking
+/// speeds (from half to one and a half times the case's; elastic beam, exponential method), how
+/// many have all sub-impacts up to the horizon, with and without the search for such pairs.
+struct MissedPairs {
+  double step = 0.0;  ///< s
+  int n_runs = 0;
+  int right_with_search = 0;
+  int right_without = 0;
+  double shortest = 0.0;  ///< s, the shortest sub-impact or separation of all references
+};
+std::vector<MissedPairs> missed_pairs(const Case& input, const Count& progress = {});
+
+/// The law of layers beside the exact one that it tends to, integrated as accurately as the
+/// reference.
+struct LayerPoint {
+  int layers = 0;
+  EventErrors errors;  ///< against the exact law
+};
+struct LayerStudy {
+  Reference exact;
+  std::vector<LayerPoint> points;
+};
+LayerStudy layers_against_exact(const Case& input, const Count& progress = {});
+
+}  // namespace subimpact

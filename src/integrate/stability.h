@@ -1,0 +1,23 @@
+#pragma once
+
+#include <complex>
+#include <string>
+
+namespace subimpact {
+
+/// What tables of coefficients promise for an undamped oscillation q'' = -omega^2 q taken in steps
+/// of omega h = y. All throw std::invalid_argument for an unknown table.
+
+/// R(z) of an explicit or diagonally implicit Runge-Kutta table: y' = lambda y goes from y to
+/// R(h lambda) y in a step. On the oscillation, |R(i y)| is the growth of its amplitude.
+std::complex<double> explicit_stability(const std::string& table, std::complex<double> z);
+std::complex<double> dirk_stability(const std::string& table, std::complex<double> z);
+
+/// Spectral radius of a step of a Runge-Kutta-Nystroem table on (omega q, v).
+double nystrom_growth(const std::string& table, double y);
+
+/// Largest modulus of a root of sum_j alpha_j zeta^j = i y zeta^k, the backward differentiation
+/// formula of order k = 1 to 5 on y' = i omega y at equal steps.
+double bdf_growth(int order, double y);
+
+}  // namespace subimpact

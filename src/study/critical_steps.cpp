@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "integrate/stability.h"
+#include "study/free_vibration.h"
+#include "study/method_choice.h"
+#include "study/parallel.h"
+#include "subimpact/simulate/case_keys.h"
+#include "subimpact/simulate/method_tables.h"
+#include "subimpact/study/stability.h"
+
+namespace subimpact {
+namespace {
+
+constexpr int n_steps = 32;  // of a trial
+// omega h: looked at from the first to the last in these factors, then halved.
+constexpr double first_angle = 0.05;
+constexpr double last_angle = 30.0;
+constexpr double scan_factor = 1.02;
+constexpr int n_halvings = 30;
+constexpr double fine_scan = 1e-4;
+
+// The smallest angle whose growth is not tolerated; `last_angle` if there is none.
+double first_unstable(const std::function<double(double)>& growth) {
+  double stable = 0.0;
+  double unstable = first_angle;
+  while (!(growth(unstable) > 1.0 + tolerated_growth)) {
+    stable = unstable;
+    unstable *= scan_factor;
+    if (unstable > last_angle) return last_angle;
+  }
+  for (int i = 0; i < n_halvings; ++i) {
+    const double middle = 0.5 * (stable + unstable);
+    (growth(middle) > 1.0 + tolerated_growth ? unstable : stable) = middle;
+  }
+  return unstable;
+}
+
+std::vector<std::string> explicit_methods() {
+  std::vector<std::string> methods = {"central-difference"};
+  for (const MethodTable& table : method_tables()) {
+    if (table.method == Method::erk || table.method == Method::nystrom) {
+      methods.push_back(std::string(to_string(table.method)) + ":" + table.name);
+    }
+  }
+  return methods;
+}
+
+// Growth a step from the coefficients, as a function of omega h.
+std::function<double(double)> predicted_growth(const std::string& method) {
+  const Case chosen = with_method({}, method);
+  const std::string table = chosen.solver.table.value_or("");
+  if (chosen.solver.method == Method::erk && !table.empty()) {
+    return [table](double y) { return std::abs(explicit_stability(table, {0.0, y})); };
+  }
+  if (chosen.solver.method == Method::nystrom && !table.empty()) {
+    return [table](double y) { return nystrom_growth(table, y); };
+  }
+  throw InvalidCase("solver.method", "is \"" + method +
+                                         "\", which has no stability limit to look for; allowed: "
+                                         "central-difference, or erk or nystrom with a table");
+}
+
+// Odd, as one half of a symmetric beam needs.
+int odd(double segments) { return 2 * static_cast<int>(segments / 2.0) + 1; }
+
+}  // namespace
+
+double stability_limit(const std::string& method) {
+  if (method == "central-difference") return 2.0;
+  return first_unstable(predicted_growth(method));
+}
+
+std::vector<Resonance> resonances(const std::string& method) {
+  std::vector<Resonance> list;
+  if (method == "central-difference") return list;
+  const auto growth = predicted_growth(method);
+  const double limit = stability_limit(method);
+  bool inside = false;
+  for (double y = fine_scan; y < limit - 2.0 * fine_scan; y += fine_scan) {
+    const double here = growth(y);
+    const bool grows = here > 1.0 + tolerated_growth;
+    if (grows && !inside) list.push_back({y, y, here});
+    if (grows) {
+      list.back().to = y;
+      list.back().growth = std::max(list.back().growth, here);
+    }
+    inside = grows;
+  }
+  return list;
+}
+
+bool asked_for(const std::vector<std::string>& methods, const std::string& method) {
+  if (methods.empty()) return true;
+  return std::any_of(methods.begin(), methods.end(), [&](const std::string& asked) {
+    return asked == method || method.rfind(asked + ":", 0) == 0;
+  });
+}
+
+std::vector<CriticalStep> critical_steps(const Case& input,
+                                         const std::vector<std::string>& methods) {
+  std::vector<CriticalStep> list;
+  for (const std::string& method : explicit_methods()) {
+    if (!asked_for(methods, method)) continue;
+    const double limit = stability_limit(method);
+    for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+      for (const double part : {0.2, 0.4, 0.8, 1.6}) {
+        CriticalStep row;
+        row.method = method;
+        row.theory = theory;
+        row.segments = std::max(9, odd(part * input.model.segments));
+        row.limit = limit;
+        list.push_back(row);
+      }
+    }
+  }
+  in_parallel(list.size(), [&](std::size_t i) {
+    CriticalStep& row = list[i];
+    Case trial = with_method(input, row.method);
+    trial.scene.beam.theory = row.theory;
+    trial.model.segments = row.segments;
+    FreeVibration beam(trial);
+    row.highest_frequency = beam.highest_frequency();
+    row.predicted = row.limit / row.highest_frequency;
+    const std::size_t top = beam.n_modes() - 1;
+    const double angle = first_unstable(
+        [&](double y) { return beam.growth(top, y / row.highest_frequency, n_steps); });
+    row.measured = angle / row.highest_frequency;
+  });
+  return list;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,68 @@
+#include "study/free_vibration.h"
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+namespace subimpact {
+namespace {
+
+Case elastic(Case input) {
+  input.model.section = SectionKind::elastic;
+  input.solver.beyond_critical = true;
+  return input;
+}
+
+}  // namespace
+
+FreeVibration::FreeVibration(const Case& input)
+    : input_(elastic(input)),
+      beam_(make_struck_beam(input_)),
+      modes_(beam_.mesh().natural_modes(beam_.sections().stiffness())) {
+  beam_.set_contact(ContactBranch::separated, {});
+}
+
+double FreeVibration::highest_frequency() const {
+  return beam_.mesh().highest_frequency(beam_.sections().stiffness());
+}
+
+FreeVibration::Amplitudes FreeVibration::run(std::size_t mode, double step, int n_steps,
+                                             const Amplitudes& start) {
+  const std::size_t n = beam_.mesh().n_unknowns();
+  const std::span<const double> shape = modes_.shape(mode);
+  State y(2 * beam_.n_positions(), 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    y[i] = start.displacement / frequency(mode) * shape[i];
+    y[n + 1 + i] = start.velocity * shape[i];
+  }
+  input_.solver.step = step;
+  const auto integrator = make_integrator(input_, describe(input_, beam_), beam_);
+  integrator->restart(0.0, y);
+  for (int i = 0; i < n_steps; ++i) integrator->step();
+
+  std::vector<double> weighted(n);
+  beam_.mesh().mass().multiply(shape, weighted);
+  const State& end = integrator->state();
+  Amplitudes result{0.0, 0.0};
+  for (std::size_t i = 0; i < n; ++i) {
+    result.displacement += frequency(mode) * weighted[i] * end[i];
+    result.velocity += weighted[i] * end[n + 1 + i];
+  }
+  return result;
+}
+
+double FreeVibration::growth(std::size_t mode, double step, int n_steps) {
+  const Amplitudes first = run(mode, step, n_steps, {1.0, 0.0});
+  const Amplitudes second = run(mode, step, n_steps, {0.0, 1.0});
+  const double half_trace = 0.5 * (first.displacement + second.velocity);
+  const double determinant =
+      first.displacement * second.velocity - first.velocity * second.displacement;
+  const std::complex<double> root =
+      std::sqrt(std::complex<double>(half_trace * half_trace - determinant, 0.0));
+  const double radius = std::max(std::abs(half_trace + root), std::abs(half_trace - root));
+  if (!std::isfinite(radius)) return std::numeric_limits<double>::infinity();
+  return std::pow(radius, 1.0 / n_steps);
+}
+
+}  // namespace subimpact

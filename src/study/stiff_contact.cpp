@@ -1,0 +1,105 @@
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "integrate/central_difference.h"
+#include "simulate/model_factory.h"
+#include "study/method_choice.h"
+#include "study/parallel.h"
+#include "subimpact/study/stability.h"
+
+namespace subimpact {
+namespace {
+
+constexpr int n_steps = 600;
+constexpr double blown_up = 1e6;  // of the energy at the start; bounded motion stays near it
+constexpr int n_bisections = 14;
+constexpr double decades[] = {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0};
+
+// Beam and striker, held together by a spring that pulls as well as it pushes.
+StruckBeam held_together(const Case& input, double stiffness) {
+  Case trial = with_method(input, "central-difference");
+  trial.model.section = SectionKind::elastic;
+  trial.scene.contact = {};
+  trial.scene.contact.kind = ContactKind::linear;
+  trial.scene.contact.stiffness = stiffness;
+  trial.scene.striker.nose_radius.reset();
+  StruckBeam beam = make_struck_beam(trial);
+  beam.set_contact(ContactBranch::elastic, {});
+  return beam;
+}
+
+double highest_frequency(StruckBeam& beam) {
+  const SparsityPattern& pattern = beam.pattern();
+  const auto n = static_cast<Eigen::Index>(pattern.size());
+  std::vector<double> mass(pattern.n_entries()), stiffness(pattern.n_entries());
+  beam.mass_entries(mass);
+  const std::vector<double> rest(pattern.size(), 0.0);
+  beam.stiffness_entries(rest, MechanicalSystem::Part::all, stiffness);
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd k = m;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto column = static_cast<std::size_t>(j);
+    for (std::size_t e = pattern.column_starts[column]; e < pattern.column_starts[column + 1];
+         ++e) {
+      m(static_cast<Eigen::Index>(pattern.rows[e]), j) = mass[e];
+      k(static_cast<Eigen::Index>(pattern.rows[e]), j) = stiffness[e];
+    }
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(k, m,
+                                                                         Eigen::EigenvaluesOnly);
+  return std::sqrt(solver.eigenvalues().maxCoeff());
+}
+
+// Whether central differences blow up from a state that holds something of every mode.
+bool blows_up(StruckBeam& beam, double step) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> velocity(-1.0, 1.0);
+  const std::size_t n = beam.n_positions();
+  State y(2 * n, 0.0);
+  for (std::size_t i = n; i < 2 * n; ++i) y[i] = velocity(random);
+  double size = 0.0;
+  for (const double v : y) size += v * v;
+  CentralDifference method(beam, step);
+  method.restart(0.0, y);
+  for (int i = 0; i < n_steps; ++i) method.step();
+  double end = 0.0;
+  for (std::size_t i = n; i < 2 * n; ++i) end += method.state()[i] * method.state()[i];
+  return !(end < blown_up * size);
+}
+
+}  // namespace
+
+std::vector<StiffContact> stiff_contact(const Case& input) {
+  std::vector<StiffContact> list;
+  for (const double decade : decades) {
+    StiffContact row;
+    row.stiffness = decade;
+    list.push_back(row);
+  }
+  in_parallel(list.size(), [&](std::size_t i) {
+    StiffContact& row = list[i];
+    Case trial = with_method(input, "central-difference");
+    trial.model.section = SectionKind::elastic;
+    const double beam_alone = explain(trial).highest_frequency;
+    row.beam_only = 2.0 / beam_alone;
+    // The unit is the spring that alone oscillates as fast as the mesh on a cell's mass.
+    const double cell_mass = trial.scene.beam.mass() / trial.model.segments;
+    row.stiffness = std::pow(10.0, row.stiffness) * cell_mass * beam_alone * beam_alone;
+    StruckBeam beam = held_together(trial, row.stiffness);
+    row.predicted = 2.0 / highest_frequency(beam);
+    double stable = 0.05 * row.predicted;
+    double unstable = 1.5 * row.beam_only;
+    for (int n = 0; n < n_bisections; ++n) {
+      const double middle = 0.5 * (stable + unstable);
+      (blows_up(beam, middle) ? unstable : stable) = middle;
+    }
+    row.measured = stable;
+  });
+  return list;
+}
+
+}  // namespace subimpact
