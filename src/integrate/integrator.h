@@ -61,6 +61,10 @@ class Integrator {
   /// the start, not an interpolant of lower order).
   virtual void state_at(double t, State& y) = 0;
 
+  /// Whether the integrator itself has shown that nothing happened in the last step, however long:
+  /// nobody need look for events in it.
+  virtual bool is_eventless() const { return false; }
+
   virtual WorkCounts work() const = 0;
 
  protected:

@@ -68,7 +68,7 @@ std::span<const Named<Method>> names_of(Method) {
        "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of its "
        "cost"},
       {Method::exponential, "exponential",
-       "natural modes under a collocated contact force: by far the fastest where the beam stays "
+       "natural modes under a collocated contact force: the fastest by far where the "
        "elastic"},
       {Method::dirk, "dirk",
        "diagonally implicit Runge-Kutta with error control (ARKODE): stable at any step, but damps "

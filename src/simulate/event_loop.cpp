@@ -90,7 +90,8 @@ StepEnds EventLoop::step_to_end_time() {
     integrator_.state_at(end, end_state_);
     y1 = &end_state_;
   }
-  return {integrator_.start_time(), end, integrator_.start_state(), *y1};
+  return {integrator_.start_time(), end, integrator_.start_state(), *y1,
+          integrator_.is_eventless()};
 }
 
 void EventLoop::locate_events() {
@@ -110,7 +111,7 @@ void EventLoop::locate_events() {
     // is looked at again, in case an estimate had the order wrong.
     event.reset();
     dealt_with_.clear();
-    while (beam_.find_crossing({t0, t1, y0, *y1}, dealt_with_, crossing)) {
+    while (beam_.find_crossing({t0, t1, y0, *y1, whole.eventless}, dealt_with_, crossing)) {
       const StepEnds step{t0, t1, y0, *y1};
       dealt_with_.push_back(crossing.guard);
       if (crossing.in_doubt && !confirm(crossing, step)) continue;
@@ -119,12 +120,13 @@ void EventLoop::locate_events() {
       end_at_event_state(time);
       event = crossing.guard;
     }
-    const double good_until = beam_.find_section_kinks({t0, t1, y0, *y1}, options_.kink_tolerance);
+    const double good_until =
+        beam_.find_section_kinks({t0, t1, y0, *y1, whole.eventless}, options_.kink_tolerance);
     if (!(good_until < t1)) break;
     integrator_.state_at(good_until, event_state_);
     end_at_event_state(good_until);
   }
-  observer_.on_step({t0, t1, y0, *y1}, beam_, integrator_);
+  observer_.on_step({t0, t1, y0, *y1, whole.eventless}, beam_, integrator_);
   const bool kinked = !beam_.section_kinks().empty();
   if (kinked) put_sections_right(y1);
   time_ = t1;

@@ -68,6 +68,19 @@ std::optional<int> max_order_used(const Case& input) {
   return order;
 }
 
+// On a beam that may yield the method relies on seeing where sections begin to flow.
+void check_yielding_exponential(const Case& input, const Used& used) {
+  const auto refuse = [](const char* key, const char* what) {
+    throw InvalidCase(key, fmt::format("is {}, which exponential cannot do where the beam may "
+                                       "yield; leave it out, set model.section = \"elastic\", or "
+                                       "use nystrom",
+                                       what));
+  };
+  if (input.solver.step) refuse("solver.step", "given: a fixed step");
+  if (used.events != EventHandling::located) refuse("solver.events", "\"interpolated\"");
+  if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
+}
+
 // The table asked for, or the method's first; nothing for a method without tables.
 std::optional<std::string> table_used(const Case& input) {
   const std::vector<std::string> names = tables_of(input.solver.method);
@@ -159,10 +172,10 @@ bool uses_symmetry(const Case& input) {
 
 StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage) {
   std::unique_ptr<BeamMesh> mesh = make_mesh(input);
-  if (input.solver.method == Method::exponential) {
+  SectionField sections = make_sections(input, mesh->n_sections(), storage);
+  if (input.solver.method == Method::exponential && !sections.can_yield()) {
     mesh = std::make_unique<ModalMesh>(std::move(mesh), input.scene.beam.bending_stiffness());
   }
-  SectionField sections = make_sections(input, mesh->n_sections(), storage);
   std::unique_ptr<MassSolver> solver;
   if (input.solver.mass_solver == MassSolverKind::klu) {
     solver = make_klu_mass_solver(mesh->mass());
@@ -187,12 +200,6 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.yield_curvature = scene.beam.yield_curvature();
   used.first_period = 2.0 * M_PI / flexural_frequencies(scene.beam, 1).front();
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
-  if (input.solver.method == Method::exponential && beam.sections().can_yield()) {
-    throw InvalidCase(
-        "solver.method",
-        "is \"exponential\", which needs a beam that does not yield; set model.section = "
-        "\"elastic\", or use \"nystrom\" for a yielding one");
-  }
   used.table = table_used(input);
   const bool central = input.solver.method == Method::central_difference;
   used.events =
@@ -201,6 +208,9 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.reversals = input.solver.reversals.value_or(
       is_multistep(input.solver.method) ? ReversalHandling::step_end : ReversalHandling::located);
   used.max_order = max_order_used(input);
+  if (input.solver.method == Method::exponential && beam.sections().can_yield()) {
+    check_yielding_exponential(input, used);
+  }
   if (is_multistep(input.solver.method) && input.solver.step) {
     throw InvalidCase(
         "solver.step",

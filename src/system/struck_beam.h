@@ -58,6 +58,7 @@ struct StepEnds {
   double t0, t1;
   const State& y0;
   const State& y1;
+  bool eventless = false;  ///< nothing happened in it, whatever its ends may suggest
   double length() const { return t1 - t0; }
 };
 
@@ -157,7 +158,8 @@ class StruckBeam final : public MechanicalSystem {
   /// and the sections that turned put right as if the step ended there, and all else as it was.
   template <class Look>
   void look_within(const StepEnds& step, double t, State& y, Look look) {
-    find_section_kinks({step.t0, t, step.y0, y}, std::numeric_limits<double>::infinity());
+    find_section_kinks({step.t0, t, step.y0, y, step.eventless},
+                       std::numeric_limits<double>::infinity());
     std::vector<SectionField::Memory> before;
     for (const SectionKink& kink : section_kinks()) {
       if (kink.turn) before.push_back(sections_.memory(kink.section));

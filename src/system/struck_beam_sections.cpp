@@ -17,7 +17,9 @@ constexpr double cut_exponent = 0.15;
 
 double StruckBeam::find_section_kinks(const StepEnds& step, double tolerance) {
   kinks_.clear();
-  if (section_evaluation_ != Evaluation::smooth || !sections_.can_yield()) return step.t1;
+  if (step.eventless || section_evaluation_ != Evaluation::smooth || !sections_.can_yield()) {
+    return step.t1;
+  }
   read_motion(step.y1, end_);
   if (!kinks_.suspect(sections_, start_, end_, step.length())) return step.t1;
   if (kinks_.cut()) return step.t0 + *kinks_.cut() * step.length();

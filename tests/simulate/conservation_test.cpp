@@ -69,6 +69,15 @@ TEST_P(Conservation, HoldsAtEveryStepOfErkAtOneInABillion) {
   EXPECT_LT(audit.plastic_loss, 1e-12);
 }
 
+TEST_P(Conservation, HoldsAtEveryStepOfTheExponentialMethod) {
+  Case input = paper_case(GetParam(), 8e-3);
+  input.solver.method = Method::exponential;
+  const Audit audit = audited(input);
+  EXPECT_LT(audit.energy_error, 1e-8);
+  EXPECT_LT(audit.momentum_error, 1e-11);
+  EXPECT_LT(audit.plastic_loss, 1e-11);
+}
+
 TEST_P(Conservation, OfMomentumHoldsAtEveryCentralDifference) {
   Case input = paper_case(GetParam(), 2e-3);
   input.solver.method = Method::central_difference;
