@@ -62,8 +62,8 @@ void Flying::step() {
   } else if (waited_++ >= patience_) {
     const double usual = integrator_->time() - integrator_->start_time();
     const double length = fly();
-    patience_ = length >= paying_flight * usual ? least_patience
-                                                : std::min(2 * patience_, most_patience);
+    patience_ =
+        length >= paying_flight * usual ? least_patience : std::min(2 * patience_, most_patience);
     waited_ = 0;
     if (length >= least_flight * usual && length > 0.0) {
       std::swap(y0_, y1_);

@@ -11,13 +11,13 @@ namespace subimpact {
 /// Another integrator, spared the stretches of free flight (FreeFlight): there the motion is known
 /// in closed form, and one step goes as far as it can be shown that no guard reaches its limits.
 ///
-/// The proof: with amplitudes A_k = |(z_k, z_k'/omega_k)|, which free flight keeps, guard i moves by
-/// no more than sum |g_ik| A_k, so most guards can never reach their limits and are left out for
+/// The proof: with amplitudes A_k = |(z_k, z_k'/omega_k)|, which free flight keeps, guard i moves
+/// by no more than sum |g_ik| A_k, so most guards can never reach their limits and are left out for
 /// the whole flight. Of the others the highest oscillators, whose share r_i = sum |g_ik| A_k is a
-/// small part of the room, are replaced by that bound. The rest is sampled at intervals tau, between
-/// which a guard exceeds the larger of its samples by no more than tau^2/8 sum |g_ik| A_k omega_k^2.
-/// The step ends before the first interval in which the sum of these could reach a limit; from
-/// there the other integrator goes on, and nothing has been passed over.
+/// small part of the room, are replaced by that bound. The rest is sampled at intervals tau,
+/// between which a guard exceeds the larger of its samples by no more than tau^2/8 sum |g_ik| A_k
+/// omega_k^2. The step ends before the first interval in which the sum of these could reach a
+/// limit; from there the other integrator goes on, and nothing has been passed over.
 ///
 /// A flight costs a few passes over the matrix of guards, so it is only tried after some steps of
 /// the other integrator since it became possible, and after more of them where it did not pay.

@@ -68,8 +68,9 @@ std::span<const Named<Method>> names_of(Method) {
        "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of its "
        "cost"},
       {Method::exponential, "exponential",
-       "natural modes under a collocated contact force: the fastest by far where the "
-       "elastic"},
+       "natural modes: an elastic beam under a collocated contact force, free flight in closed "
+       "form "
+       "where it yields; the fastest"},
       {Method::dirk, "dirk",
        "diagonally implicit Runge-Kutta with error control (ARKODE): stable at any step, but damps "
        "what it does not resolve"},

@@ -64,8 +64,8 @@ TEST_P(FlyingBeam, LimitsAreTheElasticWindowsAndTheGap) {
     EXPECT_NEAR(high_[i] - value(i), beam_.sections().window_high()[i] - kappa[i], 1e-9 * kappa_y);
     EXPECT_NEAR(value(i) - low_[i], kappa[i] - beam_.sections().window_low()[i], 1e-9 * kappa_y);
   }
-  EXPECT_NEAR(high_.back() - value(kappa.size()), beam_.residual_indentation() - beam_.indentation(y_),
-              1e-15);
+  EXPECT_NEAR(high_.back() - value(kappa.size()),
+              beam_.residual_indentation() - beam_.indentation(y_), 1e-15);
 }
 
 TEST_P(FlyingBeam, AcceleratesAsTheBeamDoes) {
@@ -97,8 +97,7 @@ TEST_P(FlyingBeam, CannotFlyWhileInContactOrFlowing) {
   EXPECT_FALSE(flight_->possible());
 }
 
-INSTANTIATE_TEST_SUITE_P(, FlyingBeam,
-                         testing::Values(models()[1], models()[3], models()[4]),
+INSTANTIATE_TEST_SUITE_P(, FlyingBeam, testing::Values(models()[1], models()[3], models()[4]),
                          [](const auto& info) { return "model" + std::to_string(info.index); });
 
 }  // namespace
