@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
   app::add_compare(program, status);
   app::add_work_precision(program, status);
   app::add_stability(program, status);
+  app::add_plan(program, status);
   app::add_explain(program, status);
   app::add_plot(program, status);
   app::add_report(program, status);

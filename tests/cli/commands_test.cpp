@@ -12,15 +12,15 @@ void expect_in(const std::string& text, const std::string& piece) {
 TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
-  for (const char* piece : {"run", "work-precision", "stability", "plot", "report", "explain",
-                            "methods", "keys", "Examples:", "Exit status"}) {
+  for (const char* piece : {"run", "work-precision", "stability", "plan", "plot", "report",
+                            "explain", "methods", "keys", "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
 }
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
-  for (const std::string command :
-       {"run", "work-precision", "stability", "plot", "report", "explain", "methods", "keys"}) {
+  for (const std::string command : {"run", "work-precision", "stability", "plan", "plot", "report",
+                                    "explain", "methods", "keys"}) {
     const Finished finished = run_program({command, "--help"});
     EXPECT_EQ(finished.status, 0) << command;
     expect_in(finished.output, "Example");
@@ -103,6 +103,12 @@ TEST(Stability, NamesThePartsThereAre) {
       run_program({"stability", SUBIMPACT_PAPER_CASE, "--parts", "everything"});
   EXPECT_EQ(finished.status, 2);
   expect_in(finished.errors, "--parts everything: unknown part; allowed: critical");
+}
+
+TEST(Plan, WantsAnErrorWithItsUnit) {
+  const Finished finished = run_program({"plan", SUBIMPACT_PAPER_CASE, "--error", "small"});
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "is \"small\"; allowed: a time above 0 with its unit");
 }
 
 TEST(Explain, TellsWhatWillBeModelledAndWritesNothing) {

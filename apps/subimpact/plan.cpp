@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "status_line.h"
+#include "subimpact/io/plan.h"
+#include "subimpact/io/results.h"
+
+namespace subimpact::app {
+namespace {
+
+struct PlanCommand {
+  CaseOptions input;
+  std::string error;
+  std::string directory;
+};
+
+// "1us", "0.5 ms", "2e-7" (seconds).
+std::optional<double> seconds_of(const std::string& text) {
+  char* rest = nullptr;
+  const double value = std::strtod(text.c_str(), &rest);
+  if (rest == text.c_str() || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
+  while (*rest == ' ') ++rest;
+  const std::string unit = rest;
+  if (unit.empty() || unit == "s") return value;
+  if (unit == "ms") return 1e-3 * value;
+  if (unit == "us") return 1e-6 * value;
+  if (unit == "ns") return 1e-9 * value;
+  return std::nullopt;
+}
+
+std::string time_with_unit(const std::string& text) {
+  if (seconds_of(text)) return {};
+  return fmt::format("is \"{}\"; allowed: a time above 0 with its unit, such as 1us, 0.5ms or 20ns",
+                     text);
+}
+
+int run_plan(const PlanCommand& command) {
+  const LoadedCase loaded = command.input.load();
+  if (!command.directory.empty()) prepare_output_directory(command.directory);
+  InterruptListener listener;
+  StatusLine status;
+  Plan result;
+  try {
+    result = plan(
+        loaded.value, *seconds_of(command.error),
+        [&](const std::string& what) { status.show(what); },
+        [&](double) { return !listener.interrupted(); });
+  } catch (const InvalidCase& error) {
+    status.clear();
+    throw CaseFileError(loaded.message(error));
+  }
+  status.clear();
+  fmt::print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+             mesh_limit_table(result.limit), "\n" + plan_table(result));
+  if (!command.directory.empty()) {
+    write_plan(command.directory, result);
+    fmt::print("meshes.csv, mesh_limit.csv and plan.csv in {}\n", command.directory);
+  }
+  if (!result.interrupted) return done;
+  fmt::print(stderr, "subimpact: interrupted; the combinations above are those that were tried\n");
+  return interrupted;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "plan", "Find the cheapest mesh, method and setting for a wanted total error");
+  auto options = std::make_shared<PlanCommand>();
+  options->input.add_to(*command);
+  command
+      ->add_option("--error", options->error,
+                   "Largest error of an event time that is wanted, of mesh, layers and time "
+                   "together, with its unit: 1us")
+      ->check(time_with_unit)
+      ->required();
+  command->add_option("--out", options->directory,
+                      "Directory for meshes.csv, mesh_limit.csv and plan.csv; made if missing. "
+                      "Without it nothing is written");
+  command->footer(
+      "Meshes from a quarter to four times the case's size tell the limit of fine meshes, with its "
+      "uncertainty; combinations are held against that limit. Timed runs run alone: leave the "
+      "machine to them.\n"
+      "Examples:\n"
+      "  subimpact plan case.toml --error 1us\n"
+      "  subimpact plan case.toml --error 0.05us --set model.section=elastic --out out/plan\n"
+      "Exit status: 0 done; 2 bad command line or case file; 130 stopped by Ctrl-C.");
+  command->callback([options, &status] { status = run_plan(*options); });
+}
+
+}  // namespace subimpact::app
