@@ -15,7 +15,7 @@
 namespace subimpact::benchmarks {
 
 std::span<const Part> all_parts() {
-  static constexpr std::array<Part, 8> parts{{
+  static constexpr std::array<Part, 9> parts{{
       {"naive", "central-difference against the same scheme done naively", measure_naive},
       {"vectors", "own vector operations against the SUNDIALS library's", measure_vectors},
       {"evaluation",
@@ -28,6 +28,8 @@ std::span<const Part> all_parts() {
        measure_events},
       {"exponential", "the exponential method against erk and nystrom on an elastic beam",
        measure_exponential},
+      {"mesh", "Hermite elements against cells at one total error, on an elastic beam",
+       measure_mesh},
       {"tables", "every table of erk and nystrom: work, time, error", measure_tables},
   }};
   return parts;

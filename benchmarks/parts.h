@@ -23,6 +23,7 @@ void measure_mass(const Settings& settings);
 void measure_reversals(const Settings& settings);
 void measure_events(const Settings& settings);
 void measure_exponential(const Settings& settings);
+void measure_mesh(const Settings& settings);
 void measure_tables(const Settings& settings);
 
 }  // namespace subimpact::benchmarks
