@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* style = R"(
 body { font: 16px/1.5 system-ui, "Segoe UI", Helvetica, Arial, sans-serif; color: #1b1b1b;
-       background: #fff; max-width: 60rem; margin: 2rem auto; padding: 0 1.2rem; }
+       background: #fff; max-width: 68rem; margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.6rem; line-height: 1.25; margin-bottom: 0.2rem; }
 h2 { font-size: 1.2rem; margin: 2.2rem 0 0.6rem; border-bottom: 1px solid #d0d0d0; }
 .sub { color: #555; margin-top: 0; }
@@ -32,7 +32,7 @@ figure svg { width: 100%; height: auto; }
 figcaption { color: #333; font-size: 0.92rem; max-width: 48rem; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.88rem; font-variant-numeric: tabular-nums; }
-th, td { padding: 0.18rem 0.7rem; text-align: right; white-space: nowrap; }
+th, td { padding: 0.18rem 0.55rem; text-align: right; white-space: nowrap; }
 th { border-bottom: 1px solid #888; font-weight: 600; vertical-align: bottom; }
 th small { font-weight: 400; color: #555; display: block; }
 tr.zone td { text-align: left; color: #555; padding-top: 0.7rem; border-bottom: 1px solid #e4e4e4; }
@@ -96,7 +96,9 @@ void add_table(Page& page, const Result& result) {
       "<th>peak force<small>N</small></th><th>impulse<small>mN s</small></th>"
       "<th>indentation<small>max, mm</small></th><th>residual<small>mm</small></th>"
       "<th>striker<small>m/s</small></th>{}</tr></thead><tbody>",
-      with_errors ? "<th>± start<small>µs</small></th><th>± end<small>µs</small></th>" : "");
+      with_errors ? "<th>± start<small>µs, all</small></th><th>± end<small>µs, all</small></th>"
+                    "<th>± time<small>µs, of it</small></th>"
+                  : "");
   const auto error = [](const std::optional<double>& e) {
     return e ? fmt::format("<td>{:.1e}</td>", 1e6 * *e) : std::string("<td>?</td>");
   };
@@ -105,7 +107,7 @@ void add_table(Page& page, const Result& result) {
   for (const SubImpact& s : result.sub_impacts) {
     if (s.zone != zone || s.subzone != subzone) {
       page.add("<tr class=\"zone\"><td colspan=\"{}\">zone {}, sub-zone {}</td></tr>",
-               with_errors ? 11 : 9, s.zone, s.subzone);
+               with_errors ? 12 : 9, s.zone, s.subzone);
       zone = s.zone;
       subzone = s.subzone;
     }
@@ -115,7 +117,8 @@ void add_table(Page& page, const Result& result) {
         ++index, 1e6 * s.start, s.end ? fmt::format("{:.4f}", 1e6 * *s.end) : "(open)",
         s.end ? fmt::format("{:.4f}", 1e6 * (*s.end - s.start)) : "", s.peak_force, 1e3 * s.impulse,
         1e3 * s.max_indentation, 1e3 * s.residual_indentation, s.striker_velocity,
-        with_errors ? error(s.start_error) + error(s.end_error) : std::string());
+        with_errors ? error(s.start_error) + error(s.end_error) + error(s.error_time)
+                    : std::string());
   }
   page.add("</tbody></table></div>");
 }
@@ -161,16 +164,26 @@ void add_trust(Page& page, const Result& result) {
     return;
   }
   const Trust& trust = *result.trust;
+  page.add("<p>By comparison with companion runs, each of which changes one thing:</p>");
   page.add(
-      "<p>By comparison with a companion run ({}): {}</p>", escaped(trust.companion),
-      trust.first_undecided
-          ? fmt::format("times before sub-impact {} are good to {:.1e} µs; from there on count "
-                        "and order are uncertain: {}.",
-                        *trust.first_undecided + 1, 1e6 * trust.largest_error,
-                        escaped(trust.reason))
-          : fmt::format("all times are good to {:.1e} µs. This is the error of the integration "
-                        "in time; that of the mesh is not in it.",
-                        1e6 * trust.largest_error));
+      "<div class=\"wide\"><table class=\"keys\"><thead><tr><th>error of</th><th>companion</th>"
+      "<th>times good to</th><th>holds</th></tr></thead><tbody>");
+  for (const Trust::Part& part : trust.parts) {
+    page.add(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", escaped(part.name),
+        escaped(part.companion),
+        part.first_undecided == std::size_t{0} ? std::string()
+                                               : fmt::format("{:.1e} µs", 1e6 * part.largest_error),
+        part.first_undecided
+            ? fmt::format("before sub-impact {}; from there on count and order are uncertain: {}",
+                          *part.first_undecided + 1, escaped(part.reason))
+            : std::string("for all sub-impacts"));
+  }
+  page.add("</tbody></table></div>");
+  if (trust.first_undecided) {
+    page.add("<p>All taken together, sub-impact {} is the first that is not certain.</p>",
+             *trust.first_undecided + 1);
+  }
 }
 
 void add_conservation(Page& page, const Result& result) {

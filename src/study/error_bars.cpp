@@ -17,7 +17,7 @@ constexpr double safety = 3.0;
 
 Companion companion_of(const Case& input) {
   Companion companion{input, {}};
-  companion.input.output.interval = 0.0;
+  companion.input.output.keep_no_rows();
   SolverOptions& solver = companion.input.solver;
   const Used used = explain(input);
   if (used.step) {

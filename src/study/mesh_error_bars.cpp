@@ -96,8 +96,7 @@ int mesh_count(const Case& input) {
 std::optional<Companion> on_other_mesh(const Case& input, double factor) {
   Companion companion{input, {}};
   Case& other = companion.input;
-  other.output.interval = 0.0;
-  other.output.sections.clear();
+  other.output.keep_no_rows();
   const bool symmetric = uses_symmetry(input);
   const double wanted = factor * mesh_count(input);
   if (input.model.mesh == MeshKind::cells) {

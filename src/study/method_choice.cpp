@@ -8,8 +8,7 @@ namespace subimpact {
 
 Case with_method(const Case& input, const std::string& name) {
   Case chosen = input;
-  chosen.output.interval = 0.0;
-  chosen.output.sections.clear();
+  chosen.output.keep_no_rows();
   chosen.solver.table.reset();
   chosen.solver.max_order.reset();
   const std::size_t colon = name.find(':');

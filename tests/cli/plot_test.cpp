@@ -61,6 +61,16 @@ TEST(Plot, OfWhatIsNoRunEndsWithStatus2AndSaysWhatIsMissing) {
   expect_in(empty.errors, "summary.json: cannot be read");
 }
 
+TEST(Run, KeepsSectionsWithErrorBarsToo) {
+  const TemporaryDirectory directory;
+  const Finished finished =
+      run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--error-bars", "--set",
+                   "time.end=1e-4", "--set", "model.segments=51", "--set", "output.sections=0.5"},
+                  directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / "sections.csv"));
+}
+
 TEST(Report, IsOnePageBesideTheRun) {
   const TemporaryDirectory directory;
   make_run(directory);

@@ -130,6 +130,23 @@ TEST(HtmlReport, HoldsCaseWordsTableFiguresMethodErrorBarsAndConservation) {
   EXPECT_GT(n_rows, run.result.sub_impacts.size() + 20u);
 }
 
+TEST(HtmlReport, ListsErrorBarsByTheirSource) {
+  FinishedRun run = small_run();
+  for (SubImpact& s : run.result.sub_impacts) s.start_error = s.error_time = 2e-9;
+  Trust trust;
+  trust.first_undecided = 1;
+  trust.parts = {{"time", "the same with rtol = 1e-10", {}, "", 2e-9},
+                 {"mesh", "the same with 103 cells", 1, "they <part>", 3e-7}};
+  run.result.trust = trust;
+  const std::string page = page_of(run);
+  EXPECT_EQ(xml_problem(page), "");
+  for (const char* piece : {"the same with rtol = 1e-10", "2.0e-03 µs", "for all sub-impacts",
+                            "the same with 103 cells", "before sub-impact 2", "they &lt;part&gt;",
+                            "sub-impact 2 is the first that is not certain"}) {
+    expect_in(page, piece);
+  }
+}
+
 TEST(HtmlReport, OfARunThatFailedSaysSo) {
   FinishedRun run = small_run();
   run.result.outcome = {OutcomeKind::solver_failed, 5e-4, "the step became too small"};

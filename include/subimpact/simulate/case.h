@@ -78,6 +78,12 @@ struct OutputOptions {
   double zone_gap = 0.1;         ///< in first flexural periods
   double subzone_gap = 0.02;     ///< in first flexural periods
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
+
+  /// For companion runs, of which only the sub-impacts matter.
+  void keep_no_rows() {
+    interval = 0.0;
+    sections.clear();
+  }
 };
 
 struct Case {
