@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t s = n_force_nodes;
 
-// basis[j][m]: coefficient of s^m/m! in the Lagrange polynomial of Gauss point j.
+// basis[m][j]: coefficient of s^m/m! in the Lagrange polynomial of Gauss point j.
 using Basis = std::array<std::array<double, s>, s>;
 
 Basis make_basis() {
@@ -33,7 +33,7 @@ Basis make_basis() {
     double factorial = 1.0;
     for (std::size_t m = 0; m < s; ++m) {
       if (m > 0) factorial *= static_cast<double>(m);
-      basis[j][m] = factorial * product[m];
+      basis[m][j] = factorial * product[m];
     }
   }
   return basis;
@@ -52,12 +52,15 @@ struct UnitResponse {
 
 UnitResponse unit_response(double theta, const std::array<double, 6>& c) {
   UnitResponse response{};
-  for (std::size_t j = 0; j < s; ++j) {
-    double power = theta;
-    for (std::size_t m = 0; m < s; ++m) {
-      response.velocity[j] += basis()[j][m] * power * c[m + 1];
-      power *= theta;
-      response.position[j] += basis()[j][m] * power * c[m + 2];
+  const Basis& b = basis();
+  double power = theta;
+  for (std::size_t m = 0; m < s; ++m) {
+    const double velocity = power * c[m + 1];
+    power *= theta;
+    const double position = power * c[m + 2];
+    for (std::size_t j = 0; j < s; ++j) {
+      response.velocity[j] += b[m][j] * velocity;
+      response.position[j] += b[m][j] * position;
     }
   }
   return response;
@@ -77,7 +80,7 @@ const std::array<double, s>& gauss_points() {
 
 ForcePolynomial::ForcePolynomial(const NodeForces& values) {
   for (std::size_t j = 0; j < s; ++j) {
-    for (std::size_t m = 0; m < s; ++m) coefficients_[m] += values[j] * basis()[j][m];
+    for (std::size_t m = 0; m < s; ++m) coefficients_[m] += values[j] * basis()[m][j];
   }
 }
 

@@ -87,6 +87,8 @@ class BeamMesh {
   virtual NaturalModes natural_modes(double bending_stiffness) const {
     return dense_natural_modes(*this, bending_stiffness);
   }
+  /// Where the unknowns are natural modes: their stiffnesses omega^2, a 1/s2 each. Empty otherwise.
+  virtual std::span<const double> modal_stiffness() const { return {}; }
   /// "501 cells, one half by symmetry", for people.
   virtual std::string description() const = 0;
 

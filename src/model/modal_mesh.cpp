@@ -26,6 +26,7 @@ ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffnes
   const std::size_t n = n_unknowns();
   for (std::size_t k = 0; k < n; ++k) {
     mass_.at(k, k) = 1.0;
+    stiffness_.push_back(modes_.frequencies[k] * modes_.frequencies[k]);
     struck_point_.terms.push_back({k, physical_->struck_point()(modes_.shape(k))});
     first_end_.terms.push_back({k, physical_->first_end()(modes_.shape(k))});
     struck_point_.dense.push_back(struck_point_.terms.back().coefficient);

@@ -23,6 +23,7 @@ class ModalMesh final : public BeamMesh {
   double highest_frequency(double bending_stiffness) const override {
     return physical_->highest_frequency(bending_stiffness);
   }
+  std::span<const double> modal_stiffness() const override { return stiffness_; }
   std::string description() const override;
 
   /// q = sum z_k phi_k.
@@ -33,6 +34,7 @@ class ModalMesh final : public BeamMesh {
  private:
   std::unique_ptr<BeamMesh> physical_;
   NaturalModes modes_;
+  std::vector<double> stiffness_;
   mutable std::vector<double> work_;
 };
 

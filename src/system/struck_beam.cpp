@@ -30,6 +30,7 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),
       1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
+  if (!sections_.can_yield()) modal_stiffness_ = mesh_->modal_stiffness();
 }
 
 State StruckBeam::initial_state() const {
@@ -45,21 +46,25 @@ double StruckBeam::force(double indentation) const {
   return contact_law_.branch_force(contact_branch_, contact_history_, indentation);
 }
 
-void StruckBeam::section_moments(std::span<const double> curvatures) {
-  if (section_evaluation_ == Evaluation::smooth) {
-    sections_.smooth_moments(curvatures, moments_);
-  } else {
-    sections_.moments(curvatures, moments_);
+void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces) {
+  if (!modal_stiffness_.empty()) {
+    for (std::size_t i = 0; i < n_; ++i) forces[i] = -modal_stiffness_[i] * unknowns[i];
+    return;
   }
+  mesh_->curvatures(unknowns, curvatures_);
+  if (section_evaluation_ == Evaluation::smooth) {
+    sections_.smooth_moments(curvatures_, moments_);
+  } else {
+    sections_.moments(curvatures_, moments_);
+  }
+  mesh_->bending_forces(moments_, forces);
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {
   ++n_accelerations_;
   const auto unknowns = positions.first(n_);
   const auto forces = result.first(n_);
-  mesh_->curvatures(unknowns, curvatures_);
-  section_moments(curvatures_);
-  mesh_->bending_forces(moments_, forces);
+  bend(unknowns, forces);
   const double contact = force(positions[n_] - mesh_->struck_point()(unknowns));
   mesh_->struck_point().add_to(forces, contact);
   mass_solver_->solve(forces);
@@ -73,9 +78,7 @@ void StruckBeam::force(std::span<const double> positions, Part part, std::span<d
     std::fill(forces.begin(), forces.end(), 0.0);
   } else {
     ++n_forces_;
-    mesh_->curvatures(unknowns, curvatures_);
-    section_moments(curvatures_);
-    mesh_->bending_forces(moments_, forces);
+    bend(unknowns, forces);
   }
   result[n_] = 0.0;
   if (part == Part::stiff) return;
@@ -166,10 +169,15 @@ Energies StruckBeam::energies(const State& y) {
   Energies sum;
   sum.striker = 0.5 * striker_mass_ * y.back() * y.back();
   sum.beam_kinetic = 0.5 * mesh_->mass().quadratic_form(beam_velocities(y));
-  mesh_->curvatures(beam_positions(y), curvatures_);
-  const SectionField::Energies bending = sections_.energies(curvatures_, mesh_->section_weights());
-  sum.bending_elastic = bending.elastic;
-  sum.bending_plastic = bending.plastic;
+  if (!modal_stiffness_.empty()) {
+    for (std::size_t i = 0; i < n_; ++i) sum.bending_elastic += modal_stiffness_[i] * y[i] * y[i];
+    sum.bending_elastic *= 0.5;
+  } else {
+    mesh_->curvatures(beam_positions(y), curvatures_);
+    const auto bending = sections_.energies(curvatures_, mesh_->section_weights());
+    sum.bending_elastic = bending.elastic;
+    sum.bending_plastic = bending.plastic;
+  }
   const double lambda = indentation(y);
   const ContactHistory reached = contact_branch_ == ContactBranch::plastic
                                      ? contact_law_.commit(contact_history_, lambda)

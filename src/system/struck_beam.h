@@ -211,8 +211,9 @@ class StruckBeam final : public MechanicalSystem {
   std::size_t n_;
   double striker_mass_;
   double striker_velocity_;
-  double stress_reach_;       // E h/2
-  double highest_frequency_;  // rad/s
+  double stress_reach_;                      // E h/2
+  std::span<const double> modal_stiffness_;  // of an elastic beam in natural modes, else empty
+  double highest_frequency_;                 // rad/s
   Scales scales_;
 
   Evaluation contact_evaluation_ = Evaluation::smooth;
@@ -221,7 +222,8 @@ class StruckBeam final : public MechanicalSystem {
   ContactHistory contact_history_;
 
   Evaluation section_evaluation_ = Evaluation::switching;
-  void section_moments(std::span<const double> curvatures);
+  // forces = -B^T W (-M).
+  void bend(std::span<const double> unknowns, std::span<double> forces);
   BeamJacobian& jacobian() const;
   mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first asks
   long n_accelerations_ = 0;
