@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace subimpact {
 
@@ -34,13 +35,9 @@ class HermiteCubic {
     if (c1_ * last > 0.0 && s > 0.0 && s < 1.0 && c1_ * slope(s) < 0.0) return s;
     return std::nullopt;
   }
-  /// The first of the two turns if there is a reversed_at().
-  double first_turn() const {
-    const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
-    const double a = (-c2_ - root) / (3.0 * c3_);
-    const double b = (-c2_ + root) / (3.0 * c3_);
-    return std::clamp(std::min(a, b), 0.0, 1.0);
-  }
+  /// The first and the second of the two turns if there is a reversed_at().
+  double first_turn() const { return turns().first; }
+  double second_turn() const { return turns().second; }
 
   /// Where the value rises through zero between `a` (not above) and `b` (above).
   double rise(double a, double b) const {
@@ -63,6 +60,13 @@ class HermiteCubic {
       (fs < 0.0 ? fa : fb) = fs;
     }
     return 0.5 * (a + b);
+  }
+
+  std::pair<double, double> turns() const {
+    const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
+    const double a = std::clamp((-c2_ - root) / (3.0 * c3_), 0.0, 1.0);
+    const double b = std::clamp((-c2_ + root) / (3.0 * c3_), 0.0, 1.0);
+    return {std::min(a, b), std::max(a, b)};
   }
 
   double c0_, c1_, c2_, c3_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "events/hermite.h"
@@ -14,8 +15,8 @@ constexpr int deepest_level = 48;
 constexpr int most_iterations = 30;
 // Newton's method ends when forces change by less than this part of the largest.
 constexpr double solved = 1e-13;
-// A doubt about lambda below this part of the displacement scale does not matter.
-constexpr double negligible_doubt = 1e-13;
+// A doubt about lambda below this part of the displacements it is made of is rounding.
+constexpr double negligible_doubt = 4.0 * std::numeric_limits<double>::epsilon();
 // The estimate falls by about 2^5 when a step is halved; a longer one is tried below this part.
 constexpr double room_to_grow = 1.0 / 64.0;
 
@@ -82,6 +83,10 @@ void Exponential::restart(double t, const State& y) {
 }
 
 void Exponential::step() {
+  size_ = 0.0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    size_ += std::abs(oscillators_.displacements()[i] * y1_[i]);
+  }
   std::swap(y0_, y1_);
   y1_.resize(y0_.size());
   t0_ = t1_;
@@ -107,13 +112,18 @@ double Exponential::fourth_derivative_bound() const {
 }
 
 bool Exponential::is_decided(const Ends& ends, double h, double doubt) const {
-  if (doubt <= negligible_doubt * scales_.position) return true;
-  // The cubic's distance from the critical displacement, at its ends and at an extremum between
+  // The cubic's distance from the critical displacement, at its ends and at its extrema between
   // them.
   const double critical = oscillators_.critical_displacement();
   const double sign = oscillators_.is_free() ? 1.0 : -1.0;  // the side on which an event lies
   const HermiteCubic path(sign * (ends.lambda0 - critical), sign * ends.rate0,
                           sign * (ends.lambda1 - critical), sign * ends.rate1, h);
+  // A hump between two turns is hidden from whoever looks at the ends.
+  if (path.reversed_at()) {
+    const double hidden = std::max(path(path.first_turn()), path(path.second_turn()));
+    if (hidden >= -doubt) return false;
+  }
+  if (doubt <= negligible_doubt * size_) return true;
   double nearest = path(1.0);
   if (sign * ends.rate0 > 0.0 && sign * ends.rate1 < 0.0) {
     nearest = std::max(nearest, path(path.peak()));

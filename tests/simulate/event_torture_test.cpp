@@ -24,7 +24,8 @@ class Random {
   std::uniform_real_distribution<double> unit_{0.0, 1.0};
 };
 
-const std::vector<std::string> tables = {"dormand-prince", "dop853", "bogacki-shampine", "dprkn8"};
+const std::vector<std::string> tables = {"dormand-prince", "dop853", "bogacki-shampine", "dprkn8",
+                                         "exponential"};
 
 // Restitution of an elasto-plastic impact that reaches x = lambda_m/lambda_s, from its energies.
 double restitution_at(double x) {
@@ -48,7 +49,7 @@ TEST(TwoRigidBodies, MeetOnceWhateverTheirSizesAndTheMethod) {
     const bool yields = k % 2 == 0;
     if (yields) bodies.yield_indentation = elastic * random.between(0.02, 0.9);
     const Way way{random.one_of(tables), random.decades(-9, -5), {}, EventHandling::located};
-    StruckBeam beam = bodies.make();
+    StruckBeam beam = bodies.make(way.in_modes());
     const Result result = run_two_bodies(beam, way, 6.0 * bodies.duration());
     const std::size_t expected = yields ? 4 : 2;
     const bool right = result.transitions.size() == expected && result.sub_impacts.size() == 1 &&
@@ -122,12 +123,12 @@ TEST(AGraze, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
     bodies.spring = graze.omega * graze.omega;
     bodies.contact_stiffness = 1e3;  // too soft for the touch to change the motion
     bodies.velocity = graze.drift;
-    StruckBeam beam = bodies.make();
-    beam.set_contact(ContactBranch::separated, {});
-    const Way way{random.one_of<std::string>({"dop853", "dprkn8", "dprkn12"}),
+    const Way way{random.one_of<std::string>({"dop853", "dprkn8", "dprkn12", "exponential"}),
                   1e-12,
                   {},
                   EventHandling::located};
+    StruckBeam beam = bodies.make(way.in_modes());
+    beam.set_contact(ContactBranch::separated, {});
     const Result result = run_two_bodies(beam, way, graze.time + 1.2 / graze.omega, graze.state());
     std::size_t n_begin = 0;
     std::size_t n_end = 0;

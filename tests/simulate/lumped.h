@@ -3,12 +3,16 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "integrate/arkode_erk.h"
+#include "integrate/exponential.h"
 #include "integrate/nystrom.h"
+#include "model/modal_mesh.h"
 #include "simulate/event_loop.h"
 #include "simulate/recorder.h"
+#include "system/modal_beam.h"
 
 namespace subimpact {
 
@@ -58,14 +62,16 @@ struct TwoBodies {
   /// Duration of an elastic impact on a free target.
   double duration() const { return 2.943275184 * largest_indentation() / velocity; }
 
-  StruckBeam make() const {
+  /// `in_modes`: on the target's natural mode, as the exponential method needs it.
+  StruckBeam make(bool in_modes = false) const {
     Scene scene;  // whose contact law has these two constants: b = h = 1 m, R = 1/2 m
     scene.beam.length = scene.beam.width = scene.beam.thickness = 1.0;
     scene.beam.density = target_mass;
     scene.beam.youngs_modulus = 0.75 * contact_stiffness;
     scene.beam.yield_stress = yield_indentation * scene.beam.youngs_modulus;
     scene.striker = {striker_mass, 0.5, velocity, 0.5};
-    auto mesh = std::make_unique<LumpedMesh>(target_mass);
+    std::unique_ptr<BeamMesh> mesh = std::make_unique<LumpedMesh>(target_mass);
+    if (in_modes) mesh = std::make_unique<ModalMesh>(std::move(mesh), spring);
     auto solver = std::make_unique<BandedSolver>(mesh->mass());
     return StruckBeam(scene, std::move(mesh), SectionField(1, spring), std::move(solver));
   }
@@ -73,12 +79,18 @@ struct TwoBodies {
 
 /// How a two-body problem is integrated.
 struct Way {
-  std::string table = "dop853";  ///< of erk or nystrom
+  std::string table = "dop853";  ///< of erk or nystrom, or "exponential"
   double rtol = 1e-10;
   std::optional<double> fixed_step;
   EventHandling events = EventHandling::located;
 
+  bool in_modes() const { return table == "exponential"; }
+
   std::unique_ptr<Integrator> make(StruckBeam& beam) const {
+    if (in_modes()) {
+      return std::make_unique<Exponential>(std::make_unique<ModalBeam>(beam),
+                                           ExponentialOptions{rtol, fixed_step, {}});
+    }
     if (table.rfind("dprkn", 0) == 0) {
       return std::make_unique<Nystrom>(beam, NystromOptions{table, rtol, fixed_step, {}});
     }
@@ -90,19 +102,29 @@ struct Way {
   }
 };
 
+/// A state [w, w_m, v, v_m] in the beam's own unknowns.
+inline State in_unknowns_of(const StruckBeam& beam, const State& y) {
+  const auto* modal = dynamic_cast<const ModalMesh*>(&beam.mesh());
+  if (modal == nullptr) return y;
+  State z = y;
+  modal->to_modal({&y[0], 1}, {&z[0], 1});
+  modal->to_modal({&y[2], 1}, {&z[2], 1});
+  return z;
+}
+
 /// Runs from a state [w, w_m, v, v_m], or from the first touch if it is empty.
 inline Result run_two_bodies(StruckBeam& beam, const Way& way, double end_time,
                              const State& from = {}) {
   const auto integrator = way.make(beam);
   Result result;
-  const State initial = from.empty() ? beam.initial_state() : from;
+  const State initial = from.empty() ? beam.initial_state() : in_unknowns_of(beam, from);
   Recorder recorder(beam, initial, 0.0, way.events, result);
   EventLoop loop(beam, *integrator, recorder,
                  {end_time, way.events, std::numeric_limits<double>::infinity(), 1e30});
   if (from.empty()) {
     loop.start();
   } else {
-    loop.start_from(from);
+    loop.start_from(initial);
   }
   while (!loop.finished()) loop.advance();
   recorder.finish(loop.time(), loop.state(), beam);
