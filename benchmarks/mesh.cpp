@@ -12,7 +12,7 @@
 namespace subimpact::benchmarks {
 namespace {
 
-constexpr double horizon = 0.84e-3;     // s: nine sub-impacts
+constexpr double horizon = 0.84e-3;    // s: nine sub-impacts
 constexpr double wanted_error = 5e-8;  // s, of every start and end, mesh and time together
 
 Case on_mesh(MeshKind mesh, int count) {
@@ -106,13 +106,13 @@ void measure_mesh(const Settings& settings) {
       fmt::print("{:20} not reached on {}\n", name, by_cells ? "elements" : "cells");
       continue;
     }
-    const std::vector<double> seconds =
-        seconds_side_by_side(settings, {[&] { run_to_end(by_elements->input); },
-                                        [&] { run_to_end(by_cells->input); }});
+    const std::vector<double> seconds = seconds_side_by_side(
+        settings, {[&] { run_to_end(by_elements->input); }, [&] { run_to_end(by_cells->input); }});
     for (std::size_t i = 0; i < 2; ++i) {
       const Setting& setting = i == 0 ? *by_elements : *by_cells;
       fmt::print("{:20} {:28} {:12.3f} {:14} {:10.5f} {:7.1f}\n", name, setting_text(setting),
-                 1e6 * setting.error, setting.right_hand_sides, seconds[i], seconds[i] / seconds[0]);
+                 1e6 * setting.error, setting.right_hand_sides, seconds[i],
+                 seconds[i] / seconds[0]);
       std::fflush(stdout);
     }
   }

@@ -165,6 +165,7 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
     result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();
     result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
     result.first_contact_yield = optional_number(json.at("first_yield").at("contact_s"));
+    result.no_more_contact = optional_number(json.at("no_more_contact_s"));
     result.max_force = number(json.at("maxima").at("force_N"));
     result.max_indentation = number(json.at("maxima").at("indentation_m"));
     result.striker_velocity = number(json.at("final").at("striker_velocity_m_per_s"));

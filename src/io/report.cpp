@@ -118,6 +118,9 @@ std::string run_summary(const Case& input, const Result& result) {
                  input.title.empty() ? "untitled case" : input.title);
   line("outcome", fmt::format("{} at {} of {}", to_string(result.outcome.kind),
                               duration_text(result.outcome.time), duration_text(input.end_time)));
+  if (result.no_more_contact) {
+    line("no more contact", "proven: striker and beam never touch again");
+  }
   line("model",
        fmt::format("{}; section {}; {} unknowns", result.used.mesh,
                    to_text(*find_case_key("model.section")->get(input)), result.used.n_unknowns));

@@ -205,6 +205,7 @@ std::string summary_json(const Case& input, const Result& result) {
       {"first_yield",
        {{"section_s", number(result.first_section_yield)},
         {"contact_s", number(result.first_contact_yield)}}},
+      {"no_more_contact_s", number(result.no_more_contact)},
       {"maxima",
        {{"force_N", number(result.max_force)}, {"indentation_m", number(result.max_indentation)}}},
       {"final",

@@ -58,6 +58,16 @@ std::span<const Named<SymmetryUse>> names_of(SymmetryUse) {
   return names;
 }
 
+std::span<const Named<StopRule>> names_of(StopRule) {
+  static constexpr Named<StopRule> names[] = {
+      {StopRule::end_time, "end", "at time.end"},
+      {StopRule::no_more_contact, "no-more-contact",
+       "as soon as it is proven that striker and beam never touch again, at time.end at the "
+       "latest"},
+  };
+  return names;
+}
+
 std::span<const Named<Method>> names_of(Method) {
   static constexpr Named<Method> names[] = {
       {Method::central_difference, "central-difference",

@@ -216,6 +216,7 @@ std::vector<CaseKey> make_case_keys() {
     row("model.symmetry", "", any_value, "use of the scene's symmetry about mid-span", as_in_case, AT(model.symmetry)),
 
     row("time.end", "s", positive, "time at which the simulation ends", required, AT(end_time)),
+    row("time.stop", "", any_value, "when the run stops", as_in_case, AT(stop)),
 
     row("solver.method", "", any_value, "time integration method", as_in_case, AT(solver.method)),
     row("solver.rtol", "", tolerance, "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),

@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "simulate/event_loop.h"
 #include "simulate/model_factory.h"
 #include "simulate/recorder.h"
 #include "subimpact/simulate/case_keys.h"
+#include "system/no_more_contact.h"
 
 namespace subimpact {
 namespace {
 
 constexpr long progress_interval = 512;  // steps
+constexpr long proof_interval = 32;
 
 // The sections nearest to the positions asked for; in a half model their mirror images stand for
 // those of the other half.
@@ -58,6 +61,8 @@ Result simulate(const Case& input, const Progress& progress) {
   Recorder recorder(beam, beam.initial_state(), input.output.interval, result.used.events, result);
   recorder.keep_sections(sections_at(input, beam.mesh()));
   EventLoop loop(beam, *integrator, recorder, loop_options(input, result.used));
+  std::optional<NoMoreContact> no_more_contact;
+  if (input.stop == StopRule::no_more_contact) no_more_contact.emplace(beam, input.scene.beam);
   result.work.setup_seconds = seconds_since(start);
 
   try {
@@ -65,6 +70,12 @@ Result simulate(const Case& input, const Progress& progress) {
     loop.start();
     for (long n = 1; !loop.finished(); ++n) {
       loop.advance();
+      if (no_more_contact && n % proof_interval == 0 &&
+          no_more_contact->is_proven(beam, loop.state())) {
+        result.no_more_contact = loop.time();
+        result.outcome.message = "no further contact is possible";
+        break;
+      }
       if (n % progress_interval == 0 && progress && !progress(loop.time())) {
         result.outcome = {OutcomeKind::stopped, loop.time(), "stopped on request"};
         break;

@@ -28,8 +28,12 @@ constexpr double horizon = 0.84e-3;  // s: sub-impacts 1 to 9 of the elastic bea
 
 Case example(MeshKind mesh, int count, SectionKind section, double end_time) {
   Case input;
-  input.scene.beam = {.length = 0.7112, .width = 0.0163, .thickness = 0.0075, .density = 2600.0,
-                      .youngs_modulus = 71.96e9, .yield_stress = 150e6};
+  input.scene.beam = {.length = 0.7112,
+                      .width = 0.0163,
+                      .thickness = 0.0075,
+                      .density = 2600.0,
+                      .youngs_modulus = 71.96e9,
+                      .yield_stress = 150e6};
   input.scene.striker.mass = 0.201;
   input.scene.striker.nose_radius = 0.01;
   input.scene.striker.velocity = 15.9;
@@ -178,9 +182,9 @@ void write_limits(const std::string& directory, const std::vector<Result>& runs,
     // At a ratio near 4, the order of cells, the extrapolation is trusted to its own size; else to
     // the last two differences.
     const bool orderly = ratio > 2.5 && ratio < 6.5;
-    const double doubt = orderly ? std::abs(limit - t[n - 1])
-                                 : std::max(std::abs(t[n - 1] - t[n - 2]),
-                                            std::abs(t[n - 2] - t[n - 3]));
+    const double doubt =
+        orderly ? std::abs(limit - t[n - 1])
+                : std::max(std::abs(t[n - 1] - t[n - 2]), std::abs(t[n - 2] - t[n - 3]));
     std::string row = quantity.name;
     for (const double x : t) row += fmt::format(",{:.4f}", x);
     csv << row << fmt::format(",{:.4f},{:.4f},{:.2f}\n", limit, doubt, ratio);
@@ -198,8 +202,8 @@ void write_points(const std::string& directory, const std::vector<Point>& points
   std::ofstream csv(directory + "/convergence.csv");
   csv << "section,mesh,count,unknowns,max_error_us,first_separation_error_us,wall_s\n";
   for (const Point& p : points) {
-    csv << fmt::format("{},{},{},{},{:.4e},{:.4e},{:.4f}\n", p.section, p.mesh, p.count,
-                       p.unknowns, p.error * us, p.first_error * us, p.seconds);
+    csv << fmt::format("{},{},{},{},{:.4e},{:.4e},{:.4f}\n", p.section, p.mesh, p.count, p.unknowns,
+                       p.error * us, p.first_error * us, p.seconds);
   }
 }
 
@@ -248,10 +252,10 @@ int main() {
     }
     return runs;
   });
-  fmt::print("errors of starts and ends before {:.2f} ms, nystrom at rtol 1e-9\n\n"
-             "{:8} {:8} {:>6} {:>6} {:>12} {:>12} {:>10}\n",
-             1e3 * horizon, "section", "mesh", "count", "unkn.", "largest, us", "first, us",
-             "wall, s");
+  fmt::print(
+      "errors of starts and ends before {:.2f} ms, nystrom at rtol 1e-9\n\n"
+      "{:8} {:8} {:>6} {:>6} {:>12} {:>12} {:>10}\n",
+      1e3 * horizon, "section", "mesh", "count", "unkn.", "largest, us", "first, us", "wall, s");
   std::vector<Point> points = converge(SectionKind::elastic, elastic_limit());
   const Result coarse = simulate(example(MeshKind::cells, 2001, SectionKind::exact, horizon));
   const Result fine = simulate(example(MeshKind::cells, 4003, SectionKind::exact, horizon));

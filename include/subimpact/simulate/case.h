@@ -73,6 +73,12 @@ struct SolverOptions {
   bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
 };
 
+/// When a run ends.
+enum class StopRule {
+  end_time,        ///< at the end time
+  no_more_contact  ///< sooner, once it is proven that no contact can follow
+};
+
 struct OutputOptions {
   double interval = 1e-6;        ///< s between history rows; 0: none
   double zone_gap = 0.1;         ///< in first flexural periods
@@ -91,6 +97,7 @@ struct Case {
   Scene scene;
   ModelOptions model;
   double end_time = 0.0;  ///< s
+  StopRule stop = StopRule::end_time;
   SolverOptions solver;
   OutputOptions output;
 };

@@ -127,12 +127,14 @@ struct Result {
   std::vector<SectionRow> section_history;    ///< of output.sections, in that order at each time
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
-  std::size_t n_yielded_sections = 0;         ///< of the sections modelled
-  double max_force = 0.0;                     ///< N
-  double max_indentation = 0.0;               ///< m
-  double striker_velocity = 0.0;              ///< m/s, at the end
-  double beam_mean_velocity = 0.0;            ///< m/s, at the end: beam momentum over beam mass
-  double max_energy_error = 0.0;  ///< largest relative error over the rows and at the end
+  /// s: from here on no contact is possible, proven; looked for with time.stop = "no-more-contact".
+  std::optional<double> no_more_contact;
+  std::size_t n_yielded_sections = 0;  ///< of the sections modelled
+  double max_force = 0.0;              ///< N
+  double max_indentation = 0.0;        ///< m
+  double striker_velocity = 0.0;       ///< m/s, at the end
+  double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
+  double max_energy_error = 0.0;       ///< largest relative error over the rows and at the end
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
   std::optional<Trust> trust;                ///< with error bars
   Work work;

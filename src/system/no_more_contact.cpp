@@ -1,0 +1,84 @@
+#include "system/no_more_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/lanes.h"
+
+namespace subimpact {
+
+NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
+    : n_(beam.mesh().n_unknowns()),
+      curvatures_(beam.mesh().n_sections()),
+      moments_(beam.mesh().n_sections()) {
+  const BeamMesh& mesh = beam.mesh();
+  const SectionField& sections = beam.sections();
+  std::vector<double> shape(n_), momentum(n_), reaction(n_, 0.0);
+  const auto add = [&](std::span<const double> phi, double frequency) {
+    const double share = mesh.struck_point()(phi);
+    if (frequency == 0.0) {
+      mesh.mass().multiply(phi, momentum);
+      rigid_.push_back(momentum);
+      rigid_share_.push_back(share);
+      return;
+    }
+    const double amount = share / (frequency * frequency);
+    compliance_ += share * amount;
+    for (std::size_t i = 0; i < n_; ++i) reaction[i] += amount * phi[i];
+  };
+  const auto modal = mesh.modal_stiffness();
+  if (modal.empty()) {
+    const NaturalModes modes = mesh.natural_modes(sections.stiffness());
+    for (std::size_t k = 0; k < modes.size(); ++k) add(modes.shape(k), modes.frequencies[k]);
+  } else {
+    for (std::size_t k = 0; k < n_; ++k) {
+      std::fill(shape.begin(), shape.end(), 0.0);
+      shape[k] = 1.0;
+      add(shape, std::sqrt(modal[k]));
+    }
+  }
+  if (!sections.can_yield()) return;
+  mesh.curvatures(reaction, curvatures_);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < curvatures_.size(); ++i) {
+    largest = std::max(largest, std::abs(curvatures_[i]));
+    bar_.push_back(mesh.section_weights()[i] * curvatures_[i]);
+  }
+  plastic_reach_ = largest * material.youngs_modulus * 0.5 * material.thickness /
+                   material.yield_stress;
+}
+
+bool NoMoreContact::is_proven(StruckBeam& beam, const State& y) {
+  if (beam.in_contact()) return false;
+  const std::span<const double> w{y.data(), n_};
+  const std::span<const double> v{y.data() + n_ + 1, n_};
+  const Energies energies = beam.energies(y);
+  double energy = energies.beam_kinetic + energies.bending_elastic;
+  double rigid = 0.0;
+  double rigid_rate = 0.0;
+  for (std::size_t k = 0; k < rigid_.size(); ++k) {
+    const double rate = dot(rigid_[k].data(), v.data(), n_);
+    rigid += rigid_share_[k] * dot(rigid_[k].data(), w.data(), n_);
+    rigid_rate += rigid_share_[k] * rate;
+    energy -= 0.5 * rate * rate;
+  }
+  energy = std::max(energy, 0.0);
+  if (!(y.back() <= rigid_rate)) return false;
+
+  double plastic = 0.0;
+  if (!bar_.empty()) {
+    const SectionField& sections = beam.sections();
+    beam.mesh().curvatures(w, curvatures_);
+    sections.moments(curvatures_, moments_);
+    for (std::size_t i = 0; i < bar_.size(); ++i) {
+      plastic += bar_[i] * (sections.stiffness() * curvatures_[i] - moments_[i]);
+    }
+  }
+  const double a = plastic_reach_;
+  const double reach = 2.0 * a * a * energy > compliance_
+                           ? a * energy + compliance_ / (2.0 * a)
+                           : std::sqrt(2.0 * compliance_ * energy);
+  return y[n_] - rigid - plastic + reach < beam.residual_indentation();
+}
+
+}  // namespace subimpact

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// Proves, where it can, that striker and beam never touch again.
+///
+/// Apart, the striker moves uniformly, and so does the rigid part R of the struck point's
+/// displacement (its share of the modes of frequency zero). The rest is
+///
+///     d = S w - R = sum W kbar (-M) + sum W k kbar kappa_p,
+///
+/// with k the elastic stiffness of a section, kappa_p = kappa + M/k its plastic curvature, and kbar
+/// the curvatures of the shape u that a unit force at the struck point gives the beam when the
+/// inertia of its rigid motion balances it: d = u^T K w for any w. Let C = sum W k kbar^2 be that
+/// shape's compliance and E the energy of the beam beyond its rigid motion, kinetic and elastic.
+/// Plastic work D still to come takes from E and nothing adds to it, so
+///
+///   - |sum W kbar M| <= sqrt(2 C U_e) <= sqrt(2 C (E - D)), since M^2/(2 k) is at most the elastic
+///     energy of a section (both by Cauchy and Schwarz);
+///   - the plastic part of d changes by no more than a D, a = max|kbar| modulus h/(2 Y), since a
+///     fibre that flows by d eps takes Y |d eps| of energy.
+///
+/// Over 0 <= D <= E their sum is at most f = sqrt(2 C E), or a E + C/(2 a) if 2 a^2 E > C. Hence
+///
+///     lambda(t) <= [w_m - R - d_p + f] + (v_m - R') t   for all later t,
+///
+/// d_p the plastic part now: if the striker does not approach the rigid motion, v_m <= R', and the
+/// bracket is below the residual indentation, they never meet. Rigorous for the discrete beam,
+/// whatever its section law and ends; it says no until the gap exceeds what the beam's whole energy
+/// could bend it by.
+class NoMoreContact {
+ public:
+  /// `beam` must outlive this. Needs the beam's natural modes, once.
+  NoMoreContact(const StruckBeam& beam, const Beam& material);
+  /// Whether no contact can follow the state y, which is separated and committed.
+  bool is_proven(StruckBeam& beam, const State& y);
+
+ private:
+  std::size_t n_;
+  std::vector<std::vector<double>> rigid_;  // Mass phi of the modes of frequency zero
+  std::vector<double> rigid_share_;         // S phi of them
+  std::vector<double> bar_;                 // W kbar; empty where the sections cannot yield
+  double compliance_ = 0.0;                 // C, m/N
+  double plastic_reach_ = 0.0;              // a, m/J
+  std::vector<double> curvatures_, moments_;
+};
+
+}  // namespace subimpact
