@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "model/lanes.h"
+
 namespace subimpact {
 namespace {
 
@@ -15,8 +17,10 @@ constexpr double dropped_share = 0.02;
 constexpr double interval_share = 0.02;
 // The last guard's room may vanish; it is taken to be at least this part of the guard's swing.
 constexpr double least_swing = 1e-3;
-constexpr std::size_t batch = 32;
-constexpr std::size_t most_batches = 512;
+// Guards far from their limits are looked at once in so many intervals.
+constexpr std::size_t n_fine = 4;
+constexpr std::size_t batch = 16;
+constexpr std::size_t most_batches = 256;
 
 constexpr int least_patience = 16;  // steps
 constexpr int most_patience = 256;
@@ -175,55 +179,103 @@ void Flying::choose_oscillators() {
   interval_ = std::sqrt(shortest);
 }
 
+void Flying::Rotation::set(std::span<const double> omega, const std::vector<std::size_t>& kept,
+                           double time) {
+  cosine.resize(kept.size());
+  sine_over_omega.resize(kept.size());
+  minus_omega_sine.resize(kept.size());
+  for (std::size_t j = 0; j < kept.size(); ++j) {
+    const double w = omega[kept[j]];
+    cosine[j] = std::cos(w * time);
+    sine_over_omega[j] = w > 0.0 ? std::sin(w * time) / w : time;
+    minus_omega_sine[j] = -w * w * sine_over_omega[j];
+  }
+}
+
+void Flying::Rotation::apply(const double* z, const double* rates, double* to,
+                             double* rates_to) const {
+  const double* c = cosine.data();
+  const double* so = sine_over_omega.data();
+  const double* os = minus_omega_sine.data();
+#pragma GCC ivdep
+  for (std::size_t j = 0; j < cosine.size(); ++j) {
+    const double q = z[j];
+    const double v = rates[j];
+    to[j] = c[j] * q + so[j] * v;
+    rates_to[j] = os[j] * q + c[j] * v;
+  }
+}
+
 double Flying::sample() {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::size_t n_kept = kept_.size();
   const std::size_t n_watched = watched_.size();
-  const double tau = interval_;
-  for (auto* column : {&cosine_, &sine_over_omega_, &minus_omega_sine_}) column->resize(n_kept);
+  fine_.set(omega_, kept_, interval_);
+  coarse_.set(omega_, kept_, static_cast<double>(n_fine) * interval_);
   samples_.resize(n_kept * (batch + 1));
+  sample_rates_.resize(n_kept * (batch + 1));
   values_.resize(n_watched * (batch + 1));
   for (std::size_t j = 0; j < n_kept; ++j) {
-    const double w = omega_[kept_[j]];
-    cosine_[j] = std::cos(w * tau);
-    sine_over_omega_[j] = w > 0.0 ? std::sin(w * tau) / w : tau;
-    minus_omega_sine_[j] = -w * w * sine_over_omega_[j];
     samples_[j] = z0_[kept_[j]];
-    rates_[j] = rates0_[kept_[j]];
+    sample_rates_[j] = rates0_[kept_[j]];
   }
   const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
   const Eigen::Map<const RowMajor> rows(rows_.data(), index(n_watched), index(n_kept));
   const Eigen::Map<const Eigen::MatrixXd> samples(samples_.data(), index(n_kept), batch + 1);
   Eigen::Map<Eigen::MatrixXd> values(values_.data(), index(n_watched), batch + 1);
-  std::size_t intervals = 0;  // shown to be safe
+  std::size_t safe = 0;  // fine intervals
   for (std::size_t b = 0; b < most_batches; ++b) {
     // The first sample of a batch is the last of the one before.
     for (std::size_t m = 0; m < batch; ++m) {
-      const double* from = samples_.data() + m * n_kept;
-      double* to = samples_.data() + (m + 1) * n_kept;
-#pragma GCC ivdep
-      for (std::size_t j = 0; j < n_kept; ++j) {
-        to[j] = cosine_[j] * from[j] + sine_over_omega_[j] * rates_[j];
-        rates_[j] = minus_omega_sine_[j] * from[j] + cosine_[j] * rates_[j];
-      }
+      const std::size_t at = m * n_kept;
+      coarse_.apply(&samples_[at], &sample_rates_[at], &samples_[at + n_kept],
+                    &sample_rates_[at + n_kept]);
     }
     values.noalias() = rows * samples;
     for (std::size_t m = 0; m < batch; ++m) {
-      const double* here = values_.data() + m * n_watched;
-      const double* next = here + n_watched;
-      for (std::size_t i = 0; i < n_watched; ++i) {
-        const Watched& w = watched_[i];
-        const double doubt = w.dropped + tau * tau / 8.0 * w.curvature;
-        if (!(std::max(here[i], next[i]) + doubt < w.high &&
-              std::min(here[i], next[i]) - doubt > w.low)) {
-          return static_cast<double>(intervals) * tau;
-        }
-      }
-      ++intervals;
+      const std::size_t more = safe_intervals(m);
+      safe += more;
+      if (more < n_fine) return static_cast<double>(safe) * interval_;
     }
     std::copy_n(samples_.end() - static_cast<std::ptrdiff_t>(n_kept), n_kept, samples_.begin());
+    std::copy_n(sample_rates_.end() - static_cast<std::ptrdiff_t>(n_kept), n_kept,
+                sample_rates_.begin());
   }
-  return static_cast<double>(intervals) * tau;
+  return static_cast<double>(safe) * interval_;
+}
+
+std::size_t Flying::safe_intervals(std::size_t m) {
+  const double* start = values_.data() + m * watched_.size();
+  const double* end = start + watched_.size();
+  const auto doubt = [](const Watched& w, double interval) {
+    return w.dropped + interval * interval / 8.0 * w.curvature;
+  };
+  const auto is_safe = [](const Watched& w, double a, double b, double doubt) {
+    return std::max(a, b) + doubt < w.high && std::min(a, b) - doubt > w.low;
+  };
+  in_doubt_.clear();
+  const double coarse = static_cast<double>(n_fine) * interval_;
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const Watched& w = watched_[i];
+    if (!is_safe(w, start[i], end[i], doubt(w, coarse))) in_doubt_.push_back(i);
+  }
+  if (in_doubt_.empty()) return n_fine;
+  // Between the coarse samples, for those in doubt alone.
+  const std::size_t n_kept = kept_.size();
+  std::copy_n(&samples_[m * n_kept], n_kept, z_.begin());
+  std::copy_n(&sample_rates_[m * n_kept], n_kept, rates_.begin());
+  before_.resize(watched_.size());
+  for (const std::size_t i : in_doubt_) before_[i] = start[i];
+  for (std::size_t f = 0; f < n_fine; ++f) {
+    fine_.apply(z_.data(), rates_.data(), z_.data(), rates_.data());
+    for (const std::size_t i : in_doubt_) {
+      const Watched& w = watched_[i];
+      const double here = dot(&rows_[i * n_kept], z_.data(), n_kept);
+      if (!is_safe(w, before_[i], here, doubt(w, interval_))) return f;
+      before_[i] = here;
+    }
+  }
+  return n_fine;
 }
 
 }  // namespace subimpact

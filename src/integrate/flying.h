@@ -46,6 +46,8 @@ class Flying final : public Integrator {
   bool choose_guards();
   void choose_oscillators();
   double sample();
+  // Of the intervals between samples m and m + 1, how many from the first are shown to be safe.
+  std::size_t safe_intervals(std::size_t m);
   void move(double t);
 
   std::unique_ptr<Integrator> integrator_;
@@ -66,9 +68,17 @@ class Flying final : public Integrator {
   double interval_ = 0.0;          // tau, s
   double longest_interval_ = 0.0;  // a radian of the slowest oscillator
   std::vector<double> rows_;       // watched guards of the kept oscillators, row by row
-  std::vector<double> samples_;    // kept oscillators, one sample after another
-  std::vector<double> values_;     // watched guards, one sample after another
-  std::vector<double> cosine_, sine_over_omega_, minus_omega_sine_;  // over one interval
+  std::vector<double> samples_, sample_rates_;  // kept oscillators, one sample after another
+  std::vector<double> values_;                  // watched guards, one sample after another
+  // The kept oscillators' motion over a time.
+  struct Rotation {
+    std::vector<double> cosine, sine_over_omega, minus_omega_sine;
+    void set(std::span<const double> omega, const std::vector<std::size_t>& kept, double time);
+    void apply(const double* z, const double* rates, double* to, double* rates_to) const;
+  };
+  Rotation fine_, coarse_;             // over one interval, over n_fine of them
+  std::vector<std::size_t> in_doubt_;  // of the watched guards, in one coarse interval
+  std::vector<double> before_;
   std::vector<double> z_, rates_;
 };
 

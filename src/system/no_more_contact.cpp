@@ -44,8 +44,8 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
     largest = std::max(largest, std::abs(curvatures_[i]));
     bar_.push_back(mesh.section_weights()[i] * curvatures_[i]);
   }
-  plastic_reach_ = largest * material.youngs_modulus * 0.5 * material.thickness /
-                   material.yield_stress;
+  plastic_reach_ =
+      largest * material.youngs_modulus * 0.5 * material.thickness / material.yield_stress;
 }
 
 bool NoMoreContact::is_proven(StruckBeam& beam, const State& y) {
@@ -75,9 +75,8 @@ bool NoMoreContact::is_proven(StruckBeam& beam, const State& y) {
     }
   }
   const double a = plastic_reach_;
-  const double reach = 2.0 * a * a * energy > compliance_
-                           ? a * energy + compliance_ / (2.0 * a)
-                           : std::sqrt(2.0 * compliance_ * energy);
+  const double reach = 2.0 * a * a * energy > compliance_ ? a * energy + compliance_ / (2.0 * a)
+                                                          : std::sqrt(2.0 * compliance_ * energy);
   return y[n_] - rigid - plastic + reach < beam.residual_indentation();
 }
 
