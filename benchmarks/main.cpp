@@ -22,7 +22,7 @@ std::span<const Part> all_parts() {
        "cost of a right-hand side of erk and nystrom against a central-difference step",
        measure_evaluation},
       {"mass", "tridiagonal mass solver against KLU", measure_mass},
-      {"reversals", "section turns located against history advanced at step ends",
+      {"reversals", "sections put right at step ends against history advanced there only",
        measure_reversals},
       {"events", "finding every event and stating its error, against the runs alone",
        measure_events},

@@ -1,4 +1,4 @@
-// What locating the turns of flowing sections costs, and what it buys.
+// What putting right what sections do within steps costs, and what it buys.
 
 #include <fmt/format.h>
 
@@ -19,9 +19,10 @@ Case yielding_case(SectionKind section, const char* table, double rtol) {
 
 void measure_reversals(const Settings& settings) {
   fmt::print(
-      "erk with dormand-prince, 2 ms: section turns located, or history advanced at step ends\n"
-      "only. error: of the last separation before 2 ms, against dop853 at rtol 1e-11 with turns\n"
-      "located; n: sub-impacts found.\n\n");
+      "erk with dormand-prince, 2 ms: sections put right at step ends, or history advanced\n"
+      "there only. error: of the last separation before 2 ms, against dop853 at rtol 1e-11 with "
+      "sections\n"
+      "put right; n: sub-impacts found.\n\n");
   fmt::print("{:8} {:>6}  {:>14} {:>8} {:>9} {:>4}  {:>14} {:>8} {:>9} {:>4} {:>8}\n", "", "",
              "located:", "", "", "", "step ends:", "", "", "", "");
   fmt::print("{:8} {:>6}  {:>14} {:>8} {:>9} {:>4}  {:>14} {:>8} {:>9} {:>4} {:>8}\n", "section",

@@ -20,8 +20,9 @@ constexpr int batch = 64;
 constexpr double radians_per_evaluation = 0.11;
 constexpr double nystrom_gain = 2.0;
 constexpr double reference_tolerance = 1e-8;
-// A beam that yields ends steps at its turns and has its kinks rejected.
-constexpr double share_of_yielding = 3.0;
+// A beam that yields has steps cut, put right and restarted where its sections begin to flow or
+// turn.
+constexpr double share_of_yielding = 2.1;
 // Vector work, event search and recording, in right-hand sides.
 constexpr double overhead = 2.3;
 

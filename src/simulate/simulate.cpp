@@ -99,7 +99,7 @@ Result simulate(const Case& input, const Progress& progress) {
   result.work.rejected_steps = counts.rejected_steps;
   result.work.partial_steps = counts.partial_steps;
   result.work.right_hand_sides = beam.n_accelerations() + beam.n_forces();
-  result.work.mass_solves = beam.n_accelerations() + counts.mass_solves;
+  result.work.mass_solves = beam.n_accelerations() + beam.n_further_solves() + counts.mass_solves;
   result.work.jacobians = counts.jacobians;
   result.work.factorisations = 1 + counts.factorisations;
   result.work.nonlinear_iterations = counts.nonlinear_iterations;

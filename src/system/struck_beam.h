@@ -100,6 +100,8 @@ class StruckBeam final : public MechanicalSystem {
   long n_accelerations() const { return n_accelerations_; }
   /// Evaluations of the bending forces alone or with the contact force, without a mass solve.
   long n_forces() const { return n_forces_; }
+  /// Mass solves beside those of the accelerations: for what sections did within steps.
+  long n_further_solves() const { return n_further_solves_; }
 
   /// At t = 0: beam at rest, nose just touching, contact begun.
   State initial_state() const;
@@ -228,6 +230,7 @@ class StruckBeam final : public MechanicalSystem {
   mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first asks
   long n_accelerations_ = 0;
   long n_forces_ = 0;
+  long n_further_solves_ = 0;
   std::vector<double> curvatures_, moments_;  // of the last evaluation
   std::vector<double> trial_;                 // accelerations
   void read_motion(const State& y, SectionMotion& at) const;

@@ -65,6 +65,7 @@ void StruckBeam::read_higher_rates(const State& y, SectionMotion& at) {
     mesh_->struck_point().add_to(rates, force_slope(indentation(y)) * indentation_rate(y));
   }
   mass_solver_->solve(rates);
+  ++n_further_solves_;
   mesh_->curvatures(rates, at.third);
 }
 
@@ -84,6 +85,7 @@ void StruckBeam::answer_to_kinks(std::size_t order, std::vector<double>& answer)
   for (const SectionKink& kink : kinks_.kinks()) moments_[kink.section] = kink.amount[order];
   mesh_->bending_forces(moments_, answer);
   mass_solver_->solve(answer);
+  ++n_further_solves_;
 }
 
 double StruckBeam::add_stiffness_term(std::size_t order, std::vector<double>& change) {
@@ -95,6 +97,7 @@ double StruckBeam::add_stiffness_term(std::size_t order, std::vector<double>& ch
   }
   mesh_->bending_forces(moments_, answer_);
   mass_solver_->solve(answer_);
+  ++n_further_solves_;
   double sum = 0.0;
   for (std::size_t i = 0; i < n_; ++i) {
     change[i] += answer_[i];
