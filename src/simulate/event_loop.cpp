@@ -30,8 +30,9 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
                                    : StruckBeam::Evaluation::switching);
   const bool smooth_sections =
       options.events == EventHandling::located && std::isfinite(options.kink_tolerance);
-  beam_.set_section_evaluation(smooth_sections ? StruckBeam::Evaluation::smooth
-                                               : StruckBeam::Evaluation::switching);
+  beam_.set_section_evaluation(
+      smooth_sections ? StruckBeam::Evaluation::smooth : StruckBeam::Evaluation::switching,
+      options.kink_tolerance);
 }
 
 void EventLoop::start() {
@@ -120,8 +121,7 @@ void EventLoop::locate_events() {
       end_at_event_state(time);
       event = crossing.guard;
     }
-    const double good_until =
-        beam_.find_section_kinks({t0, t1, y0, *y1, whole.eventless}, options_.kink_tolerance);
+    const double good_until = beam_.find_section_kinks({t0, t1, y0, *y1, whole.eventless});
     if (!(good_until < t1)) break;
     integrator_.state_at(good_until, event_state_);
     end_at_event_state(good_until);

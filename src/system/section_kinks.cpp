@@ -12,15 +12,67 @@ namespace {
 // A cubic exceeds its ends by at most this part of the step times each end's rate.
 constexpr double cubic_excess = 4.0 / 27.0;
 
-// Three Gauss points on [0, 1].
-constexpr std::array<double, 3> gauss_point{0.1127016653792583, 0.5, 0.8872983346207417};
-constexpr std::array<double, 3> gauss_weight{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+// Five Gauss points on [0, 1].
+constexpr std::array<double, 5> gauss_point{0.046910077030668, 0.2307653449471585, 0.5,
+                                            0.7692346550528415, 0.953089922969332};
+constexpr std::array<double, 5> gauss_weight{0.1184634425280945, 0.239314335249683,
+                                             0.2844444444444444, 0.239314335249683,
+                                             0.1184634425280945};
 
 const SectionBranch* branch_of(const SectionField& sections, std::size_t section) {
   for (const SectionField::Flow& flow : sections.flowing()) {
     if (flow.section == section) return &flow.branch;
   }
   return nullptr;
+}
+
+// How a defect d moves what it acts on: its double integral over time, a part of the step each way.
+// At the end of its span it has the value and the slope that the integrals of d tell, and it begins
+// as the third power of the time since, as a defect does that grows in proportion to it.
+class Growth {
+ public:
+  // `amount`, `next_amount`: integrals of d and of (span - s) d over the span.
+  Growth(double span, double length, double amount, double next_amount)
+      : span_(span),
+        cubic_(4.0 * next_amount - span * length * amount),
+        quartic_(span * length * amount - 3.0 * next_amount) {}
+  double value(double since) const {
+    const double u = since / span_;
+    return u * u * u * (cubic_ + u * quartic_);
+  }
+  double slope(double since) const {
+    const double u = since / span_;
+    return u * u * (3.0 * cubic_ + u * 4.0 * quartic_) / span_;
+  }
+
+ private:
+  double span_, cubic_, quartic_;
+};
+
+// Where f falls through zero between a (above, or taken so) and b (below), near a guess.
+template <class F>
+double find_fall(F f, double a, double b, double guess) {
+  double s = guess;
+  double fa = f(a);
+  double fb = f(b);
+  if (fa <= 0.0) return a;
+  for (int i = 0; i < 60 && b - a > 1e-13; ++i) {
+    if (!(s > a && s < b)) s = a + (b - a) * fa / (fa - fb);
+    const double fs = f(s);
+    if (fs == 0.0) return s;
+    // Halving the far value keeps false position from creeping (Illinois).
+    if (fs > 0.0) {
+      a = s;
+      fa = fs;
+      fb *= 0.5;
+    } else {
+      b = s;
+      fb = fs;
+      fa *= 0.5;
+    }
+    s = a + (b - a) * fa / (fa - fb);
+  }
+  return s;
 }
 
 }  // namespace
@@ -79,9 +131,37 @@ bool SectionKinks::suspect(const SectionField& sections, const SectionMotion& st
 
 void SectionKinks::find(const SectionField& sections, const SectionMotion& start,
                         const SectionMotion& end, double t0, double t1) {
-  const double h = t1 - t0;
-  const SectionLaw& law = sections.law();
+  t0_ = t0;
+  length_ = t1 - t0;
   kinks_.clear();
+  trace(sections, start, end);
+  for (const Trace& trace : traces_) add_kink(sections, trace);
+  if (kinks_.empty()) return;
+  // Sections that flowed to the end if undisturbed, but were turned back by these.
+  for (const SectionField::Flow& flow : sections.flowing()) {
+    const std::size_t i = flow.section;
+    const double sense = flow.branch.sense;
+    const double slope = length_ * end.rates[i];
+    if (sense * slope <= 0.0 || sense * (slope + change_by_kinks(i, 1.0).slope) >= 0.0) continue;
+    if (std::find(suspects_.begin(), suspects_.end(), i) != suspects_.end()) continue;
+    add_kink(sections, {i, &flow.branch, sense, path_of(i, start, end), 1.0, 1.0});
+  }
+}
+
+HermiteSeptic SectionKinks::path_of(std::size_t section, const SectionMotion& start,
+                                    const SectionMotion& end) const {
+  const auto rates_at = [&](const SectionMotion& at) -> HermiteSeptic::End {
+    return {at.curvatures[section], at.rates[section],
+            influence_.curvature_acceleration(section, at.weighted_moments, at.force),
+            influence_.curvature_acceleration(section, at.weighted_moment_rates, at.force_rate)};
+  };
+  return {rates_at(start), rates_at(end), length_};
+}
+
+void SectionKinks::trace(const SectionField& sections, const SectionMotion& start,
+                         const SectionMotion& end) {
+  const double h = length_;
+  traces_.clear();
   for (const std::size_t i : suspects_) {
     const double k0 = start.curvatures[i];
     const double k1 = end.curvatures[i];
@@ -90,15 +170,13 @@ void SectionKinks::find(const SectionField& sections, const SectionMotion& start
     const double low = sections.window_low()[i];
     const double high = sections.window_high()[i];
     const SectionBranch* branch = branch_of(sections, i);
-    const HermiteSeptic path({k0, r0, start.second[i], start.third[i]},
-                             {k1, r1, end.second[i], end.third[i]}, h);
     double sense = r0 > 0.0 ? 1.0 : -1.0;
     if (branch) {
       sense = branch->sense;
     } else if (k1 > high || k1 < low) {
       sense = k1 > high ? 1.0 : -1.0;
     }
-    // Parts of the step after which it turned, if it did, and left its piece.
+    const HermiteSeptic path = path_of(i, start, end);
     std::optional<double> turn;
     double farthest = k1;
     if (sense * r0 > 0.0 && sense * r1 < 0.0) {
@@ -113,34 +191,106 @@ void SectionKinks::find(const SectionField& sections, const SectionMotion& start
     } else if (!branch || !turn) {
       continue;
     }
-
-    std::array<double, 4> amount{};
-    const auto integrate = [&](double from, double to, const SectionHistory& memory) {
-      for (std::size_t g = 0; g < gauss_point.size(); ++g) {
-        const double s = from + (to - from) * gauss_point[g];
-        const double k = path(s);
-        const double piece = branch ? law.moment_on(*branch, k) : sections.resting_moment(i, k);
-        double defect = gauss_weight[g] * (to - from) * h * (law.moment(memory, k) - piece);
-        for (std::size_t m = 0; m < amount.size(); ++m) {
-          amount[m] += defect;
-          defect *= (1.0 - s) * h / static_cast<double>(m + 1);
-        }
-      }
-    };
-    const SectionHistory* memory = &sections.history(i);
-    integrate(left, turn.value_or(1.0), *memory);
-    SectionKink kink{i, t0 + left * h, {}, {}, 0.0};
-    if (turn) {
-      turned_ = *memory;
-      memory = &turned_;
-      law.commit(turned_, farthest);
-      integrate(*turn, 1.0, turned_);
-      kink.turn = {t0 + *turn * h, farthest};
-    }
-    kink.amount = amount;
-    kink.tangent = law.tangent(*memory, k1);
-    kinks_.push_back(kink);
+    traces_.push_back({i, branch, sense, path, left, turn});
   }
+  std::sort(traces_.begin(), traces_.end(),
+            [](const Trace& a, const Trace& b) { return a.left < b.left; });
+}
+
+SectionKinks::Change SectionKinks::change_by_kinks(std::size_t section, double s) const {
+  Change sum;
+  for (const SectionKink& kink : kinks_) {
+    const double left = (kink.start - t0_) / length_;
+    if (s <= left || kink.amount[1] == 0.0) continue;
+    const Growth growth(1.0 - left, length_, kink.amount[0], kink.amount[1]);
+    const double coupling = influence_.curvature_acceleration_at(section, kink.section);
+    sum.value += coupling * growth.value(s - left);
+    sum.slope += coupling * growth.slope(s - left);
+  }
+  return sum;
+}
+
+void SectionKinks::add_kink(const SectionField& sections, const Trace& trace) {
+  const SectionLaw& law = sections.law();
+  const std::size_t i = trace.section;
+  const SectionHistory& before = sections.history(i);
+
+  // Until it turns the section's own flow moves it, too.
+  std::optional<Growth> own;
+  double own_until = 1.0;
+  const double own_coupling = influence_.curvature_acceleration_at(i, i);
+  const auto change = [&](double s) {
+    Change sum = change_by_kinks(i, s);
+    const double since = std::min(s, own_until) - trace.left;
+    if (own && since > 0.0) {
+      sum.value += own_coupling * own->value(since);
+      if (s <= own_until) sum.slope += own_coupling * own->slope(since);
+    }
+    return sum;
+  };
+  SectionKink kink{i, 0.0, {}, 0.0, {}};
+  // Calls add(s, defect ds) at the points of a quadrature over a stretch of the step.
+  const auto integrate = [&](double from, double to, const SectionHistory& memory, auto add) {
+    for (std::size_t g = 0; g < gauss_point.size(); ++g) {
+      const double s = from + (to - from) * gauss_point[g];
+      const double k = trace.path(s);
+      const double moved = change(s).value;
+      const double piece =
+          trace.branch ? law.moment_on(*trace.branch, k) : sections.resting_moment(i, k);
+      // What the tangent makes of `moved` is part of the beam's answer.
+      const double defect = law.moment(memory, k + moved) - kink.tangent * moved - piece;
+      add(s, gauss_weight[g] * (to - from) * length_ * defect);
+    }
+  };
+
+  const double flow_ends = trace.turn.value_or(1.0);
+  if (trace.left < flow_ends) {
+    kink.tangent = law.tangent(before, trace.path(flow_ends));
+    double amount = 0.0;
+    double next_amount = 0.0;
+    integrate(trace.left, flow_ends, before, [&](double s, double part) {
+      amount += part;
+      next_amount += (flow_ends - s) * length_ * part;
+    });
+    if (next_amount != 0.0) own.emplace(flow_ends - trace.left, length_, amount, next_amount);
+  }
+
+  const auto speed = [&](double s) {
+    return trace.sense * (trace.path.slope(s) + change(s).slope);
+  };
+  std::optional<double> turn;
+  if (speed(1.0) < 0.0) turn = find_fall(speed, own ? trace.left : 0.0, 1.0, flow_ends);
+  double left = trace.left;
+  if (left == flow_ends) {  // it leaves its branch by turning only
+    if (!turn) return;
+    left = *turn;
+  }
+  kink.start = t0_ + left * length_;
+  const auto add = [&](double s, double part) {
+    for (std::size_t m = 0; m < kink.amount.size(); ++m) {
+      kink.amount[m] += part;
+      part *= (1.0 - s) * length_ / static_cast<double>(m + 1);
+    }
+  };
+  kink.tangent =
+      turn ? sections.stiffness() : law.tangent(before, trace.path(1.0) + change(1.0).value);
+  // Disturbed by earlier kinks it answered with another tangent until now.
+  if (!kinks_.empty()) {
+    const double first = (kinks_.front().start - t0_) / length_;
+    if (first < left) integrate(first, left, before, add);
+  }
+  if (!turn) {
+    integrate(left, 1.0, before, add);
+  } else {
+    if (left < *turn) integrate(left, *turn, before, add);
+    own_until = *turn;
+    const double farthest = trace.path(*turn) + change(*turn).value;
+    turned_ = before;
+    law.commit(turned_, farthest);
+    integrate(*turn, 1.0, turned_, add);
+    kink.turn = {t0_ + *turn * length_, farthest};
+  }
+  kinks_.push_back(kink);
 }
 
 }  // namespace subimpact

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "events/hermite.h"
 #include "model/section_field.h"
+#include "system/section_influence.h"
 
 namespace subimpact {
 
@@ -17,17 +19,25 @@ struct SectionKink {
     double time;       ///< s
     double curvature;  ///< 1/m
   };
-  std::optional<Turn> turn;      ///< where it turned back, if it did
-  std::array<double, 4> amount;  ///< see SectionKinks, N m s^(k+1)
-  double tangent;                ///< -dM/dkappa at the step's end, N m2
+  std::optional<Turn> turn;  ///< where it turned back, if it did
+  double tangent;            ///< -dM/dkappa at the step's end, N m2
+  /// Terms of the expansion of the beam's answer, two amounts each: for velocity and displacement.
+  static constexpr std::size_t most_terms = 4;
+  std::array<double, 2 * most_terms> amount;  ///< see SectionKinks, N m s^(k+1)
 };
 
-/// Curvatures (1/m) and their rates at one end of a step, an entry a section.
+/// The sections at one end of a step, an entry each.
 struct SectionMotion {
   std::vector<double> curvatures, rates;  ///< 1/m, 1/(m s)
-  std::vector<double> second, third;      ///< the next two rates; only where they are asked for
+  /// W_j times the moments -M of the smooth pieces and their rates (N m2, N m2/s), and the contact
+  /// force with its rate (N, N/s); only where they are asked for.
+  std::vector<double> weighted_moments, weighted_moment_rates;
+  double force = 0.0, force_rate = 0.0;
   explicit SectionMotion(std::size_t n_sections)
-      : curvatures(n_sections), rates(n_sections), second(n_sections), third(n_sections) {}
+      : curvatures(n_sections),
+        rates(n_sections),
+        weighted_moments(n_sections),
+        weighted_moment_rates(n_sections) {}
 };
 
 /// The kinks of a step.
@@ -39,30 +49,61 @@ struct SectionMotion {
 /// kappa(t) is known from the step's ends, so the defect is integrated with the true law, turn
 /// included:
 ///
-///     amount_k = integral of (t1 - t)^k/k! d(t) dt,   k = 0..3,
+///     amount_k = integral of (t1 - t)^k/k! d(t) dt,   k = 0..7,
 ///
 /// from which the beam's answer to it follows (StruckBeam::find_section_kinks).
 ///
 /// Paths are polynomials through both ends: cubic where sides are told apart, of degree seven where
-/// the height of a turn, which the section will remember, is read off. A path that changes its
-/// direction twice is not followed: such a step must be cut.
+/// the height of a turn, which the section will remember, is read off. A kink bends the paths of
+/// its own and of other sections,
+///
+///     change of kappa_j(t) = (B c_i)_j (amount_1 up to t)   (c_i: SectionInfluence),
+///
+/// enough to move turns, to undo them and to bring new ones about: kinks are found in their order,
+/// each on the path the earlier ones leave. A path that changes its direction twice is not
+/// followed: such a step must be cut.
 class SectionKinks {
  public:
+  explicit SectionKinks(SectionInfluence& influence) : influence_(influence) {}
+
   /// Collects the sections of a step of this length, begun at the last commit, that may have left
   /// their pieces. Returns whether there are any. Needs curvatures and rates.
   bool suspect(const SectionField& sections, const SectionMotion& start, const SectionMotion& end,
                double length);
   /// Part of the step after which it must be cut, because a suspect changed direction twice.
   std::optional<double> cut() const { return cut_; }
-  /// The kinks of the suspects in the step from t0 to t1. Needs all rates.
+  /// The kinks of the suspects, and of sections they disturb, in the step from t0 to t1. Needs the
+  /// whole motion.
   void find(const SectionField& sections, const SectionMotion& start, const SectionMotion& end,
             double t0, double t1);
   void clear() { kinks_.clear(); }
   const std::vector<SectionKink>& kinks() const { return kinks_; }
 
  private:
+  // A suspect's path, as if nothing disturbed it, and what it says: all times in parts of the step.
+  struct Trace {
+    std::size_t section;
+    const SectionBranch* branch;  // on which it flowed, if it did
+    double sense;
+    HermiteSeptic path;
+    double left;                 // when it left its piece
+    std::optional<double> turn;  // when it turned
+  };
+  HermiteSeptic path_of(std::size_t section, const SectionMotion& start,
+                        const SectionMotion& end) const;
+  void trace(const SectionField& sections, const SectionMotion& start, const SectionMotion& end);
+  void add_kink(const SectionField& sections, const Trace& trace);
+  // A curvature's change by what other sections did, and the rate of change in parts of the step.
+  struct Change {
+    double value = 0.0, slope = 0.0;
+  };
+  Change change_by_kinks(std::size_t section, double s) const;
+
+  SectionInfluence& influence_;
+  double t0_ = 0.0, length_ = 0.0;
   std::vector<std::size_t> suspects_;
   std::optional<double> cut_;
+  std::vector<Trace> traces_;
   std::vector<SectionKink> kinks_;
   SectionHistory turned_;
 };

@@ -22,9 +22,10 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       trial_(n_ + 1),
       start_(mesh_->n_sections()),
       end_(mesh_->n_sections()),
+      influence_(std::make_unique<SectionInfluence>(*mesh_, *mass_solver_)),
+      kinks_(*influence_),
       velocity_change_(n_),
-      position_change_(n_),
-      answer_(n_) {
+      position_change_(n_) {
   const double exponent = contact_law_.exponent();
   const double contact_time = std::pow(
       striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),

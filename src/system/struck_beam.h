@@ -14,6 +14,7 @@
 #include "subimpact/events/records.h"
 #include "system/beam_jacobian.h"
 #include "system/second_order_ode.h"
+#include "system/section_influence.h"
 #include "system/section_kinks.h"
 
 namespace subimpact {
@@ -139,17 +140,23 @@ class StruckBeam final : public MechanicalSystem {
   /// Takes an event as having happened at y: switches the contact's branch. Call after commit(y).
   void apply(const Guard& guard, const State& y);
   // --- sections ----------------------------------------------------------------------------------
-  void set_section_evaluation(Evaluation how) { section_evaluation_ = how; }
+  /// `tolerance`: how well what sections do within a step is put right at its end (root mean square
+  /// of velocities, m/s).
+  void set_section_evaluation(Evaluation how,
+                              double tolerance = std::numeric_limits<double>::infinity()) {
+    section_evaluation_ = how;
+    kink_tolerance_ = tolerance;
+  }
   /// Finds the sections that left their smooth pieces within a step that began at the last
   /// committed state, and the beam's answer to that: with A = Mass^-1 B^T W (dM/dkappa) B and
   /// a_k = Mass^-1 (-B^T W) amount_k,
   ///
-  ///     change of w' = a_0 + A a_2,   change of w = a_1 + A a_3,
+  ///     change of w' = a_0 + A a_2 + A^2 a_4 + ..,   change of w = a_1 + A a_3 + A^2 a_5 + ..,
   ///
-  /// the first terms of its expansion in the time since the first kink. Returns the step's end if
-  /// the next term is below `tolerance` (root mean square of velocities, m/s), else an earlier time
-  /// at which to end the step. Costs two accelerations and four mass solves if there are kinks.
-  double find_section_kinks(const StepEnds& step, double tolerance);
+  /// expansions in the time since the first kink, taken as far as the tolerance asks. Returns the
+  /// step's end if that is far enough, else an earlier time at which to end the step. The a_k come
+  /// without mass solves (SectionInfluence); each further pair of terms costs two.
+  double find_section_kinks(const StepEnds& step);
   /// What the last search found.
   const std::vector<SectionKink>& section_kinks() const { return kinks_.kinks(); }
   /// Adds to y, the end of the step searched last, what the kinks found would have done, and takes
@@ -160,8 +167,7 @@ class StruckBeam final : public MechanicalSystem {
   /// and the sections that turned put right as if the step ended there, and all else as it was.
   template <class Look>
   void look_within(const StepEnds& step, double t, State& y, Look look) {
-    find_section_kinks({step.t0, t, step.y0, y, step.eventless},
-                       std::numeric_limits<double>::infinity());
+    find_section_kinks({step.t0, t, step.y0, y, step.eventless});
     std::vector<SectionField::Memory> before;
     for (const SectionKink& kink : section_kinks()) {
       if (kink.turn) before.push_back(sections_.memory(kink.section));
@@ -169,7 +175,7 @@ class StruckBeam final : public MechanicalSystem {
     put_right(y);
     look(y);
     for (const SectionField::Memory& memory : before) sections_.restore(memory);
-    find_section_kinks(step, std::numeric_limits<double>::infinity());
+    find_section_kinks(step);
   }
 
   /// Takes y as reached: advances the memory of contact and sections. Returns whether any section
@@ -234,15 +240,19 @@ class StruckBeam final : public MechanicalSystem {
   std::vector<double> curvatures_, moments_;  // of the last evaluation
   std::vector<double> trial_;                 // accelerations
   void read_motion(const State& y, SectionMotion& at) const;
-  void read_higher_rates(const State& y, SectionMotion& at);
-  // moments_ = tangents of the smooth pieces, taken at `curvatures`, times changes of curvature.
-  void linear_moments(std::span<const double> changes, std::span<const double> curvatures);
-  // a_order, and A a_order added to `change`; the latter's root mean square.
-  void answer_to_kinks(std::size_t order, std::vector<double>& answer);
-  double add_stiffness_term(std::size_t order, std::vector<double>& change);
+  void read_moments(const State& y, SectionMotion& at);
+  // Tangents of the smooth pieces, taken at `curvatures`, times changes of curvature.
+  void linear_moments(std::span<const double> changes, std::span<const double> curvatures,
+                      std::span<double> moments) const;
+  // Sum of A^k a_(2k + order), k = 0..last.
+  void answer_to_kinks(std::size_t order, std::size_t last, std::vector<double>& answer);
+  // A bound of what the k-th term adds to velocities, root mean square, m/s.
+  double bound_of_term(std::size_t k);
   SectionMotion start_, end_;  // of the step being looked at; start_ is that of the last commit
+  std::unique_ptr<SectionInfluence> influence_;
   SectionKinks kinks_;
-  std::vector<double> velocity_change_, position_change_, answer_;
+  double kink_tolerance_ = std::numeric_limits<double>::infinity();
+  std::vector<double> velocity_change_, position_change_;
 };
 
 }  // namespace subimpact

@@ -9,39 +9,41 @@ namespace subimpact {
 namespace {
 
 // A step that must be cut ends after the kink that spoils it, by this part of what is estimated to
-// be tolerable. The estimate grows as the sixth to seventh power of the time since the kink.
+// be tolerable.
 constexpr double cut_safety = 0.8;
-constexpr double cut_exponent = 0.15;
+// Steps shorter than this, in radians of the highest frequency, are not cut.
+constexpr double shortest_cut = 1e-3;
 
 }  // namespace
 
-double StruckBeam::find_section_kinks(const StepEnds& step, double tolerance) {
+double StruckBeam::find_section_kinks(const StepEnds& step) {
   kinks_.clear();
   if (step.eventless || section_evaluation_ != Evaluation::smooth || !sections_.can_yield()) {
     return step.t1;
   }
   read_motion(step.y1, end_);
   if (!kinks_.suspect(sections_, start_, end_, step.length())) return step.t1;
-  if (kinks_.cut()) return step.t0 + *kinks_.cut() * step.length();
-  read_higher_rates(step.y0, start_);
-  read_higher_rates(step.y1, end_);
+  // (In a very short step it is rounding that changes direction.)
+  if (kinks_.cut() && highest_frequency_ * step.length() > shortest_cut) {
+    return step.t0 + *kinks_.cut() * step.length();
+  }
+  read_moments(step.y0, start_);
+  read_moments(step.y1, end_);
   kinks_.find(sections_, start_, end_, step.t0, step.t1);
   if (kinks_.kinks().empty()) return step.t1;
 
-  answer_to_kinks(0, velocity_change_);
-  answer_to_kinks(1, position_change_);
-  const double last_term = add_stiffness_term(2, velocity_change_);
-  add_stiffness_term(3, position_change_);
-  const auto worst = std::max_element(kinks_.kinks().begin(), kinks_.kinks().end(),
-                                      [](const SectionKink& a, const SectionKink& b) {
-                                        return std::abs(a.amount[2]) < std::abs(b.amount[2]);
-                                      });
-  const double since = step.t1 - worst->start;
-  const double angle = highest_frequency_ * since;
-  const double next_term = last_term * angle * angle / 30.0;
-  if (next_term <= tolerance) return step.t1;
-  const double tolerable = since * std::pow(tolerance / next_term, cut_exponent);
-  return std::max(worst->start, step.t0) + cut_safety * tolerable;
+  std::size_t last = 0;
+  while (last + 2 < SectionKink::most_terms && bound_of_term(last + 1) > kink_tolerance_) ++last;
+  answer_to_kinks(0, last, velocity_change_);
+  answer_to_kinks(1, last, position_change_);
+  const double left_out = bound_of_term(last + 1);
+  if (left_out <= kink_tolerance_) return step.t1;
+  double start = step.t1;
+  for (const SectionKink& kink : kinks_.kinks()) start = std::min(start, kink.start);
+  // The term grows as this power of the time since the kink, or faster.
+  const double power = static_cast<double>(2 * (last + 1) + 3);
+  const double tolerable = (step.t1 - start) * std::pow(kink_tolerance_ / left_out, 1.0 / power);
+  return std::max(start, step.t0) + cut_safety * tolerable;
 }
 
 void StruckBeam::put_right(State& y) {
@@ -55,55 +57,55 @@ void StruckBeam::put_right(State& y) {
   }
 }
 
-void StruckBeam::read_higher_rates(const State& y, SectionMotion& at) {
-  acceleration({y.data(), n_ + 1}, trial_);
-  const std::span<double> rates{trial_.data(), n_};
-  mesh_->curvatures(rates, at.second);
-  linear_moments(at.rates, at.curvatures);
-  mesh_->bending_forces(moments_, rates);
-  if (in_contact()) {
-    mesh_->struck_point().add_to(rates, force_slope(indentation(y)) * indentation_rate(y));
-  }
-  mass_solver_->solve(rates);
-  ++n_further_solves_;
-  mesh_->curvatures(rates, at.third);
+void StruckBeam::read_moments(const State& y, SectionMotion& at) {
+  const std::span<const double> weights = mesh_->section_weights();
+  const auto weigh = [&](std::vector<double>& moments) {
+    for (std::size_t i = 0; i < moments.size(); ++i) moments[i] *= weights[i];
+  };
+  sections_.smooth_moments(at.curvatures, at.weighted_moments);
+  linear_moments(at.rates, at.curvatures, at.weighted_moment_rates);
+  weigh(at.weighted_moments);
+  weigh(at.weighted_moment_rates);
+  at.force = contact_force(y);
+  at.force_rate = in_contact() ? force_slope(indentation(y)) * indentation_rate(y) : 0.0;
 }
 
-void StruckBeam::linear_moments(std::span<const double> changes,
-                                std::span<const double> curvatures) {
-  for (std::size_t i = 0; i < moments_.size(); ++i) {
-    moments_[i] = sections_.stiffness() * changes[i];
+void StruckBeam::linear_moments(std::span<const double> changes, std::span<const double> curvatures,
+                                std::span<double> moments) const {
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    moments[i] = sections_.stiffness() * changes[i];
   }
   for (const SectionField::Flow& flow : sections_.flowing()) {
     const std::size_t i = flow.section;
-    moments_[i] = sections_.law().tangent_on(flow.branch, curvatures[i]) * changes[i];
+    moments[i] = sections_.law().tangent_on(flow.branch, curvatures[i]) * changes[i];
   }
 }
 
-void StruckBeam::answer_to_kinks(std::size_t order, std::vector<double>& answer) {
-  std::fill(moments_.begin(), moments_.end(), 0.0);
-  for (const SectionKink& kink : kinks_.kinks()) moments_[kink.section] = kink.amount[order];
-  mesh_->bending_forces(moments_, answer);
-  mass_solver_->solve(answer);
-  ++n_further_solves_;
+void StruckBeam::answer_to_kinks(std::size_t order, std::size_t last, std::vector<double>& answer) {
+  std::fill(answer.begin(), answer.end(), 0.0);
+  for (std::size_t k = last + 1; k-- > 0;) {
+    if (k < last) {
+      mesh_->curvatures(answer, curvatures_);
+      linear_moments(curvatures_, end_.curvatures, moments_);
+      for (const SectionKink& kink : kinks_.kinks()) {
+        moments_[kink.section] = kink.tangent * curvatures_[kink.section];
+      }
+      mesh_->bending_forces(moments_, answer);
+      mass_solver_->solve(answer);
+      ++n_further_solves_;
+    }
+    for (const SectionKink& kink : kinks_.kinks()) {
+      influence_->add_accelerations(kink.section, kink.amount[2 * k + order], answer);
+    }
+  }
 }
 
-double StruckBeam::add_stiffness_term(std::size_t order, std::vector<double>& change) {
-  answer_to_kinks(order, answer_);
-  mesh_->curvatures(answer_, curvatures_);
-  linear_moments(curvatures_, end_.curvatures);
-  for (const SectionKink& kink : kinks_.kinks()) {
-    moments_[kink.section] = kink.tangent * curvatures_[kink.section];
-  }
-  mesh_->bending_forces(moments_, answer_);
-  mass_solver_->solve(answer_);
-  ++n_further_solves_;
+double StruckBeam::bound_of_term(std::size_t k) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < n_; ++i) {
-    change[i] += answer_[i];
-    sum += answer_[i] * answer_[i];
+  for (const SectionKink& kink : kinks_.kinks()) {
+    sum += std::abs(kink.amount[2 * k]) * influence_->strength(kink.section);
   }
-  return std::sqrt(sum / static_cast<double>(n_));
+  return sum * std::pow(highest_frequency_, 2.0 * static_cast<double>(k));
 }
 
 }  // namespace subimpact

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "order_table.h"
@@ -66,6 +67,37 @@ OrderTable errors(const std::string& title, double kink_tolerance) {
 
 TEST(SectionKinks, PutRightAtStepEndsLeaveAMethodMostOfItsOrder) {
   errors("steps a us, kinks put right", never_cut).expect_overall_order_within(4.5, 7.5);
+}
+
+// Steps of 0.2 us are 1.4 radians of the beam's highest frequency.
+TEST(SectionKinks, ArePutRightAsWellAsIsAsked) {
+  const State exact = state_after(5e-9, never_cut);
+  const double loose = largest_difference(state_after(2e-7, never_cut), exact);
+  const double tight = largest_difference(state_after(2e-7, 1e-8), exact);
+  std::printf("steps of 0.2 us: error %.2e m/s by the first term, %.2e to a tolerance of 1e-8\n",
+              loose, tight);
+  EXPECT_LT(tight, 0.1 * loose);
+}
+
+TEST(SectionKinks, HardlyEverCutAStep) {
+  Case input = paper_case(SectionKind::exact, 0.5e-3);
+  input.solver.method = Method::nystrom;
+  input.solver.rtol = 1e-8;
+  struct Counter : RunObserver {
+    long turns = 0;
+    void on_turn(const Transition&) override { ++turns; }
+  } counter;
+  StruckBeam beam = make_struck_beam(input);
+  const Used used = describe(input, beam);
+  const auto integrator = make_integrator(input, used, beam);
+  EventLoop loop(beam, *integrator, counter, loop_options(input, used));
+  loop.start();
+  while (!loop.finished()) loop.advance();
+  const WorkCounts work = integrator->work();
+  std::printf("%ld steps, %ld turns, %ld partial steps for %ld events and all cuts\n", work.steps,
+              counter.turns, work.partial_steps, loop.n_events());
+  EXPECT_GT(counter.turns, 500);
+  EXPECT_LT(work.partial_steps, counter.turns / 5);
 }
 
 TEST(SectionKinks, LeftAloneBringAnyMethodDownToSecondOrder) {

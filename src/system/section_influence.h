@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "model/beam_mesh.h"
+#include "model/mass_solver.h"
+
+namespace subimpact {
+
+/// How the beam accelerates when one section's moment changes: for 1 N m of -M at section i,
+///
+///     c_i = Mass^-1 (-B^T W e_i)   (accelerations of the unknowns, 1/s2 per N m),   B c_i.
+///
+/// Mass is symmetric, so the same numbers tell how one section's curvature answers all moments m
+/// (-M, N m) and the contact force F (N), without a mass solve:
+///
+///     kappa_i'' = (sum_j W_j (B c_i)_j m_j - F S.c_i)/W_i.
+///
+/// With or without rotary inertia c_i dies away within a few thicknesses, or a few unknowns, of the
+/// section: what is below rounding is left out. An influence is worked out when it is first asked
+/// for, with one mass solve.
+class SectionInfluence {
+ public:
+  SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
+
+  /// kappa_i'' of one section, given W_j m_j of all (N m2) and F; 1/(m s2).
+  double curvature_acceleration(std::size_t section, const std::vector<double>& weighted_moments,
+                                double force);
+  /// accelerations += moment c_i.
+  void add_accelerations(std::size_t section, double moment, std::vector<double>& accelerations);
+  /// (B c_i)_j for i = `section`, j = `other`.
+  double curvature_acceleration_at(std::size_t other, std::size_t section);
+  /// Root mean square of c_i.
+  double strength(std::size_t section) { return of(section).strength; }
+
+ private:
+  // The entries from `first` on that are not negligible.
+  struct Stretch {
+    std::size_t first = 0;
+    std::vector<double> values;
+    explicit Stretch(const std::vector<double>& whole);
+  };
+  struct Influence {
+    Stretch accelerations, curvatures;
+    double strength;
+    double at_strike;  // S.c_i
+  };
+  const Influence& of(std::size_t section);
+
+  const BeamMesh& mesh_;
+  const MassSolver& mass_solver_;
+  std::vector<int> slot_;  // index into known_, -1: not asked for yet
+  std::vector<Influence> known_;
+};
+
+}  // namespace subimpact

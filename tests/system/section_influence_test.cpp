@@ -1,0 +1,114 @@
+// What one section's moment does to the beam, worked out once a section.
+
+#include "system/section_influence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "model/cell_mesh.h"
+#include "model/hermite_mesh.h"
+#include "paper_scene.h"
+#include "random_walk.h"
+
+namespace subimpact {
+namespace {
+
+struct Mesh {
+  std::string name;
+  std::unique_ptr<BeamMesh> mesh;
+};
+
+std::vector<Mesh> meshes() {
+  const Beam rayleigh = paper_beam();
+  Beam slender = rayleigh;
+  slender.theory = BeamTheory::euler_bernoulli;
+  std::vector<Mesh> all;
+  for (const Beam& beam : {rayleigh, slender}) {
+    const std::string theory = beam.theory == BeamTheory::rayleigh ? "Rayleigh" : "slender";
+    all.push_back(
+        {theory + " half of cells",
+         std::make_unique<CellMesh>(beam, 0.5, std::size_t{201}, CellMesh::Extent::half)});
+    all.push_back(
+        {theory + " cells, struck off centre",
+         std::make_unique<CellMesh>(beam, 0.317, std::size_t{60}, CellMesh::Extent::whole)});
+    all.push_back({theory + " half of elements",
+                   std::make_unique<HermiteMesh>(beam, 0.5, std::size_t{40}, 2,
+                                                 HermiteMesh::Extent::half)});
+  }
+  return all;
+}
+
+TEST(SectionInfluence, GivesTheCurvatureAccelerationsThatAMassSolveGives) {
+  for (const Mesh& of : meshes()) {
+    SCOPED_TRACE(of.name);
+    const BeamMesh& mesh = *of.mesh;
+    const BandedSolver solver(mesh.mass());
+    SectionInfluence influence(mesh, solver);
+    const std::vector<double> moments = random_numbers(7, mesh.n_sections());
+    constexpr double force = 3.0;
+    std::vector<double> accelerations(mesh.n_unknowns());
+    mesh.bending_forces(moments, accelerations);
+    mesh.struck_point().add_to(accelerations, force);
+    solver.solve(accelerations);
+    std::vector<double> expected(mesh.n_sections());
+    mesh.curvatures(accelerations, expected);
+    std::vector<double> weighted = moments;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < weighted.size(); ++i) {
+      weighted[i] *= mesh.section_weights()[i];
+      largest = std::max(largest, std::abs(expected[i]));
+    }
+    for (std::size_t i = 0; i < weighted.size(); ++i) {
+      EXPECT_NEAR(influence.curvature_acceleration(i, weighted, force), expected[i],
+                  1e-13 * largest)
+          << "section " << i;
+    }
+  }
+}
+
+TEST(SectionInfluence, AddsUpToTheAccelerationsOfAllMoments) {
+  for (const Mesh& of : meshes()) {
+    SCOPED_TRACE(of.name);
+    const BeamMesh& mesh = *of.mesh;
+    const BandedSolver solver(mesh.mass());
+    SectionInfluence influence(mesh, solver);
+    const std::vector<double> moments = random_numbers(11, mesh.n_sections());
+    std::vector<double> expected(mesh.n_unknowns());
+    mesh.bending_forces(moments, expected);
+    solver.solve(expected);
+    std::vector<double> sum(mesh.n_unknowns(), 0.0);
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      influence.add_accelerations(i, moments[i], sum);
+    }
+    double largest = 0.0;
+    for (const double a : expected) largest = std::max(largest, std::abs(a));
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      EXPECT_NEAR(sum[i], expected[i], 1e-13 * largest) << "unknown " << i;
+    }
+  }
+}
+
+TEST(SectionInfluence, OfOneSectionOnAnotherIsTheCurvatureOfItsAccelerations) {
+  for (const Mesh& of : meshes()) {
+    SCOPED_TRACE(of.name);
+    const BeamMesh& mesh = *of.mesh;
+    const BandedSolver solver(mesh.mass());
+    SectionInfluence influence(mesh, solver);
+    for (const std::size_t section : {std::size_t{0}, mesh.n_sections() / 3}) {
+      std::vector<double> accelerations(mesh.n_unknowns(), 0.0);
+      influence.add_accelerations(section, 1.0, accelerations);
+      std::vector<double> curvatures(mesh.n_sections());
+      mesh.curvatures(accelerations, curvatures);
+      const double own = std::abs(curvatures[section]);
+      for (std::size_t other = 0; other < mesh.n_sections(); ++other) {
+        EXPECT_NEAR(influence.curvature_acceleration_at(other, section), curvatures[other],
+                    1e-13 * own);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace subimpact
