@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <utility>
+
+#include "model/hermite_modes.h"
 
 namespace subimpact {
 namespace {
@@ -348,6 +352,24 @@ double HermiteMesh::highest_frequency(double bending_stiffness) const {
     (shifted.is_positive_definite() ? above : below) = s;
   }
   return std::sqrt(above);
+}
+
+NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
+  const double a = runs_.front().length;
+  const bool uniform = std::abs(runs_.back().length / a - 1.0) < 1e-14;
+  std::optional<NaturalModes> modes;
+  if (uniform) {
+    modes = hermite_chain_modes({n_elements_whole_, slope_unit_, mass_per_length_, rotary_inertia_,
+                                 bending_stiffness, ends_, symmetric()});
+  }
+  if (!modes) return dense_natural_modes(*this, bending_stiffness);
+  const std::size_t n = n_unknowns();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::span<double> shape(modes->shapes.data() + k * n, n);
+    const double scale = 1.0 / std::sqrt(mass_.quadratic_form(shape));
+    for (double& entry : shape) entry *= scale;
+  }
+  return *std::move(modes);
 }
 
 std::string HermiteMesh::description() const {

@@ -41,6 +41,9 @@ class HermiteMesh final : public BeamMesh {
   SectionStencil section_stencil(std::size_t section) const override;
   /// Bisected to 5e-6 from above.
   double highest_frequency(double bending_stiffness) const override;
+  /// In closed form if all elements are equal and not one end is free, the other clamped (see
+  /// hermite_chain_modes).
+  NaturalModes natural_modes(double bending_stiffness) const override;
   std::string description() const override;
 
  private:

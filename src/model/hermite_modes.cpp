@@ -1,0 +1,422 @@
+#include "model/hermite_modes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace subimpact {
+namespace {
+
+using std::numbers::pi;
+
+enum class Band { acoustic, optical, above };
+enum class Parity { even, odd };  // of W about the middle; Theta has the other
+
+// An element's dynamic stiffness in units of E I/a^3 (slopes times a): what multiplies -lambda in
+// its entries and in sums of them. With w_0, t_0, w_1, t_1 for its unknowns C is entry (w_0, w_1),
+// D (w_0, t_1), E (t_0, t_1), F (w_0, t_0); A and B are (w_0, w_0) and (t_0, t_0).
+struct Element {
+  double rho;  // J/(rho A a^2)
+  double of_c, of_d, of_e, of_b_and_e, of_f_and_d;
+
+  explicit Element(double ratio)
+      : rho(ratio),
+        of_c(54.0 / 420.0 - 1.2 * rho),
+        of_d(-13.0 / 420.0 + 0.1 * rho),
+        of_e(-3.0 / 420.0 - rho / 30.0),
+        of_b_and_e(1.0 / 420.0 + 0.1 * rho),
+        of_f_and_d(9.0 / 420.0 + 0.2 * rho) {}
+};
+
+// One wave: w cos(theta d), slope sin(theta d) at a distance d from the middle, or with cosh and
+// sinh; in an odd mode sin, -cos or sinh, cosh. An end has two conditions: one in which an even
+// mode's sin (or sinh) remains, with this coefficient, and one in which its cos (or cosh) remains.
+struct Wave {
+  double turn;  // sin(theta) or sinh(phi)
+  double w, slope;
+  double with_sin, with_cos;
+};
+
+// The two waves of one frequency.
+struct Waves {
+  double lambda;
+  double decay;  // 2 sinh^2(phi/2) of the second
+  Wave first, second;
+
+  // tan(theta m) = ratio tanh(phi m) in an even mode.
+  double ratio() const {
+    return first.with_cos * second.with_sin / (first.with_sin * second.with_cos);
+  }
+};
+
+// p = 2 sin^2(theta/2), or -2 sinh^2(psi/2) above the bands. Written so that long waves, and
+// those near the ends of the optical branch, keep their digits.
+Waves waves_at(double p, Band band, const Element& k, bool clamped) {
+  const bool acoustic = band == Band::acoustic;
+  const double q = p * (2.0 - p);
+  const double u = 0.5 - k.of_c * p;
+  const double v = k.of_b_and_e - k.of_e * p;
+  const double gamma = 12.0 * p * p;
+  const double beta = 12.0 * p * v + u * (6.0 - 2.0 * p) - 12.0 * k.of_d * q;
+  const double alpha = u * v - k.of_d * k.of_d * q;
+  const double root = std::sqrt(beta * beta - 4.0 * alpha * gamma);
+  const double lambda = acoustic ? 2.0 * gamma / (beta + root) : (beta + root) / (2.0 * alpha);
+  const double c = -12.0 - lambda * k.of_c;
+  const double d = 6.0 - lambda * k.of_d;
+  const double e = 2.0 - lambda * k.of_e;
+  const double leading = c * e + d * d;
+  // A + C cos(theta) and B + E cos(theta); what may be small of them comes from their product.
+  const double of_w = 12.0 * p - lambda * u;
+  const double of_slope = acoustic ? 6.0 - 2.0 * p - lambda * v : d * d * q / of_w;
+  const double decay = acoustic ? lambda * (6.0 - lambda * k.of_b_and_e) / (2.0 * leading * p)
+                                : lambda * (d * d * (2.0 - p) / of_w + e) / (2.0 * leading);
+  const double s = std::sqrt(std::abs(q));
+  const double sinh_phi = std::sqrt(decay * (2.0 + decay));
+  Wave first{s, acoustic ? of_slope : d * s, acoustic ? -d * s : -of_w, 0.0, 0.0};
+  Wave second{sinh_phi, of_slope + e * (p + decay), d * sinh_phi, 0.0, 0.0};
+  if (clamped) {  // no slope, no displacement
+    for (Wave* wave : {&first, &second}) {
+      wave->with_sin = wave->slope;
+      wave->with_cos = wave->w;
+    }
+    return {lambda, decay, first, second};
+  }
+  // No force on, no couple on an element that would go on beyond the end.
+  const auto force = [&](double x) {  // -D (F + D cos) - C (B + E cos), x = 1 - cos
+    return 12.0 * x +
+           lambda * (0.5 - 6.0 * k.rho + x * (12.0 * (k.of_e - k.of_d) - 2.0 * k.of_c)) -
+           lambda * lambda *
+               (k.of_d * (k.of_f_and_d - k.of_d * x) + k.of_c * (k.of_b_and_e - k.of_e * x));
+  };
+  const auto couple = [&](double x) {  // F - D cos
+    return 6.0 * x - lambda * (1.0 / 12.0 + k.of_d * x);
+  };
+  first.with_sin = acoustic ? s * force(p) : force(p) * of_w / d;
+  first.with_cos = acoustic ? couple(p) * of_slope - e * d * q : s * (couple(p) * d - e * of_w);
+  second.with_sin = -sinh_phi * force(-decay);
+  second.with_cos = couple(-decay) * second.w + e * d * sinh_phi * sinh_phi;
+  return {lambda, decay, first, second};
+}
+
+// What a mode is made of: amplitudes of the two waves, the second counted at the ends.
+struct Mode {
+  Band band;
+  Parity parity;
+  double number;  // theta, or psi above the bands
+  Waves waves;
+  double second;
+};
+
+double phi_of(const Waves& waves) { return 2.0 * std::asinh(std::sqrt(0.5 * waves.decay)); }
+
+double square_of_half(double number, Band band) {
+  const double half = band == Band::above ? std::sinh(0.5 * number) : std::sin(0.5 * number);
+  return band == Band::above ? -2.0 * half * half : 2.0 * half * half;
+}
+
+// A root of f, which rises through zero once in (low, high): secants from a guess and the slope
+// there, halving where they leave the bracket.
+template <class F>
+double rising_root(F f, double low, double high, double guess, double slope) {
+  double x = guess > low && guess < high ? guess : 0.5 * (low + high);
+  double before = 0.0;
+  double value_before = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double value = f(x);
+    if (value == 0.0) return x;
+    (value < 0.0 ? low : high) = x;
+    if (i > 0) {
+      const double secant = (value - value_before) / (x - before);
+      if (secant > 0.0) slope = secant;
+    }
+    before = x;
+    value_before = value;
+    x -= value / slope;
+    const bool inside = x > low && x < high;
+    // The secant's error is the product of the last two.
+    if (inside && std::abs(x - before) <= 1e-12 * x) return x;
+    if (!inside) {
+      x = 0.5 * (low + high);
+      if (x <= low || x >= high) return x;
+    }
+  }
+  return x;
+}
+
+// The modes of one parity of a chain whose ends, alike, are m elements from its middle.
+class Finder {
+ public:
+  Finder(const Element& element, EndSupport end, double m) : element_(element), end_(end), m_(m) {}
+
+  // False if there is a mode that could not be found.
+  bool add_modes(Parity parity, std::vector<Mode>& modes) const {
+    for (const Band band : {Band::acoustic, Band::optical}) {
+      if (end_ == EndSupport::pinned) {
+        add_pinned(parity, band, modes);
+      } else {
+        add_phases(parity, band, modes);
+      }
+    }
+    if (end_ != EndSupport::free) return true;
+    return add_highest(parity, modes);
+  }
+
+ private:
+  Waves waves(double number, Band band) const {
+    return waves_at(square_of_half(number, band), band, element_, end_ == EndSupport::clamped);
+  }
+  double decay_over(const Waves& waves) const { return std::tanh(phi_of(waves) * m_); }
+
+  // theta m = k pi + phase(theta)
+  double phase(double theta, Parity parity, Band band) const {
+    const Waves at = waves(theta, band);
+    const double decay = decay_over(at);
+    return parity == Parity::even ? std::atan(decay * at.ratio()) : -std::atan(decay / at.ratio());
+  }
+
+  void add_pinned(Parity parity, Band band, std::vector<Mode>& modes) const {
+    const double least = parity == Parity::even ? 0.5 : band == Band::acoustic ? 1.0 : 0.0;
+    for (double number = least; number <= m_; number += 1.0) {
+      if (band == Band::acoustic && number == m_) break;
+      const double theta = pi * (number / m_);
+      modes.push_back({band, parity, theta, waves(theta, band), 0.0});
+    }
+  }
+
+  void add_phases(Parity parity, Band band, std::vector<Mode>& modes) const {
+    const bool below = (parity == Parity::even) == (band == Band::acoustic);  // k pi
+    const double last = below ? std::floor(m_) : std::ceil(m_) - 1.0;
+    double guess = below ? -0.25 * pi : 0.25 * pi;
+    for (double k = 1.0; k <= last; k += 1.0) {
+      const double low = (below ? k - 0.5 : k) * pi / m_;
+      const double high = std::min(low + 0.5 * pi / m_, pi);
+      double found = guess;
+      const double theta = rising_root(
+          [&](double at) {
+            found = phase(at, parity, band);
+            return at * m_ - k * pi - found;
+          },
+          low, high, (k * pi + guess) / m_, m_);
+      guess = found;
+      add(parity, band, theta, modes);
+    }
+  }
+
+  // The mode of a free end's own: in the optical band if it is even and long enough, else above.
+  bool add_highest(Parity parity, std::vector<Mode>& modes) const {
+    const double least = 1e-6 / m_;
+    const auto in_band = [&](double theta) {
+      return theta * m_ - phase(theta, parity, Band::optical);
+    };
+    if (parity == Parity::even && in_band(least) < 0.0) {
+      add(parity, Band::optical, rising_root(in_band, least, 0.5 * pi / m_, 0.0, m_), modes);
+      return true;
+    }
+    const auto above = [&](double psi) {
+      const Waves at = waves(psi, Band::above);
+      const double first = std::tanh(psi * m_);
+      const double second = decay_over(at);
+      return parity == Parity::even ? second * at.ratio() - first : first * at.ratio() - second;
+    };
+    double low = least;
+    double high = 0.01;
+    if (!(above(low) < 0.0)) return false;
+    while (!(above(high) > 0.0)) {
+      low = high;
+      high *= 1.5;
+      if (high > 20.0) return false;
+    }
+    add(parity, Band::above, rising_root(above, low, high, 0.5 * (low + high), 1.0), modes);
+    return true;
+  }
+
+  void add(Parity parity, Band band, double number, std::vector<Mode>& modes) const {
+    const Waves at = waves(number, band);
+    const double decay = decay_over(at);
+    const bool above = band == Band::above;
+    const bool even = parity == Parity::even;
+    const double sine = above ? std::tanh(number * m_) : std::sin(number * m_);
+    const double cosine = above ? 1.0 : std::cos(number * m_);
+    // Of an end's two conditions the one in which the second wave weighs more.
+    double second = 0.0;
+    if (std::abs(at.ratio()) > 1.0) {
+      const double share = at.first.with_sin / at.second.with_sin;
+      second = even ? -share * sine / decay : (above ? -share : share * cosine);
+    } else {
+      const double share = at.first.with_cos / at.second.with_cos;
+      second = even ? -share * cosine : -share * sine / decay;
+    }
+    modes.push_back({band, parity, number, at, second});
+  }
+
+  const Element& element_;
+  EndSupport end_;
+  double m_;
+};
+
+// W and Theta at the distances m, m - 1, ... from the middle, node after node.
+void fill_inwards(const Mode& mode, double m, std::span<double> nodal) {
+  const bool even = mode.parity == Parity::even;
+  const auto scaled = [m](double number) {
+    return std::pair(std::exp(-number), std::exp(-2.0 * number * m));
+  };
+  const auto [step, full] = scaled(phi_of(mode.waves));
+  const double norm = mode.second / (1.0 + full);
+  const double w2 = norm * mode.waves.second.w;
+  const double t2 = norm * mode.waves.second.slope;
+  // e^-phi (m - d) and e^-phi (m + d)
+  double near = 1.0;
+  double far = full;
+  const double grow = 1.0 / step;
+  for (std::size_t i = 0; i < nodal.size(); i += 2) {
+    nodal[i] = w2 * (even ? near + far : near - far);
+    nodal[i + 1] = t2 * (even ? near - far : near + far);
+    near *= step;
+    far *= grow;
+    if (near < 1e-300) near = 0.0;
+  }
+  const double w1 = mode.waves.first.w;
+  const double t1 = mode.waves.first.slope;
+  if (mode.band == Band::above) {
+    const auto [step_first, full_first] = scaled(mode.number);
+    double close = 1.0 / (1.0 + full_first);
+    double away = full_first * close;
+    for (std::size_t i = 0; i < nodal.size(); i += 2) {
+      nodal[i] += w1 * (even ? close + away : close - away);
+      nodal[i + 1] += t1 * (even ? close - away : close + away);
+      close *= step_first;
+      away /= step_first;
+      if (close < 1e-300) close = 0.0;
+    }
+    return;
+  }
+  const double cosine = std::cos(mode.number);
+  const double sine = std::sin(mode.number);
+  double x = std::cos(mode.number * m);
+  double y = std::sin(mode.number * m);
+  for (std::size_t i = 0; i < nodal.size(); i += 2) {
+    nodal[i] += w1 * (even ? x : y);
+    nodal[i + 1] += t1 * (even ? y : -x);
+    const double turned = x * cosine + y * sine;
+    y = y * cosine - x * sine;
+    x = turned;
+  }
+}
+
+// Mode and rigid motion alike, for nodes on one side of the middle; the other side mirrors them.
+class Layout {
+ public:
+  Layout(const HermiteChain& chain, bool about_last, bool about_first)
+      : n_nodes_((chain.half ? chain.n_elements / 2 : chain.n_elements) + 1),
+        one_sided_(chain.half || about_last || about_first),
+        backwards_(about_first),
+        first_(held(chain.ends[0])),
+        last_(chain.half ? 0 : held(chain.ends[1])),
+        half_(chain.half),
+        inwards_(2 * (one_sided_ ? n_nodes_ : (n_nodes_ + 1) / 2)),
+        nodal_(2 * n_nodes_) {}
+
+  double m() const {
+    const double n = static_cast<double>(n_nodes_ - 1);
+    return one_sided_ ? n : 0.5 * n;
+  }
+  std::size_t n_unknowns() const { return 2 * n_nodes_ - first_ - last_ - (half_ ? 1 : 0); }
+
+  void write(const Mode& mode, double* shape) {
+    fill_inwards(mode, m(), inwards_);
+    write(mode.parity, shape);
+  }
+  void write_rigid(Parity parity, double* shape) {
+    for (std::size_t i = 0; i < inwards_.size(); i += 2) {
+      const double d = m() - static_cast<double>(i / 2);
+      inwards_[i] = parity == Parity::even ? 1.0 : d;
+      inwards_[i + 1] = parity == Parity::even ? 0.0 : 1.0;
+    }
+    write(parity, shape);
+  }
+
+ private:
+  static std::size_t held(EndSupport end) {
+    return end == EndSupport::free ? 0 : end == EndSupport::pinned ? 1 : 2;
+  }
+
+  void write(Parity parity, double* shape) {
+    const std::size_t n = n_nodes_;
+    const double sign = parity == Parity::even ? 1.0 : -1.0;
+    for (std::size_t i = 0; 2 * i < inwards_.size(); ++i) {
+      const double w = inwards_[2 * i];
+      const double t = inwards_[2 * i + 1];
+      const std::size_t other = n - 1 - i;
+      if (!backwards_) {
+        nodal_[2 * i] = w;
+        nodal_[2 * i + 1] = -t;
+      }
+      if (backwards_ || (!one_sided_ && other != i)) {
+        nodal_[2 * other] = sign * w;
+        nodal_[2 * other + 1] = sign * t;
+      }
+    }
+    const auto values = nodal_.begin() + static_cast<std::ptrdiff_t>(first_);
+    double* end = std::copy(values, nodal_.end() - (last_ > 0 ? 2 : half_ ? 1 : 0), shape);
+    if (last_ == 1) *end = nodal_.back();
+  }
+
+  std::size_t n_nodes_;
+  bool one_sided_, backwards_;
+  std::size_t first_, last_;  // unknowns held at the ends
+  bool half_;
+  std::vector<double> inwards_, nodal_;
+};
+
+}  // namespace
+
+std::optional<NaturalModes> hermite_chain_modes(const HermiteChain& chain) {
+  const auto [first, last] = chain.ends;
+  const bool alike = first == last;
+  const bool about_first = !alike && first == EndSupport::pinned;
+  const bool about_last = !alike && last == EndSupport::pinned;
+  if (!alike && !about_first && !about_last) return std::nullopt;
+  const EndSupport end = about_first ? last : first;
+  const double a = chain.length;
+  const Element element(chain.rotary_inertia / (chain.mass_per_length * a * a));
+  Layout layout(chain, about_last, about_first);
+  const Finder finder(element, end, layout.m());
+
+  std::vector<Mode> modes;
+  std::vector<Parity> rigid;
+  modes.reserve(layout.n_unknowns());
+  for (const Parity parity : {Parity::even, Parity::odd}) {
+    if (parity == Parity::even ? about_first || about_last : chain.half) continue;
+    if (!finder.add_modes(parity, modes)) return std::nullopt;
+    if (end == EndSupport::free) rigid.push_back(parity);
+  }
+  const std::size_t n = layout.n_unknowns();
+  if (modes.size() + rigid.size() != n) return std::nullopt;
+
+  std::vector<std::size_t> order(modes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return modes[i].waves.lambda < modes[j].waves.lambda;
+  });
+  const double unit = std::sqrt(chain.bending_stiffness / chain.mass_per_length) / (a * a);
+  NaturalModes result;
+  result.frequencies.assign(rigid.size(), 0.0);
+  result.shapes.resize(n * n);
+  double* shape = result.shapes.data();
+  for (const Parity parity : rigid) {
+    layout.write_rigid(parity, shape);
+    shape += n;
+  }
+  for (const std::size_t i : order) {
+    result.frequencies.push_back(unit * std::sqrt(modes[i].waves.lambda));
+    layout.write(modes[i], shape);
+    shape += n;
+  }
+  return result;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,213 @@
+// Natural modes of equal Hermite elements in closed form against a dense decomposition.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "model/hermite_mesh.h"
+#include "model/hermite_modes.h"
+#include "paper_scene.h"
+
+namespace subimpact {
+namespace {
+
+using Extent = HermiteMesh::Extent;
+
+struct Chain {
+  std::array<EndSupport, 2> ends;
+  Extent extent;
+};
+
+constexpr EndSupport free_end = EndSupport::free;
+constexpr EndSupport pinned = EndSupport::pinned;
+constexpr EndSupport clamped = EndSupport::clamped;
+
+std::string name(EndSupport end) {
+  return end == free_end ? "free" : end == pinned ? "pinned" : "clamped";
+}
+
+class ModesOfElements
+    : public testing::TestWithParam<std::tuple<Chain, BeamTheory, std::size_t>> {
+ protected:
+  Beam beam() const {
+    const auto& [chain, theory, n] = GetParam();
+    Beam beam = paper_beam();
+    beam.theory = theory;
+    beam.ends = chain.ends;
+    return beam;
+  }
+  std::size_t n_elements() const { return std::get<2>(GetParam()); }
+  Extent extent() const { return std::get<0>(GetParam()).extent; }
+  HermiteMesh mesh() const {
+    // Struck at a node, so that all elements are equal.
+    const double position = extent() == Extent::half ? 0.5 : 1.0 / static_cast<double>(n_elements());
+    return {beam(), position, n_elements(), 2, extent()};
+  }
+  double stiffness() const { return beam().bending_stiffness(); }
+  std::optional<NaturalModes> closed() const {
+    const Beam of = beam();
+    return hermite_chain_modes({n_elements(), of.length / static_cast<double>(n_elements()),
+                                of.mass_per_length(), of.rotary_inertia(), stiffness(), of.ends,
+                                extent() == Extent::half});
+  }
+};
+
+TEST_P(ModesOfElements, InClosedFormAreAsManyAsUnknowns) {
+  const std::optional<NaturalModes> modes = closed();
+  ASSERT_TRUE(modes);
+  EXPECT_EQ(modes->size(), mesh().n_unknowns());
+}
+
+TEST_P(ModesOfElements, HaveTheDenseDecompositionsFrequencies) {
+  const HermiteMesh elements = mesh();
+  const NaturalModes found = elements.natural_modes(stiffness());
+  const NaturalModes dense = dense_natural_modes(elements, stiffness());
+  ASSERT_EQ(found.size(), dense.size());
+  for (std::size_t k = 0; k < dense.size(); ++k) {
+    if (dense.frequencies[k] == 0.0) {
+      EXPECT_EQ(found.frequencies[k], 0.0) << k;
+      continue;
+    }
+    // The dense one cannot tell a low mode's share of a high one below rounding.
+    const double rounding = 2e-16 * dense.frequencies.back() / dense.frequencies[k];
+    EXPECT_NEAR(found.frequencies[k] / dense.frequencies[k], 1.0, 2e-14 + rounding) << k;
+  }
+}
+
+TEST_P(ModesOfElements, BendWithTheEnergyOfTheirFrequency) {
+  // phi^T K phi = omega^2, to digits that no decomposition has for low modes of fine meshes.
+  const HermiteMesh elements = mesh();
+  const NaturalModes modes = elements.natural_modes(stiffness());
+  std::vector<double> kappa(elements.n_sections());
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    if (modes.frequencies[k] == 0.0) continue;
+    elements.curvatures(modes.shape(k), kappa);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      sum += elements.section_weights()[i] * stiffness() * kappa[i] * kappa[i];
+    }
+    EXPECT_NEAR(std::sqrt(sum) / modes.frequencies[k], 1.0, 1e-11) << k;
+  }
+}
+
+// Sylvester: as many eigenvalues lie below sigma as K - sigma Mass has negative pivots.
+std::size_t n_below(const HermiteMesh& mesh, double stiffness, double sigma) {
+  const std::size_t n = mesh.n_unknowns();
+  BandedMatrix shifted(n, 3);
+  mesh.add_stiffness(std::vector<double>(mesh.n_sections(), stiffness), shifted);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i; j < std::min(i + 4, n); ++j) shifted.at(i, j) -= sigma * mesh.mass().at(i, j);
+  }
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double pivot = shifted.at(k, k);
+    if (pivot < 0.0) ++count;
+    const std::size_t end = std::min(k + 4, n);
+    for (std::size_t i = k + 1; i < end; ++i) {
+      for (std::size_t j = i; j < end; ++j) {
+        shifted.at(i, j) -= shifted.at(i, k) * shifted.at(j, k) / pivot;
+      }
+    }
+  }
+  return count;
+}
+
+TEST_P(ModesOfElements, AreNeitherLostNorDoubledByTheirCountBetweenThem) {
+  const HermiteMesh elements = mesh();
+  const NaturalModes modes = elements.natural_modes(stiffness());
+  for (std::size_t k = 1; k < modes.size(); ++k) {
+    const double a = modes.frequencies[k - 1];
+    const double b = modes.frequencies[k];
+    if (b == 0.0 || b - a < 1e-9 * b) continue;  // rigid, or a pair too close for rounding
+    EXPECT_EQ(n_below(elements, stiffness(), 0.25 * (a + b) * (a + b)), k);
+  }
+}
+
+TEST_P(ModesOfElements, AreOrthonormalInTheMassMatrix) {
+  const HermiteMesh elements = mesh();
+  const NaturalModes modes = elements.natural_modes(stiffness());
+  std::vector<double> product(modes.size());
+  double worst = 0.0;
+  for (std::size_t j = 0; j < modes.size(); ++j) {
+    elements.mass().multiply(modes.shape(j), product);
+    for (std::size_t k = 0; k <= j; ++k) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < modes.size(); ++i) sum += product[i] * modes.shape(k)[i];
+      worst = std::max(worst, std::abs(sum - (j == k ? 1.0 : 0.0)));
+    }
+  }
+  EXPECT_LT(worst, 1e-12);
+}
+
+TEST_P(ModesOfElements, SatisfyTheEquationsOfMotion) {
+  // K phi = omega^2 Mass phi, against the size of the highest mode's terms.
+  const HermiteMesh elements = mesh();
+  const NaturalModes modes = elements.natural_modes(stiffness());
+  std::vector<double> kappa(elements.n_sections());
+  std::vector<double> force(modes.size());
+  std::vector<double> inertia(modes.size());
+  double worst = 0.0;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    elements.curvatures(modes.shape(k), kappa);
+    for (double& x : kappa) x *= stiffness();
+    elements.bending_forces(kappa, force);
+    elements.mass().multiply(modes.shape(k), inertia);
+    const double w2 = modes.frequencies[k] * modes.frequencies[k];
+    const double highest = modes.frequencies.back() * modes.frequencies.back();
+    double residual = 0.0;
+    double size = 0.0;
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      residual = std::max(residual, std::abs(force[i] + w2 * inertia[i]));
+      size = std::max(size, std::abs(inertia[i]));
+    }
+    worst = std::max(worst, residual / (highest * size));
+  }
+  EXPECT_LT(worst, 1e-12);
+}
+
+std::string test_name(const testing::TestParamInfo<ModesOfElements::ParamType>& info) {
+  const auto& [chain, theory, n] = info.param;
+  return name(chain.ends[0]) + "_" + name(chain.ends[1]) + "_" +
+         (chain.extent == Extent::half ? "half_" : "whole_") +
+         (theory == BeamTheory::rayleigh ? "rayleigh_" : "euler_bernoulli_") + std::to_string(n);
+}
+
+TEST(HermiteModes, OfUnequalElementsAndOfACantileverAreDecomposed) {
+  Beam beam = paper_beam();
+  const HermiteMesh unequal(beam, 0.33, 10, 2, Extent::whole);
+  EXPECT_EQ(unequal.natural_modes(beam.bending_stiffness()).frequencies,
+            dense_natural_modes(unequal, beam.bending_stiffness()).frequencies);
+  beam.ends = {clamped, free_end};
+  const HermiteMesh cantilever(beam, 0.5, 10, 2, Extent::whole);
+  EXPECT_EQ(cantilever.natural_modes(beam.bending_stiffness()).frequencies,
+            dense_natural_modes(cantilever, beam.bending_stiffness()).frequencies);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Whole, ModesOfElements,
+    testing::Combine(testing::Values(Chain{{free_end, free_end}, Extent::whole},
+                                     Chain{{pinned, pinned}, Extent::whole},
+                                     Chain{{clamped, clamped}, Extent::whole},
+                                     Chain{{free_end, pinned}, Extent::whole},
+                                     Chain{{pinned, free_end}, Extent::whole},
+                                     Chain{{clamped, pinned}, Extent::whole},
+                                     Chain{{pinned, clamped}, Extent::whole}),
+                     testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
+                     testing::Values(4, 5, 40, 41, 160)),
+    test_name);
+
+INSTANTIATE_TEST_SUITE_P(
+    Half, ModesOfElements,
+    testing::Combine(testing::Values(Chain{{free_end, free_end}, Extent::half},
+                                     Chain{{pinned, pinned}, Extent::half},
+                                     Chain{{clamped, clamped}, Extent::half}),
+                     testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
+                     testing::Values(4, 6, 40, 216, 600)),
+    test_name);
+
+}  // namespace
+}  // namespace subimpact
