@@ -20,6 +20,19 @@ constexpr double negligible_doubt = 4.0 * std::numeric_limits<double>::epsilon()
 // The estimate falls by about 2^5 when a step is halved; a longer one is tried below this part.
 constexpr double room_to_grow = 1.0 / 64.0;
 
+// sum |a_i b_i|
+double sum_of_sizes(const double* a, const double* b, std::size_t n) {
+  Lanes running{};
+  std::size_t i = 0;
+  for (; i + n_lanes <= n; i += n_lanes) {
+    const Lanes term = lanes_at(a + i) * lanes_at(b + i);
+    running += term < 0.0 ? -term : term;
+  }
+  double total = sum(running);
+  for (; i < n; ++i) total += std::abs(a[i] * b[i]);
+  return total;
+}
+
 // Gaussian elimination with row pivoting, in place; the solution replaces b.
 void solve_linear(std::array<NodeForces, n_force_nodes>& a, NodeForces& b) {
   constexpr std::size_t n = n_force_nodes;
@@ -83,10 +96,7 @@ void Exponential::restart(double t, const State& y) {
 }
 
 void Exponential::step() {
-  size_ = 0.0;
-  for (std::size_t i = 0; i < n_; ++i) {
-    size_ += std::abs(oscillators_.displacements()[i] * y1_[i]);
-  }
+  size_ = sum_of_sizes(oscillators_.displacements().data(), y1_.data(), n_);
   std::swap(y0_, y1_);
   y1_.resize(y0_.size());
   t0_ = t1_;

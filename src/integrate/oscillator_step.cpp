@@ -47,23 +47,36 @@ const Basis& basis() {
 // Response at time theta h of an oscillator, y = omega h theta, to the unit force at Gauss point j:
 // position in units of h^2, velocity in units of h.
 struct UnitResponse {
-  std::array<double, s> position, velocity;
+  Lanes position[s], velocity[s];
 };
 
-UnitResponse unit_response(double theta, const std::array<double, 6>& c) {
+UnitResponse unit_response(double theta, const StumpffLanes& c) {
   UnitResponse response{};
   const Basis& b = basis();
   double power = theta;
   for (std::size_t m = 0; m < s; ++m) {
-    const double velocity = power * c[m + 1];
+    const Lanes velocity = power * c[m + 1];
     power *= theta;
-    const double position = power * c[m + 2];
+    const Lanes position = power * c[m + 2];
     for (std::size_t j = 0; j < s; ++j) {
       response.velocity[j] += b[m][j] * velocity;
       response.position[j] += b[m][j] * position;
     }
   }
   return response;
+}
+
+// Eight at once, the last group filled up with zeros.
+Lanes load(std::span<const double> from, std::size_t i) {
+  if (i + n_lanes <= from.size()) return lanes_at(from.data() + i);
+  Lanes values{};
+  for (std::size_t k = i; k < from.size(); ++k) values[k - i] = from[k];
+  return values;
+}
+
+void store(const Lanes& values, std::span<double> to, std::size_t i) {
+  if (i + n_lanes <= to.size()) return subimpact::store(values, to.data() + i);
+  for (std::size_t k = i; k < to.size(); ++k) to[k] = values[k - i];
 }
 
 }  // namespace
@@ -92,7 +105,7 @@ double ForcePolynomial::operator()(double x) const {
 OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double length)
     : n_(oscillators.size()), length_(length) {
   const auto omega = oscillators.frequencies();
-  const auto load = oscillators.loads();
+  const auto load_factors = oscillators.loads();
   const auto displacement = oscillators.displacements();
   const double h = length;
   for (Column* column : {&cosine_, &sine_over_omega_, &minus_omega_sine_}) column->resize(n_);
@@ -101,30 +114,37 @@ OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double leng
       (*columns)[j].resize(n_);
     }
   }
-  for (std::size_t k = 0; k < n_; ++k) {
-    const double x = omega[k] * h;
+  Lanes reach{};
+  Lanes compliance[s][s] = {};
+  for (std::size_t k = 0; k < n_; k += n_lanes) {
+    const Lanes w = load(omega, k);
+    const Lanes l = load(load_factors, k);
+    const Lanes d = load(displacement, k);
+    const Lanes x = w * h;
     const auto at_end = stumpff(x);
-    cosine_[k] = at_end[0];
-    sine_over_omega_[k] = h * at_end[1];
-    minus_omega_sine_[k] = -omega[k] * x * at_end[1];
+    store(at_end[0], cosine_, k);
+    store(h * at_end[1], sine_over_omega_, k);
+    store(-w * x * at_end[1], minus_omega_sine_, k);
     const UnitResponse end = unit_response(1.0, at_end);
     for (std::size_t j = 0; j < s; ++j) {
-      position_[j][k] = load[k] * h * h * end.position[j];
-      velocity_[j][k] = load[k] * h * end.velocity[j];
+      store(l * h * h * end.position[j], position_[j], k);
+      store(l * h * end.velocity[j], velocity_[j], k);
     }
-    reach_ += displacement[k] * load[k] * h * h * at_end[2];
+    const Lanes scale = d * l * h * h;
+    reach += scale * at_end[2];
     for (std::size_t i = 0; i < s; ++i) {
       const double theta = gauss_points()[i];
       const auto at_node = stumpff(x * theta);
-      free_position_[i][k] = displacement[k] * at_node[0];
-      free_velocity_[i][k] = displacement[k] * theta * h * at_node[1];
+      store(d * at_node[0], free_position_[i], k);
+      store(d * theta * h * at_node[1], free_velocity_[i], k);
       const UnitResponse node = unit_response(theta, at_node);
-      for (std::size_t j = 0; j < s; ++j) {
-        compliance_[i][j] += displacement[k] * load[k] * h * h * node.position[j];
-      }
+      for (std::size_t j = 0; j < s; ++j) compliance[i][j] += scale * node.position[j];
     }
   }
-  reach_ = std::abs(reach_);
+  reach_ = std::abs(sum(reach));
+  for (std::size_t i = 0; i < s; ++i) {
+    for (std::size_t j = 0; j < s; ++j) compliance_[i][j] = sum(compliance[i][j]);
+  }
 }
 
 NodeForces OscillatorStep::free_displacements(std::span<const double> y) const {
@@ -177,7 +197,7 @@ void flow(const ForcedOscillators& oscillators, std::span<const double> y,
           const ForcePolynomial& force, double h, double t, std::span<double> result) {
   const std::size_t n = oscillators.size();
   const auto omega = oscillators.frequencies();
-  const auto load = oscillators.loads();
+  const auto loads = oscillators.loads();
   const auto a = force.coefficients();
   const double theta = t / h;
   // The force's coefficients, of t^m/m!, times the powers of t that go with them.
@@ -185,15 +205,19 @@ void flow(const ForcedOscillators& oscillators, std::span<const double> y,
   const double f1 = a[1] * theta * t;
   const double f2 = a[2] * theta * theta * t;
   const double f3 = a[3] * theta * theta * theta * t;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double x = omega[k] * t;
+  const auto q0 = y.first(n);
+  const auto v0 = y.subspan(n, n);
+  for (std::size_t k = 0; k < n; k += n_lanes) {
+    const Lanes w = load(omega, k);
+    const Lanes l = load(loads, k);
+    const Lanes x = w * t;
     const auto c = stumpff(x);
-    const double position = t * (f0 * c[2] + f1 * c[3] + f2 * c[4] + f3 * c[5]);
-    const double velocity = f0 * c[1] + f1 * c[2] + f2 * c[3] + f3 * c[4];
-    const double q = y[k];
-    const double v = y[n + k];
-    result[k] = c[0] * q + t * c[1] * v + load[k] * position;
-    result[n + k] = -omega[k] * x * c[1] * q + c[0] * v + load[k] * velocity;
+    const Lanes position = t * (f0 * c[2] + f1 * c[3] + f2 * c[4] + f3 * c[5]);
+    const Lanes velocity = f0 * c[1] + f1 * c[2] + f2 * c[3] + f3 * c[4];
+    const Lanes q = load(q0, k);
+    const Lanes v = load(v0, k);
+    store(c[0] * q + t * c[1] * v + l * position, result.first(n), k);
+    store(-w * x * c[1] * q + c[0] * v + l * velocity, result.subspan(n, n), k);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/lanes.h"
+
 namespace subimpact {
 
 void BandedMatrix::multiply(std::span<const double> x, std::span<double> result) const {
@@ -16,13 +18,20 @@ void BandedMatrix::multiply(std::span<const double> x, std::span<double> result)
 }
 
 double BandedMatrix::quadratic_form(std::span<const double> x) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < size_; ++i) sum += values_[i] * x[i] * x[i];
-  for (std::size_t k = 1; k <= half_bandwidth_; ++k) {
+  double total = 0.0;
+  for (std::size_t k = 0; k <= half_bandwidth_; ++k) {
     const double* off = values_.data() + k * size_;
-    for (std::size_t i = 0; i + k < size_; ++i) sum += 2.0 * off[i] * x[i] * x[i + k];
+    const std::size_t n = size_ - std::min(k, size_);
+    Lanes running{};
+    std::size_t i = 0;
+    for (; i + n_lanes <= n; i += n_lanes) {
+      running += lanes_at(off + i) * lanes_at(x.data() + i) * lanes_at(x.data() + i + k);
+    }
+    double sum_off = sum(running);
+    for (; i < n; ++i) sum_off += off[i] * x[i] * x[i + k];
+    total += k == 0 ? sum_off : 2.0 * sum_off;
   }
-  return sum;
+  return total;
 }
 
 bool BandedMatrix::is_positive_definite() const {

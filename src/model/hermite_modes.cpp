@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <span>
-#include <utility>
 #include <vector>
+
+#include "model/lanes.h"
+#include "model/sin_cos.h"
 
 namespace subimpact {
 namespace {
@@ -87,8 +88,7 @@ Waves waves_at(double p, Band band, const Element& k, bool clamped) {
   }
   // No force on, no couple on an element that would go on beyond the end.
   const auto force = [&](double x) {  // -D (F + D cos) - C (B + E cos), x = 1 - cos
-    return 12.0 * x +
-           lambda * (0.5 - 6.0 * k.rho + x * (12.0 * (k.of_e - k.of_d) - 2.0 * k.of_c)) -
+    return 12.0 * x + lambda * (0.5 - 6.0 * k.rho + x * (12.0 * (k.of_e - k.of_d) - 2.0 * k.of_c)) -
            lambda * lambda *
                (k.of_d * (k.of_f_and_d - k.of_d * x) + k.of_c * (k.of_b_and_e - k.of_e * x));
   };
@@ -111,7 +111,14 @@ struct Mode {
   double second;
 };
 
-double phi_of(const Waves& waves) { return 2.0 * std::asinh(std::sqrt(0.5 * waves.decay)); }
+double phi_of(const Waves& waves) { return std::log1p(waves.decay + waves.second.turn); }
+
+// Up to which decay waves from the ends, of the size 1 there, meet in the middle with more than
+// rounding, e^-phi m.
+double largest_decay_felt(double m) {
+  const double half = std::sinh(20.0 / m);
+  return 2.0 * half * half;
+}
 
 double square_of_half(double number, Band band) {
   const double half = band == Band::above ? std::sinh(0.5 * number) : std::sin(0.5 * number);
@@ -150,7 +157,8 @@ double rising_root(F f, double low, double high, double guess, double slope) {
 // The modes of one parity of a chain whose ends, alike, are m elements from its middle.
 class Finder {
  public:
-  Finder(const Element& element, EndSupport end, double m) : element_(element), end_(end), m_(m) {}
+  Finder(const Element& element, EndSupport end, double m)
+      : element_(element), end_(end), m_(m), felt_(largest_decay_felt(m)) {}
 
   // False if there is a mode that could not be found.
   bool add_modes(Parity parity, std::vector<Mode>& modes) const {
@@ -169,7 +177,9 @@ class Finder {
   Waves waves(double number, Band band) const {
     return waves_at(square_of_half(number, band), band, element_, end_ == EndSupport::clamped);
   }
-  double decay_over(const Waves& waves) const { return std::tanh(phi_of(waves) * m_); }
+  double decay_over(const Waves& waves) const {
+    return waves.decay > felt_ ? 1.0 : std::tanh(phi_of(waves) * m_);
+  }
 
   // theta m = k pi + phase(theta)
   double phase(double theta, Parity parity, Band band) const {
@@ -256,55 +266,77 @@ class Finder {
   const Element& element_;
   EndSupport end_;
   double m_;
+  double felt_;
 };
 
-// W and Theta at the distances m, m - 1, ... from the middle, node after node.
-void fill_inwards(const Mode& mode, double m, std::span<double> nodal) {
+// W and Theta at the distances m, m - 1, ... from the middle.
+struct Columns {
+  std::vector<double> w, slope;  // of whole groups of lanes
+
+  explicit Columns(std::size_t n) : w((n + n_lanes - 1) / n_lanes * n_lanes), slope(w.size()) {}
+};
+
+Lanes powers_of(double step) {
+  Lanes values{};
+  double power = 1.0;
+  for (std::size_t i = 0; i < n_lanes; ++i, power *= step) values[i] = power;
+  return values;
+}
+
+// Adds w cosh(phi d)/cosh(phi m), slope sinh(phi d)/cosh(phi m), or sinh and cosh in an odd mode;
+// `step` is e^-phi, `full` e^-2 phi m.
+void add_decaying(double w, double slope, double step, double full, bool even, Columns& to) {
+  constexpr double negligible = 1e-30;
+  const double norm = 1.0 / (1.0 + full);
+  (even ? slope : w) *= norm;
+  (even ? w : slope) *= norm;
+  Lanes near = powers_of(step);
+  const double group = near[n_lanes - 1] * step;
+  for (std::size_t i = 0; i < to.w.size() && near[0] > negligible; i += n_lanes) {
+    store(lanes_at(&to.w[i]) + w * near, &to.w[i]);
+    store(lanes_at(&to.slope[i]) + slope * near, &to.slope[i]);
+    near *= group;
+  }
+  if (full < negligible) return;
+  (even ? slope : w) *= -1.0;
+  Lanes far = full * powers_of(1.0 / step);
+  for (std::size_t i = 0; i < to.w.size(); i += n_lanes) {
+    store(lanes_at(&to.w[i]) + w * far, &to.w[i]);
+    store(lanes_at(&to.slope[i]) + slope * far, &to.slope[i]);
+    far *= 1.0 / group;
+  }
+}
+
+void fill_inwards(const Mode& mode, double m, double largest_decay, Columns& to) {
   const bool even = mode.parity == Parity::even;
-  const auto scaled = [m](double number) {
-    return std::pair(std::exp(-number), std::exp(-2.0 * number * m));
-  };
-  const auto [step, full] = scaled(phi_of(mode.waves));
-  const double norm = mode.second / (1.0 + full);
-  const double w2 = norm * mode.waves.second.w;
-  const double t2 = norm * mode.waves.second.slope;
-  // e^-phi (m - d) and e^-phi (m + d)
-  double near = 1.0;
-  double far = full;
-  const double grow = 1.0 / step;
-  for (std::size_t i = 0; i < nodal.size(); i += 2) {
-    nodal[i] = w2 * (even ? near + far : near - far);
-    nodal[i + 1] = t2 * (even ? near - far : near + far);
-    near *= step;
-    far *= grow;
-    if (near < 1e-300) near = 0.0;
-  }
-  const double w1 = mode.waves.first.w;
-  const double t1 = mode.waves.first.slope;
+  const Wave& first = mode.waves.first;
+  const Wave& second = mode.waves.second;
   if (mode.band == Band::above) {
-    const auto [step_first, full_first] = scaled(mode.number);
-    double close = 1.0 / (1.0 + full_first);
-    double away = full_first * close;
-    for (std::size_t i = 0; i < nodal.size(); i += 2) {
-      nodal[i] += w1 * (even ? close + away : close - away);
-      nodal[i + 1] += t1 * (even ? close - away : close + away);
-      close *= step_first;
-      away /= step_first;
-      if (close < 1e-300) close = 0.0;
+    std::fill(to.w.begin(), to.w.end(), 0.0);
+    std::fill(to.slope.begin(), to.slope.end(), 0.0);
+    add_decaying(first.w, first.slope, std::exp(-mode.number), std::exp(-2.0 * mode.number * m),
+                 even, to);
+  } else {
+    Lanes d{};
+    for (std::size_t i = 0; i < n_lanes; ++i) d[i] = m - static_cast<double>(i);
+    const SinCos start = sin_cos(mode.number * d);
+    const double turn = static_cast<double>(n_lanes) * mode.number;
+    const double cosine = std::cos(turn);
+    const double sine = std::sin(turn);
+    Lanes w = even ? start.cosine : start.sine;
+    Lanes slope = even ? start.sine : -start.cosine;
+    for (std::size_t i = 0; i < to.w.size(); i += n_lanes) {
+      store(first.w * w, &to.w[i]);
+      store(first.slope * slope, &to.slope[i]);
+      const Lanes turned = w * cosine + slope * sine;
+      slope = slope * cosine - w * sine;
+      w = turned;
     }
-    return;
   }
-  const double cosine = std::cos(mode.number);
-  const double sine = std::sin(mode.number);
-  double x = std::cos(mode.number * m);
-  double y = std::sin(mode.number * m);
-  for (std::size_t i = 0; i < nodal.size(); i += 2) {
-    nodal[i] += w1 * (even ? x : y);
-    nodal[i + 1] += t1 * (even ? y : -x);
-    const double turned = x * cosine + y * sine;
-    y = y * cosine - x * sine;
-    x = turned;
-  }
+  const double step = 1.0 / (1.0 + mode.waves.decay + second.turn);
+  const double full =
+      mode.waves.decay > largest_decay ? 0.0 : std::exp(-2.0 * m * phi_of(mode.waves));
+  add_decaying(mode.second * second.w, mode.second * second.slope, step, full, even, to);
 }
 
 // Mode and rigid motion alike, for nodes on one side of the middle; the other side mirrors them.
@@ -317,7 +349,9 @@ class Layout {
         first_(held(chain.ends[0])),
         last_(chain.half ? 0 : held(chain.ends[1])),
         half_(chain.half),
-        inwards_(2 * (one_sided_ ? n_nodes_ : (n_nodes_ + 1) / 2)),
+        n_inwards_(one_sided_ ? n_nodes_ : (n_nodes_ + 1) / 2),
+        inwards_(n_inwards_),
+        largest_decay_(largest_decay_felt(m())),
         nodal_(2 * n_nodes_) {}
 
   double m() const {
@@ -327,14 +361,14 @@ class Layout {
   std::size_t n_unknowns() const { return 2 * n_nodes_ - first_ - last_ - (half_ ? 1 : 0); }
 
   void write(const Mode& mode, double* shape) {
-    fill_inwards(mode, m(), inwards_);
+    fill_inwards(mode, m(), largest_decay_, inwards_);
     write(mode.parity, shape);
   }
   void write_rigid(Parity parity, double* shape) {
-    for (std::size_t i = 0; i < inwards_.size(); i += 2) {
-      const double d = m() - static_cast<double>(i / 2);
-      inwards_[i] = parity == Parity::even ? 1.0 : d;
-      inwards_[i + 1] = parity == Parity::even ? 0.0 : 1.0;
+    for (std::size_t i = 0; i < n_inwards_; ++i) {
+      const double d = m() - static_cast<double>(i);
+      inwards_.w[i] = parity == Parity::even ? 1.0 : d;
+      inwards_.slope[i] = parity == Parity::even ? 0.0 : 1.0;
     }
     write(parity, shape);
   }
@@ -347,18 +381,18 @@ class Layout {
   void write(Parity parity, double* shape) {
     const std::size_t n = n_nodes_;
     const double sign = parity == Parity::even ? 1.0 : -1.0;
-    for (std::size_t i = 0; 2 * i < inwards_.size(); ++i) {
-      const double w = inwards_[2 * i];
-      const double t = inwards_[2 * i + 1];
-      const std::size_t other = n - 1 - i;
-      if (!backwards_) {
-        nodal_[2 * i] = w;
-        nodal_[2 * i + 1] = -t;
+    const double* w = inwards_.w.data();
+    const double* slope = inwards_.slope.data();
+    if (!backwards_) {
+      for (std::size_t i = 0; i < n_inwards_; ++i) {
+        nodal_[2 * i] = w[i];
+        nodal_[2 * i + 1] = -slope[i];
       }
-      if (backwards_ || (!one_sided_ && other != i)) {
-        nodal_[2 * other] = sign * w;
-        nodal_[2 * other + 1] = sign * t;
-      }
+    }
+    const std::size_t n_mirrored = one_sided_ && !backwards_ ? 0 : backwards_ ? n : n / 2;
+    for (std::size_t i = 0; i < n_mirrored; ++i) {
+      nodal_[2 * (n - 1 - i)] = sign * w[i];
+      nodal_[2 * (n - 1 - i) + 1] = sign * slope[i];
     }
     const auto values = nodal_.begin() + static_cast<std::ptrdiff_t>(first_);
     double* end = std::copy(values, nodal_.end() - (last_ > 0 ? 2 : half_ ? 1 : 0), shape);
@@ -369,7 +403,10 @@ class Layout {
   bool one_sided_, backwards_;
   std::size_t first_, last_;  // unknowns held at the ends
   bool half_;
-  std::vector<double> inwards_, nodal_;
+  std::size_t n_inwards_;
+  Columns inwards_;
+  double largest_decay_;
+  std::vector<double> nodal_;
 };
 
 }  // namespace

@@ -23,10 +23,16 @@ inline double sum(const Lanes& values) {
 
 /// a . b
 inline double dot(const double* a, const double* b, std::size_t n) {
-  Lanes running{};
+  // Four running sums, so that additions do not wait for each other.
+  Lanes running[4] = {};
   std::size_t i = 0;
-  for (; i + n_lanes <= n; i += n_lanes) running += lanes_at(a + i) * lanes_at(b + i);
-  double total = sum(running);
+  for (; i + 4 * n_lanes <= n; i += 4 * n_lanes) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      running[k] += lanes_at(a + i + k * n_lanes) * lanes_at(b + i + k * n_lanes);
+    }
+  }
+  for (; i + n_lanes <= n; i += n_lanes) running[0] += lanes_at(a + i) * lanes_at(b + i);
+  double total = sum((running[0] + running[1]) + (running[2] + running[3]));
   for (; i < n; ++i) total += a[i] * b[i];
   return total;
 }

@@ -1,6 +1,7 @@
 #include "model/modal_mesh.h"
 
 #include <Eigen/Core>
+#include <cmath>
 #include <stdexcept>
 
 namespace subimpact {
@@ -21,6 +22,7 @@ ConstMatrix matrix(const NaturalModes& modes) {
 ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffness)
     : BeamMesh(physical->n_unknowns(), 0, physical->symmetric()),
       physical_(std::move(physical)),
+      bending_stiffness_(bending_stiffness),
       modes_(physical_->natural_modes(bending_stiffness)),
       work_(n_unknowns()) {
   const std::size_t n = n_unknowns();
@@ -47,6 +49,10 @@ ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffnes
         dot(physical_->momentum_functional().data(), modes_.shape(k).data(), n);
   }
   beam_mass_ = physical_->beam_mass();
+}
+
+double ModalMesh::highest_frequency(double bending_stiffness) const {
+  return modes_.frequencies.back() * std::sqrt(bending_stiffness / bending_stiffness_);
 }
 
 void ModalMesh::to_physical(std::span<const double> modal, std::span<double> physical) const {

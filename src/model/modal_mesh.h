@@ -20,9 +20,8 @@ class ModalMesh final : public BeamMesh {
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
-  double highest_frequency(double bending_stiffness) const override {
-    return physical_->highest_frequency(bending_stiffness);
-  }
+  /// That of the last mode.
+  double highest_frequency(double bending_stiffness) const override;
   std::span<const double> modal_stiffness() const override { return stiffness_; }
   std::string description() const override;
 
@@ -33,6 +32,7 @@ class ModalMesh final : public BeamMesh {
 
  private:
   std::unique_ptr<BeamMesh> physical_;
+  double bending_stiffness_;
   NaturalModes modes_;
   std::vector<double> stiffness_;
   mutable std::vector<double> work_;

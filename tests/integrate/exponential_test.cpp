@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -11,9 +12,19 @@
 namespace subimpact {
 namespace {
 
+// Next to others on which the formulae differ.
+std::array<double, 6> stumpff_of(double y) {
+  Lanes values{0.5, 0.0, 1e3, 0.999, 1.5, 7e6, 1e-9, 1.0};
+  values[2] = y;
+  const StumpffLanes c = stumpff(values);
+  std::array<double, 6> result{};
+  for (std::size_t k = 0; k < 6; ++k) result[k] = c[k][2];
+  return result;
+}
+
 TEST(StumpffFunctions, AreTheirSeriesAndTheirIntegrals) {
   for (const double y : {0.0, 1e-8, 1e-3, 0.3, 0.999, 1.0, 1.001, 2.5, 10.0, 300.0}) {
-    const auto c = stumpff(y);
+    const auto c = stumpff_of(y);
     // C_{k+2} is the k-fold repeated integral; here by Simpson's rule on
     // m! C_{m+2}(y) = integral_0^1 sin(y (1 - s))/y s^m ds.
     constexpr int n = 20000;
@@ -35,8 +46,8 @@ TEST(StumpffFunctions, AreTheirSeriesAndTheirIntegrals) {
 }
 
 TEST(StumpffFunctions, AreContinuousWhereTheFormulaChanges) {
-  const auto below = stumpff(std::nextafter(1.0, 0.0));
-  const auto above = stumpff(1.0);
+  const auto below = stumpff_of(std::nextafter(1.0, 0.0));
+  const auto above = stumpff_of(1.0);
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(below[k], above[k], 4e-15) << k;
 }
 

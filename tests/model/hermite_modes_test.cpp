@@ -30,8 +30,7 @@ std::string name(EndSupport end) {
   return end == free_end ? "free" : end == pinned ? "pinned" : "clamped";
 }
 
-class ModesOfElements
-    : public testing::TestWithParam<std::tuple<Chain, BeamTheory, std::size_t>> {
+class ModesOfElements : public testing::TestWithParam<std::tuple<Chain, BeamTheory, std::size_t>> {
  protected:
   Beam beam() const {
     const auto& [chain, theory, n] = GetParam();
@@ -44,7 +43,8 @@ class ModesOfElements
   Extent extent() const { return std::get<0>(GetParam()).extent; }
   HermiteMesh mesh() const {
     // Struck at a node, so that all elements are equal.
-    const double position = extent() == Extent::half ? 0.5 : 1.0 / static_cast<double>(n_elements());
+    const double position =
+        extent() == Extent::half ? 0.5 : 1.0 / static_cast<double>(n_elements());
     return {beam(), position, n_elements(), 2, extent()};
   }
   double stiffness() const { return beam().bending_stiffness(); }
@@ -100,7 +100,8 @@ std::size_t n_below(const HermiteMesh& mesh, double stiffness, double sigma) {
   BandedMatrix shifted(n, 3);
   mesh.add_stiffness(std::vector<double>(mesh.n_sections(), stiffness), shifted);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i; j < std::min(i + 4, n); ++j) shifted.at(i, j) -= sigma * mesh.mass().at(i, j);
+    for (std::size_t j = i; j < std::min(i + 4, n); ++j)
+      shifted.at(i, j) -= sigma * mesh.mass().at(i, j);
   }
   std::size_t count = 0;
   for (std::size_t k = 0; k < n; ++k) {
@@ -200,14 +201,14 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(4, 5, 40, 41, 160)),
     test_name);
 
-INSTANTIATE_TEST_SUITE_P(
-    Half, ModesOfElements,
-    testing::Combine(testing::Values(Chain{{free_end, free_end}, Extent::half},
-                                     Chain{{pinned, pinned}, Extent::half},
-                                     Chain{{clamped, clamped}, Extent::half}),
-                     testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
-                     testing::Values(4, 6, 40, 216, 600)),
-    test_name);
+INSTANTIATE_TEST_SUITE_P(Half, ModesOfElements,
+                         testing::Combine(testing::Values(Chain{{free_end, free_end}, Extent::half},
+                                                          Chain{{pinned, pinned}, Extent::half},
+                                                          Chain{{clamped, clamped}, Extent::half}),
+                                          testing::Values(BeamTheory::rayleigh,
+                                                          BeamTheory::euler_bernoulli),
+                                          testing::Values(4, 6, 40, 216, 600)),
+                         test_name);
 
 }  // namespace
 }  // namespace subimpact
