@@ -20,6 +20,13 @@ class HermiteCubic {
   double operator()(double s) const { return c0_ + s * (c1_ + s * (c2_ + s * c3_)); }
   double slope(double s) const { return c1_ + s * (2.0 * c2_ + s * 3.0 * c3_); }
 
+  /// The least slope in [0, 1].
+  double least_slope() const {
+    const double s = -c2_ / (3.0 * c3_);
+    const double ends = std::min(slope(0.0), slope(1.0));
+    return s > 0.0 && s < 1.0 ? std::min(ends, slope(s)) : ends;
+  }
+
   /// Where the slope changes from positive to negative in [0, 1], given that it is positive at 0
   /// and negative at 1.
   double peak() const {

@@ -17,6 +17,8 @@ constexpr int most_iterations = 30;
 constexpr double solved = 1e-13;
 // A doubt about lambda below this part of the displacements it is made of is rounding.
 constexpr double negligible_doubt = 4.0 * std::numeric_limits<double>::epsilon();
+// A cubic off by up to d is off by up to 3.1 d in its slope (of s in [0, 1]); rounded up.
+constexpr double slope_per_doubt = 4.0;
 // The estimate falls by about 2^5 when a step is halved; a longer one is tried below this part.
 constexpr double room_to_grow = 1.0 / 64.0;
 
@@ -134,6 +136,9 @@ bool Exponential::is_decided(const Ends& ends, double h, double doubt) const {
     if (hidden >= -doubt) return false;
   }
   if (doubt <= negligible_doubt * size_) return true;
+  // Whoever crosses once for sure need not shorten the step: rising all the way, from end to end
+  // steeper than the cubic's slope can be wrong, to a height that is no doubt.
+  if (path(1.0) > doubt && path.least_slope() > slope_per_doubt * doubt) return true;
   double nearest = path(1.0);
   if (sign * ends.rate0 > 0.0 && sign * ends.rate1 < 0.0) {
     nearest = std::max(nearest, path(path.peak()));

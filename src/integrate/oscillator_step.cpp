@@ -148,10 +148,22 @@ OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double leng
 }
 
 NodeForces OscillatorStep::free_displacements(std::span<const double> y) const {
+  const double* q = y.data();
+  const double* v = q + n_;
+  Lanes running[s] = {};
+  std::size_t k = 0;
+  for (; k + n_lanes <= n_; k += n_lanes) {
+    for (std::size_t i = 0; i < s; ++i) {
+      running[i] += lanes_at(free_position_[i].data() + k) * lanes_at(q + k) +
+                    lanes_at(free_velocity_[i].data() + k) * lanes_at(v + k);
+    }
+  }
   NodeForces result;
   for (std::size_t i = 0; i < s; ++i) {
-    result[i] = dot(free_position_[i].data(), y.data(), n_) +
-                dot(free_velocity_[i].data(), y.data() + n_, n_);
+    result[i] = sum(running[i]);
+    for (std::size_t j = k; j < n_; ++j) {
+      result[i] += free_position_[i][j] * q[j] + free_velocity_[i][j] * v[j];
+    }
   }
   return result;
 }

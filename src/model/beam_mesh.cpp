@@ -12,6 +12,15 @@ std::size_t BeamMesh::stiffness_bandwidth() const {
   return bandwidth;
 }
 
+double BeamMesh::curvature(std::size_t section, std::span<const double> unknowns) const {
+  const SectionStencil row = section_stencil(section);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < row.coefficients.size(); ++i) {
+    sum += row.coefficients[i] * unknowns[row.first + i];
+  }
+  return sum;
+}
+
 void BeamMesh::add_stiffness(std::span<const double> tangents, BandedMatrix& result) const {
   for (std::size_t i = 0; i < n_sections(); ++i) {
     const SectionStencil row = section_stencil(i);

@@ -29,6 +29,10 @@ struct SparseFunctional {
   }
   /// forces += amount * coefficients: the generalised force of a point load `amount`.
   void add_to(std::span<double> forces, double amount) const {
+    if (!dense.empty()) {
+      for (std::size_t i = 0; i < dense.size(); ++i) forces[i] += amount * dense[i];
+      return;
+    }
     for (const Term& term : terms) forces[term.unknown] += amount * term.coefficient;
   }
 };
@@ -75,6 +79,8 @@ class BeamMesh {
     std::span<const double> coefficients;
   };
   virtual SectionStencil section_stencil(std::size_t section) const = 0;
+  /// Curvature of one section, 1/m.
+  virtual double curvature(std::size_t section, std::span<const double> unknowns) const;
   /// Half bandwidth of B^T B.
   std::size_t stiffness_bandwidth() const;
   /// result += B^T W diag(tangents) B, N/m; `tangents` = -dM/dkappa of the sections, N m2. The half
@@ -87,7 +93,10 @@ class BeamMesh {
   virtual NaturalModes natural_modes(double bending_stiffness) const {
     return dense_natural_modes(*this, bending_stiffness);
   }
-  /// Where the unknowns are natural modes: their stiffnesses omega^2, a 1/s2 each. Empty otherwise.
+  /// Whether the modes are cheap enough, and the band wide enough, for an elastic beam to be
+  /// integrated in modes by any explicit method: the motion is the same.
+  virtual bool prefers_modes() const { return false; }
+  /// Where the unknowns are natural modes: their stiffnesses, N/m. Empty otherwise.
   virtual std::span<const double> modal_stiffness() const { return {}; }
   /// "501 cells, one half by symmetry", for people.
   virtual std::string description() const = 0;

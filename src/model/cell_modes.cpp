@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/bracketed_root.h"
+
 namespace subimpact {
 namespace {
 
@@ -35,29 +37,6 @@ double end_condition(double y, double c, double rho, bool symmetric) {
       0.5 * wave.s;
   return symmetric ? std::sin(y) * std::sin(theta) + bracket * std::cos(y)
                    : std::cos(y) * std::sin(theta) - bracket * std::sin(y);
-}
-
-// False position with the Illinois rule in a bracket known to hold one root.
-template <class F>
-double root_in(F f, double a, double b) {
-  double fa = f(a);
-  double fb = f(b);
-  for (int i = 0; i < 200; ++i) {
-    const double x = b - fb * (b - a) / (fb - fa);
-    if (!(x > std::min(a, b) && x < std::max(a, b))) return std::abs(fa) < std::abs(fb) ? a : b;
-    const double fx = f(x);
-    if (fx == 0.0) return x;
-    if ((fx < 0.0) != (fb < 0.0)) {
-      a = b;
-      fa = fb;
-    } else {
-      fa *= 0.5;
-    }
-    if (std::abs(x - b) <= 4e-16 * std::abs(x)) return x;
-    b = x;
-    fb = fx;
-  }
-  return b;
 }
 
 // Shape at distances d = c, c - 1, ... >= 0 from the middle.

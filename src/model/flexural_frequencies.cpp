@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "model/bracketed_root.h"
+
 namespace subimpact {
 namespace {
 
@@ -40,21 +42,13 @@ std::vector<double> flexural_wave_numbers(double slenderness, const std::array<E
   const auto f = [&](double beta) { return end_determinant(beta, slenderness, ends); };
   std::vector<double> roots;
   double low = 1.0;  // well below the first root of any ends, well above the rigid modes
+  double at_low = f(low);
   while (roots.size() < n) {
-    double high = low + 0.05;
-    if (f(low) * f(high) > 0.0) {
-      low = high;
-      continue;
-    }
-    const double at_low = f(low);
-    double left = low;
-    double right = high;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (left + right);
-      (f(middle) * at_low > 0.0 ? left : right) = middle;
-    }
-    roots.push_back(0.5 * (left + right));
+    const double high = low + 0.05;
+    const double at_high = f(high);
+    if (at_low * at_high <= 0.0) roots.push_back(root_in(f, low, high));
     low = high;
+    at_low = at_high;
   }
   return roots;
 }

@@ -40,6 +40,8 @@ Quadrature gauss(std::size_t n) {
   }
 }
 
+constexpr std::size_t most_in_modes = 2000;  // shapes take n^2 numbers
+
 constexpr double bound_tolerance = 1e-5;  // of the highest squared frequency
 
 std::size_t count_unknowns(const Beam& beam, std::size_t n_elements, bool half) {
@@ -354,11 +356,17 @@ double HermiteMesh::highest_frequency(double bending_stiffness) const {
   return std::sqrt(above);
 }
 
+bool HermiteMesh::has_equal_elements() const {
+  return std::abs(runs_.back().length / runs_.front().length - 1.0) < 1e-14;
+}
+
+bool HermiteMesh::prefers_modes() const {
+  return has_equal_elements() && has_closed_modes(ends_) && n_unknowns() <= most_in_modes;
+}
+
 NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
-  const double a = runs_.front().length;
-  const bool uniform = std::abs(runs_.back().length / a - 1.0) < 1e-14;
   std::optional<NaturalModes> modes;
-  if (uniform) {
+  if (has_equal_elements()) {
     modes = hermite_chain_modes({n_elements_whole_, slope_unit_, mass_per_length_, rotary_inertia_,
                                  bending_stiffness, ends_, symmetric()});
   }

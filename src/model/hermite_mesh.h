@@ -44,6 +44,8 @@ class HermiteMesh final : public BeamMesh {
   /// In closed form if all elements are equal and not one end is free, the other clamped (see
   /// hermite_chain_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;
+  /// If they have the closed form, of up to 2000 unknowns.
+  bool prefers_modes() const override;
   std::string description() const override;
 
  private:
@@ -66,6 +68,7 @@ class HermiteMesh final : public BeamMesh {
   std::size_t unknown(std::size_t node, bool slope) const;  // none where held
   std::array<std::size_t, 4> unknowns_of(std::size_t element) const;
   const Run& run_of(std::size_t element) const;
+  bool has_equal_elements() const;
   Local local_values(std::size_t element, std::span<const double> unknowns) const;
   void add_local(std::size_t element, const Local& values, std::span<double> result) const;
   double highest_element_frequency_squared(double bending_stiffness) const;

@@ -33,66 +33,97 @@ struct Element {
         of_f_and_d(9.0 / 420.0 + 0.2 * rho) {}
 };
 
+// Numbers one by one, or eight at a time.
+struct One {
+  using Number = double;
+};
+struct Eight {
+  using Number = Lanes;
+};
+
 // One wave: w cos(theta d), slope sin(theta d) at a distance d from the middle, or with cosh and
 // sinh; in an odd mode sin, -cos or sinh, cosh. An end has two conditions: one in which an even
 // mode's sin (or sinh) remains, with this coefficient, and one in which its cos (or cosh) remains.
-struct Wave {
-  double turn;  // sin(theta) or sinh(phi)
-  double w, slope;
-  double with_sin, with_cos;
+template <class Kind>
+struct WaveOf {
+  using Number = typename Kind::Number;
+  Number turn;  // sin(theta) or sinh(phi)
+  Number w, slope;
+  Number with_sin, with_cos;
 };
 
 // The two waves of one frequency.
-struct Waves {
-  double lambda;
-  double decay;  // 2 sinh^2(phi/2) of the second
-  Wave first, second;
+template <class Kind>
+struct WavesOf {
+  using Number = typename Kind::Number;
+  Number lambda;
+  Number decay;  // 2 sinh^2(phi/2) of the second
+  WaveOf<Kind> first, second;
 
   // tan(theta m) = ratio tanh(phi m) in an even mode.
-  double ratio() const {
-    return first.with_cos * second.with_sin / (first.with_sin * second.with_cos);
+  Number ratio() const { return rise() / run(); }
+  WavesOf<One> operator[](std::size_t lane) const {
+    const auto one = [lane](const WaveOf<Kind>& w) {
+      return WaveOf<One>{w.turn[lane], w.w[lane], w.slope[lane], w.with_sin[lane],
+                         w.with_cos[lane]};
+    };
+    return {lambda[lane], decay[lane], one(first), one(second)};
   }
+  Number rise() const { return first.with_cos * second.with_sin; }
+  Number run() const { return first.with_sin * second.with_cos; }
 };
+
+using Wave = WaveOf<One>;
+using Waves = WavesOf<One>;
+
+Lanes sqrt_of(const Lanes& x) {
+  Lanes result;
+  for (std::size_t i = 0; i < n_lanes; ++i) result[i] = std::sqrt(x[i]);
+  return result;
+}
+double sqrt_of(double x) { return std::sqrt(x); }
 
 // p = 2 sin^2(theta/2), or -2 sinh^2(psi/2) above the bands. Written so that long waves, and
 // those near the ends of the optical branch, keep their digits.
-Waves waves_at(double p, Band band, const Element& k, bool clamped) {
+template <class Kind>
+WavesOf<Kind> waves_at(const typename Kind::Number& p, Band band, const Element& k, bool clamped) {
+  using Number = typename Kind::Number;
   const bool acoustic = band == Band::acoustic;
-  const double q = p * (2.0 - p);
-  const double u = 0.5 - k.of_c * p;
-  const double v = k.of_b_and_e - k.of_e * p;
-  const double gamma = 12.0 * p * p;
-  const double beta = 12.0 * p * v + u * (6.0 - 2.0 * p) - 12.0 * k.of_d * q;
-  const double alpha = u * v - k.of_d * k.of_d * q;
-  const double root = std::sqrt(beta * beta - 4.0 * alpha * gamma);
-  const double lambda = acoustic ? 2.0 * gamma / (beta + root) : (beta + root) / (2.0 * alpha);
-  const double c = -12.0 - lambda * k.of_c;
-  const double d = 6.0 - lambda * k.of_d;
-  const double e = 2.0 - lambda * k.of_e;
-  const double leading = c * e + d * d;
+  const Number q = p * (2.0 - p);
+  const Number u = 0.5 - k.of_c * p;
+  const Number v = k.of_b_and_e - k.of_e * p;
+  const Number gamma = 12.0 * p * p;
+  const Number beta = 12.0 * p * v + u * (6.0 - 2.0 * p) - 12.0 * k.of_d * q;
+  const Number alpha = u * v - k.of_d * k.of_d * q;
+  const Number root = sqrt_of(beta * beta - 4.0 * alpha * gamma);
+  const Number lambda = acoustic ? 2.0 * gamma / (beta + root) : (beta + root) / (2.0 * alpha);
+  const Number c = -12.0 - lambda * k.of_c;
+  const Number d = 6.0 - lambda * k.of_d;
+  const Number e = 2.0 - lambda * k.of_e;
+  const Number leading = c * e + d * d;
   // A + C cos(theta) and B + E cos(theta); what may be small of them comes from their product.
-  const double of_w = 12.0 * p - lambda * u;
-  const double of_slope = acoustic ? 6.0 - 2.0 * p - lambda * v : d * d * q / of_w;
-  const double decay = acoustic ? lambda * (6.0 - lambda * k.of_b_and_e) / (2.0 * leading * p)
+  const Number of_w = 12.0 * p - lambda * u;
+  const Number of_slope = acoustic ? 6.0 - 2.0 * p - lambda * v : d * d * q / of_w;
+  const Number decay = acoustic ? lambda * (6.0 - lambda * k.of_b_and_e) / (2.0 * leading * p)
                                 : lambda * (d * d * (2.0 - p) / of_w + e) / (2.0 * leading);
-  const double s = std::sqrt(std::abs(q));
-  const double sinh_phi = std::sqrt(decay * (2.0 + decay));
-  Wave first{s, acoustic ? of_slope : d * s, acoustic ? -d * s : -of_w, 0.0, 0.0};
-  Wave second{sinh_phi, of_slope + e * (p + decay), d * sinh_phi, 0.0, 0.0};
+  const Number s = sqrt_of(band == Band::above ? -q : q);
+  const Number sinh_phi = sqrt_of(decay * (2.0 + decay));
+  WaveOf<Kind> first{s, acoustic ? of_slope : d * s, acoustic ? -d * s : -of_w, {}, {}};
+  WaveOf<Kind> second{sinh_phi, of_slope + e * (p + decay), d * sinh_phi, {}, {}};
   if (clamped) {  // no slope, no displacement
-    for (Wave* wave : {&first, &second}) {
+    for (WaveOf<Kind>* wave : {&first, &second}) {
       wave->with_sin = wave->slope;
       wave->with_cos = wave->w;
     }
     return {lambda, decay, first, second};
   }
   // No force on, no couple on an element that would go on beyond the end.
-  const auto force = [&](double x) {  // -D (F + D cos) - C (B + E cos), x = 1 - cos
+  const auto force = [&](const Number& x) {  // -D (F + D cos) - C (B + E cos), x = 1 - cos
     return 12.0 * x + lambda * (0.5 - 6.0 * k.rho + x * (12.0 * (k.of_e - k.of_d) - 2.0 * k.of_c)) -
            lambda * lambda *
                (k.of_d * (k.of_f_and_d - k.of_d * x) + k.of_c * (k.of_b_and_e - k.of_e * x));
   };
-  const auto couple = [&](double x) {  // F - D cos
+  const auto couple = [&](const Number& x) {  // F - D cos
     return 6.0 * x - lambda * (1.0 / 12.0 + k.of_d * x);
   };
   first.with_sin = acoustic ? s * force(p) : force(p) * of_w / d;
@@ -175,17 +206,10 @@ class Finder {
 
  private:
   Waves waves(double number, Band band) const {
-    return waves_at(square_of_half(number, band), band, element_, end_ == EndSupport::clamped);
+    return waves_at<One>(square_of_half(number, band), band, element_, end_ == EndSupport::clamped);
   }
   double decay_over(const Waves& waves) const {
     return waves.decay > felt_ ? 1.0 : std::tanh(phi_of(waves) * m_);
-  }
-
-  // theta m = k pi + phase(theta)
-  double phase(double theta, Parity parity, Band band) const {
-    const Waves at = waves(theta, band);
-    const double decay = decay_over(at);
-    return parity == Parity::even ? std::atan(decay * at.ratio()) : -std::atan(decay / at.ratio());
   }
 
   void add_pinned(Parity parity, Band band, std::vector<Mode>& modes) const {
@@ -197,22 +221,81 @@ class Finder {
     }
   }
 
+  Lanes decay_over(const WavesOf<Eight>& waves) const {
+    Lanes decay = Lanes{} + 1.0;
+    if (!any(waves.decay <= felt_)) return decay;
+    for (std::size_t i = 0; i < n_lanes; ++i) decay[i] = decay_over(waves[i]);
+    return decay;
+  }
+
+  // The waves of eight theta, and sine and cosine of theta m.
+  struct Trial {
+    WavesOf<Eight> waves;
+    SinCos turn;
+  };
+  Trial trial_at(const Lanes& theta, Band band) const {
+    const Lanes half = sin_cos(0.5 * theta).sine;
+    return {waves_at<Eight>(2.0 * half * half, band, element_, end_ == EndSupport::clamped),
+            sin_cos(theta * m_)};
+  }
+  // Sine of theta m - k pi - phase, `sign` that of cos(k pi).
+  Lanes sine_of_error(const Trial& at, const Lanes& sign, Parity parity) const {
+    const bool even = parity == Parity::even;
+    const Lanes decay = decay_over(at.waves);
+    const Lanes rise = even ? decay * at.waves.rise() : -decay * at.waves.run();
+    const Lanes run = even ? at.waves.run() : at.waves.rise();
+    const Lanes sine =
+        sign * (at.turn.sine * run - at.turn.cosine * rise) / sqrt_of(rise * rise + run * run);
+    return run < 0.0 ? -sine : sine;
+  }
+
+  // Eight roots at a time: secants from a guess, halving where they leave the bracket.
   void add_phases(Parity parity, Band band, std::vector<Mode>& modes) const {
     const bool below = (parity == Parity::even) == (band == Band::acoustic);  // k pi
     const double last = below ? std::floor(m_) : std::ceil(m_) - 1.0;
-    double guess = below ? -0.25 * pi : 0.25 * pi;
-    for (double k = 1.0; k <= last; k += 1.0) {
-      const double low = (below ? k - 0.5 : k) * pi / m_;
-      const double high = std::min(low + 0.5 * pi / m_, pi);
-      double found = guess;
-      const double theta = rising_root(
-          [&](double at) {
-            found = phase(at, parity, band);
-            return at * m_ - k * pi - found;
-          },
-          low, high, (k * pi + guess) / m_, m_);
-      guess = found;
-      add(parity, band, theta, modes);
+    // Roots before tell about where the next ones are and how steep the phase is there.
+    double phase_before = below ? -0.25 * pi : 0.25 * pi;
+    double change = 0.0;
+    for (double first = 1.0; first <= last; first += static_cast<double>(n_lanes)) {
+      Lanes k{};
+      Lanes sign{};
+      Lanes x{};
+      for (std::size_t i = 0; i < n_lanes; ++i) {
+        const auto ahead = static_cast<double>(i);
+        k[i] = std::min(first + ahead, last);
+        sign[i] = std::fmod(k[i], 2.0) == 0.0 ? 1.0 : -1.0;
+        x[i] = (k[i] * pi + phase_before + change * (ahead + 1.0)) / m_;
+      }
+      Lanes low = (below ? k - 0.5 : k) * (pi / m_);
+      Lanes high = low + 0.5 * pi / m_;
+      high = high > pi ? Lanes{} + pi : high;
+      x = (x > low) & (x < high) ? x : 0.5 * (low + high);
+      Lanes slope = Lanes{} + m_ * pi / (pi + change);
+      Lanes before{};
+      Lanes value_before{};
+      LaneMask open = k > 0.0;
+      for (int i = 0; i < 200 && any(open); ++i) {
+        const Lanes value = sine_of_error(trial_at(x, band), sign, parity);
+        low = value < 0.0 ? x : low;
+        high = value < 0.0 ? high : x;
+        const Lanes secant = (value - value_before) / (x - before);
+        if (i > 0) slope = open & (secant > 0.0) ? secant : slope;
+        before = x;
+        value_before = value;
+        const Lanes next = x - value / slope;
+        const LaneMask inside = (next > low) & (next < high);
+        const Lanes step = next < x ? x - next : next - x;
+        x = open ? (inside ? next : 0.5 * (low + high)) : x;
+        // A secant's error is the product of the last two.
+        open &= ~((inside & (step <= 1e-12 * x)) | (high - low <= 4e-16 * x));
+      }
+      const Trial found = trial_at(x, band);
+      const auto count = std::min(n_lanes, static_cast<std::size_t>(last - first) + 1);
+      for (std::size_t i = 0; i < count; ++i) {
+        add(parity, band, x[i], found.waves[i], found.turn.sine[i], found.turn.cosine[i], modes);
+      }
+      phase_before = x[count - 1] * m_ - k[count - 1] * pi;
+      if (count > 1) change = (x[count - 1] - x[count - 2]) * m_ - pi;
     }
   }
 
@@ -220,10 +303,13 @@ class Finder {
   bool add_highest(Parity parity, std::vector<Mode>& modes) const {
     const double least = 1e-6 / m_;
     const auto in_band = [&](double theta) {
-      return theta * m_ - phase(theta, parity, Band::optical);
+      const Waves at = waves(theta, Band::optical);
+      return theta * m_ - std::atan(decay_over(at) * at.ratio());
     };
     if (parity == Parity::even && in_band(least) < 0.0) {
-      add(parity, Band::optical, rising_root(in_band, least, 0.5 * pi / m_, 0.0, m_), modes);
+      const double theta = rising_root(in_band, least, 0.5 * pi / m_, 0.0, m_);
+      add(parity, Band::optical, theta, waves(theta, Band::optical), std::sin(theta * m_),
+          std::cos(theta * m_), modes);
       return true;
     }
     const auto above = [&](double psi) {
@@ -240,17 +326,17 @@ class Finder {
       high *= 1.5;
       if (high > 20.0) return false;
     }
-    add(parity, Band::above, rising_root(above, low, high, 0.5 * (low + high), 1.0), modes);
+    const double psi = rising_root(above, low, high, 0.5 * (low + high), 1.0);
+    add(parity, Band::above, psi, waves(psi, Band::above), std::tanh(psi * m_), 1.0, modes);
     return true;
   }
 
-  void add(Parity parity, Band band, double number, std::vector<Mode>& modes) const {
-    const Waves at = waves(number, band);
+  // `sine` and `cosine` are those of theta m; above the bands tanh(psi m) and 1.
+  void add(Parity parity, Band band, double number, const Waves& at, double sine, double cosine,
+           std::vector<Mode>& modes) const {
     const double decay = decay_over(at);
     const bool above = band == Band::above;
     const bool even = parity == Parity::even;
-    const double sine = above ? std::tanh(number * m_) : std::sin(number * m_);
-    const double cosine = above ? 1.0 : std::cos(number * m_);
     // Of an end's two conditions the one in which the second wave weighs more.
     double second = 0.0;
     if (std::abs(at.ratio()) > 1.0) {
@@ -412,11 +498,11 @@ class Layout {
 }  // namespace
 
 std::optional<NaturalModes> hermite_chain_modes(const HermiteChain& chain) {
+  if (!has_closed_modes(chain.ends)) return std::nullopt;
   const auto [first, last] = chain.ends;
   const bool alike = first == last;
   const bool about_first = !alike && first == EndSupport::pinned;
   const bool about_last = !alike && last == EndSupport::pinned;
-  if (!alike && !about_first && !about_last) return std::nullopt;
   const EndSupport end = about_first ? last : first;
   const double a = chain.length;
   const Element element(chain.rotary_inertia / (chain.mass_per_length * a * a));

@@ -20,6 +20,11 @@ struct HermiteChain {
   bool half;  ///< symmetric modes only, on the first half of the chain
 };
 
+/// Whether a chain with these ends has its modes in closed form.
+constexpr bool has_closed_modes(std::array<EndSupport, 2> ends) {
+  return ends[0] == ends[1] || ends[0] == EndSupport::pinned || ends[1] == EndSupport::pinned;
+}
+
 /// Its natural modes in closed form, without decomposing a matrix; work n^2 for n shapes.
 ///
 /// From node to node the chain carries waves (W, Theta) z^j of displacement and slope. With A to E

@@ -16,9 +16,12 @@ inline const Lanes& lanes_at(const double* at) { return *reinterpret_cast<const 
 inline void store(const Lanes& values, double* at) { *reinterpret_cast<Lanes*>(at) = values; }
 
 inline double sum(const Lanes& values) {
-  double total = 0.0;
-  for (std::size_t i = 0; i < n_lanes; ++i) total += values[i];
-  return total;
+  using Half = double __attribute__((vector_size(n_lanes * sizeof(double) / 2)));
+  Half halves[2];
+  static_assert(sizeof(halves) == sizeof(values));
+  std::memcpy(halves, &values, sizeof(values));
+  const Half joined = halves[0] + halves[1];
+  return (joined[0] + joined[2]) + (joined[1] + joined[3]);
 }
 
 /// a . b

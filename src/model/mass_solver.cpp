@@ -77,6 +77,15 @@ BandedSolver::BandedSolver(const BandedMatrix& matrix)
       half_bandwidth_(matrix.half_bandwidth()) {
   static_assert(block == block_size);
   if (half_bandwidth_ > 3) throw std::invalid_argument("banded solver: half bandwidth above 3");
+  if (half_bandwidth_ == 0) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (!(matrix.at(i, i) > 0.0)) {
+        throw std::invalid_argument("banded solver: matrix not positive definite");
+      }
+      coefficients_.push_back(1.0 / matrix.at(i, i));
+    }
+    return;
+  }
   const BandedMatrix factor = cholesky_factor(matrix, n_blocks_ * block);
   const std::size_t stride = block * (block + half_bandwidth_);
   std::vector<double> down(stride);
@@ -147,7 +156,8 @@ void BandedSolver::solve_with(double* x) const {
 void BandedSolver::solve(std::span<double> x) const {
   switch (half_bandwidth_) {
     case 0:
-      return solve_with<0>(x.data());
+      for (std::size_t i = 0; i < size_; ++i) x[i] *= coefficients_[i];
+      return;
     case 1:
       return solve_with<1>(x.data());
     case 2:

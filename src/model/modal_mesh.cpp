@@ -24,11 +24,14 @@ ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffnes
       physical_(std::move(physical)),
       bending_stiffness_(bending_stiffness),
       modes_(physical_->natural_modes(bending_stiffness)),
+      modal_mass_(physical_->beam_mass() / static_cast<double>(n_unknowns())),
       work_(n_unknowns()) {
   const std::size_t n = n_unknowns();
+  const double scale = std::sqrt(modal_mass_);
+  for (double& entry : modes_.shapes) entry *= scale;
   for (std::size_t k = 0; k < n; ++k) {
-    mass_.at(k, k) = 1.0;
-    stiffness_.push_back(modes_.frequencies[k] * modes_.frequencies[k]);
+    mass_.at(k, k) = modal_mass_;
+    stiffness_.push_back(modal_mass_ * modes_.frequencies[k] * modes_.frequencies[k]);
     struck_point_.terms.push_back({k, physical_->struck_point()(modes_.shape(k))});
     first_end_.terms.push_back({k, physical_->first_end()(modes_.shape(k))});
     struck_point_.dense.push_back(struck_point_.terms.back().coefficient);
@@ -49,6 +52,9 @@ ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffnes
         dot(physical_->momentum_functional().data(), modes_.shape(k).data(), n);
   }
   beam_mass_ = physical_->beam_mass();
+  for (std::size_t k = 0; k < n; ++k) {
+    struck_curvature_.push_back(physical_->curvature(struck_section_, modes_.shape(k)));
+  }
 }
 
 double ModalMesh::highest_frequency(double bending_stiffness) const {
@@ -63,7 +69,26 @@ void ModalMesh::to_physical(std::span<const double> modal, std::span<double> phy
 void ModalMesh::to_modal(std::span<const double> physical, std::span<double> modal) const {
   physical_->mass().multiply(physical, work_);
   Vector(modal.data(), index(modal.size())).noalias() =
-      matrix(modes_).transpose() * ConstVector(work_.data(), index(work_.size()));
+      matrix(modes_).transpose() * ConstVector(work_.data(), index(work_.size())) / modal_mass_;
+}
+
+double ModalMesh::curvature(std::size_t section, std::span<const double> unknowns) const {
+  if (section == struck_section_) {
+    return dot(struck_curvature_.data(), unknowns.data(), unknowns.size());
+  }
+  to_physical(unknowns, work_);
+  return physical_->curvature(section, work_);
+}
+
+NaturalModes ModalMesh::natural_modes(double bending_stiffness) const {
+  const std::size_t n = n_unknowns();
+  NaturalModes modes;
+  modes.frequencies = modes_.frequencies;
+  const double ratio = std::sqrt(bending_stiffness / bending_stiffness_);
+  for (double& frequency : modes.frequencies) frequency *= ratio;
+  modes.shapes.assign(n * n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) modes.shapes[k * n + k] = 1.0 / std::sqrt(modal_mass_);
+  return modes;
 }
 
 void ModalMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {

@@ -7,9 +7,14 @@
 
 namespace subimpact {
 
-/// Another mesh in the coordinates of its elastic natural modes: unknowns z with q = sum z_k phi_k
-/// and the identity as mass matrix. The same beam, only its unknowns are other ones; what is banded
-/// on the other mesh is dense here, so a state's curvatures cost n^2 operations.
+/// Another mesh in the coordinates of its elastic natural modes: unknowns z with q = sum z_k phi_k.
+/// The same beam, only its unknowns are other ones. While it is elastic mass and stiffness are
+/// diagonal; what is banded on the other mesh is dense here, so all curvatures of a state cost n^2
+/// operations, one of them n.
+///
+/// Each mode is scaled to an n-th part of the beam's mass, phi_k^T Mass phi_k = m_beam/n. So the
+/// unknowns are lengths, and their root mean square is that of the beam's displacement: tolerances
+/// mean here what they mean on other meshes.
 class ModalMesh final : public BeamMesh {
  public:
   ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffness);
@@ -20,21 +25,25 @@ class ModalMesh final : public BeamMesh {
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
+  double curvature(std::size_t section, std::span<const double> unknowns) const override;
   /// That of the last mode.
   double highest_frequency(double bending_stiffness) const override;
+  NaturalModes natural_modes(double bending_stiffness) const override;
   std::span<const double> modal_stiffness() const override { return stiffness_; }
   std::string description() const override;
 
   /// q = sum z_k phi_k.
   void to_physical(std::span<const double> modal, std::span<double> physical) const;
-  /// z_k = phi_k^T Mass q.
+  /// z_k = phi_k^T Mass q/(m_beam/n).
   void to_modal(std::span<const double> physical, std::span<double> modal) const;
 
  private:
   std::unique_ptr<BeamMesh> physical_;
   double bending_stiffness_;
   NaturalModes modes_;
+  double modal_mass_;  // kg, of every mode
   std::vector<double> stiffness_;
+  std::vector<double> struck_curvature_;  // of the struck section, by unknowns
   mutable std::vector<double> work_;
 };
 

@@ -14,8 +14,8 @@ struct SinCos {
 /// Sine and cosine of eight numbers at once, to two units in the last place.
 ///
 /// The quarter turns k next to y are taken off in three parts of pi/2, the first two of 33 bits, so
-/// that their products with k are exact; then come the polynomials of fdlibm (Sun Microsystems 1993)
-/// for up to an eighth of a turn. Beyond 1e6 the standard library is asked.
+/// that their products with k are exact; then come the polynomials of fdlibm (Sun Microsystems
+/// 1993) for up to an eighth of a turn. Beyond 1e6 the standard library is asked.
 inline SinCos sin_cos(const Lanes& y) {
   constexpr double largest = 1e6;
   constexpr double to_integer = 0x1.8p52;  // added: the sum's last bits are the nearest integer's
@@ -32,8 +32,8 @@ inline SinCos sin_cos(const Lanes& y) {
               (-1.66666666666666324348e-01 +
                z * (8.33333333332248946124e-03 +
                     z * (-1.98412698298579493134e-04 +
-                         z * (2.75573137070700676789e-06 +
-                              z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
+                         z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 +
+                                                                z * 1.58969099521155010221e-10)))));
   const Lanes c =
       1.0 - 0.5 * z +
       z * z *

@@ -152,6 +152,21 @@ std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
   throw std::logic_error("make_mesh: a mesh of no kind");
 }
 
+// Whether an elastic beam on this mesh is integrated in its natural modes. Explicit methods see the
+// same motion in either unknowns, but a step in modes needs no mass solve.
+bool in_modes(const Case& input, const BeamMesh& mesh) {
+  switch (input.solver.method) {
+    case Method::exponential:
+      return true;
+    case Method::central_difference:
+    case Method::erk:
+    case Method::nystrom:
+      return mesh.prefers_modes() && input.solver.mass_solver == MassSolverKind::tridiagonal;
+    default:
+      return false;
+  }
+}
+
 SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {
   const Beam& beam = input.scene.beam;
   if (input.model.section == SectionKind::elastic || input.model.mesh == MeshKind::rigid ||
@@ -170,10 +185,11 @@ bool uses_symmetry(const Case& input) {
   return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input.scene);
 }
 
-StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage) {
+StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage,
+                            Coordinates coordinates) {
   std::unique_ptr<BeamMesh> mesh = make_mesh(input);
   SectionField sections = make_sections(input, mesh->n_sections(), storage);
-  if (input.solver.method == Method::exponential && !sections.can_yield()) {
+  if (coordinates == Coordinates::chosen && !sections.can_yield() && in_modes(input, *mesh)) {
     mesh = std::make_unique<ModalMesh>(std::move(mesh), input.scene.beam.bending_stiffness());
   }
   std::unique_ptr<MassSolver> solver;

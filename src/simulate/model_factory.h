@@ -14,10 +14,17 @@ namespace subimpact {
 /// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
 
+/// In which unknowns a beam is integrated.
+enum class Coordinates {
+  chosen,  ///< natural modes for an elastic beam where the method asks for them or they are cheaper
+  of_mesh  ///< the mesh's own
+};
+
 /// The struck beam of a case. Throws InvalidCase where mesh and scene do not go together. `storage`
 /// is for comparisons of lazily and eagerly stored sections.
 StruckBeam make_struck_beam(const Case& input,
-                            SectionField::Storage storage = SectionField::Storage::when_yielded);
+                            SectionField::Storage storage = SectionField::Storage::when_yielded,
+                            Coordinates coordinates = Coordinates::chosen);
 
 /// What is derived from the case. Throws InvalidCase for a step beyond the stability limit.
 Used describe(const Case& input, const StruckBeam& beam);

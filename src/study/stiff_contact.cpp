@@ -27,7 +27,8 @@ StruckBeam held_together(const Case& input, double stiffness) {
   trial.scene.contact.kind = ContactKind::linear;
   trial.scene.contact.stiffness = stiffness;
   trial.scene.striker.nose_radius.reset();
-  StruckBeam beam = make_struck_beam(trial);
+  StruckBeam beam =
+      make_struck_beam(trial, SectionField::Storage::when_yielded, Coordinates::of_mesh);
   beam.set_contact(ContactBranch::elastic, {});
   return beam;
 }

@@ -6,7 +6,7 @@ ModalBeam::ModalBeam(const StruckBeam& beam) : beam_(beam) {
   const auto& mesh = dynamic_cast<const ModalMesh&>(beam.mesh());
   frequencies_.assign(mesh.frequencies().begin(), mesh.frequencies().end());
   for (const SparseFunctional::Term& term : mesh.struck_point().terms) {
-    loads_.push_back(term.coefficient);
+    loads_.push_back(term.coefficient / mesh.mass().at(term.unknown, term.unknown));
     displacements_.push_back(-term.coefficient);
   }
   frequencies_.push_back(0.0);

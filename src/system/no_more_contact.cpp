@@ -13,7 +13,7 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
       moments_(beam.mesh().n_sections()) {
   const BeamMesh& mesh = beam.mesh();
   const SectionField& sections = beam.sections();
-  std::vector<double> shape(n_), momentum(n_), reaction(n_, 0.0);
+  std::vector<double> momentum(n_), reaction(n_, 0.0);
   const auto add = [&](std::span<const double> phi, double frequency) {
     const double share = mesh.struck_point()(phi);
     if (frequency == 0.0) {
@@ -26,17 +26,8 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
     compliance_ += share * amount;
     for (std::size_t i = 0; i < n_; ++i) reaction[i] += amount * phi[i];
   };
-  const auto modal = mesh.modal_stiffness();
-  if (modal.empty()) {
-    const NaturalModes modes = mesh.natural_modes(sections.stiffness());
-    for (std::size_t k = 0; k < modes.size(); ++k) add(modes.shape(k), modes.frequencies[k]);
-  } else {
-    for (std::size_t k = 0; k < n_; ++k) {
-      std::fill(shape.begin(), shape.end(), 0.0);
-      shape[k] = 1.0;
-      add(shape, std::sqrt(modal[k]));
-    }
-  }
+  const NaturalModes modes = mesh.natural_modes(sections.stiffness());
+  for (std::size_t k = 0; k < modes.size(); ++k) add(modes.shape(k), modes.frequencies[k]);
   if (!sections.can_yield()) return;
   mesh.curvatures(reaction, curvatures_);
   double largest = 0.0;

@@ -31,7 +31,16 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),
       1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
-  if (!sections_.can_yield()) modal_stiffness_ = mesh_->modal_stiffness();
+  if (sections_.can_yield()) return;
+  modal_stiffness_ = mesh_->modal_stiffness();
+  if (modal_stiffness_.empty()) return;
+  modal_loads_.assign(n_, 0.0);
+  mesh_->struck_point().add_to(modal_loads_, 1.0);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double mass = mesh_->mass().at(i, i);
+    modal_loads_[i] /= mass;
+    modal_frequencies_squared_.push_back(modal_stiffness_[i] / mass);
+  }
 }
 
 State StruckBeam::initial_state() const {
@@ -65,8 +74,18 @@ void StruckBeam::acceleration(std::span<const double> positions, std::span<doubl
   ++n_accelerations_;
   const auto unknowns = positions.first(n_);
   const auto forces = result.first(n_);
-  bend(unknowns, forces);
   const double contact = force(positions[n_] - mesh_->struck_point()(unknowns));
+  if (!modal_frequencies_squared_.empty()) {
+    result[n_] = -contact / striker_mass_;
+    const double* q = unknowns.data();
+    const double* squared = modal_frequencies_squared_.data();
+    const double* load = modal_loads_.data();
+    double* a = forces.data();
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n_; ++i) a[i] = contact * load[i] - squared[i] * q[i];
+    return;
+  }
+  bend(unknowns, forces);
   mesh_->struck_point().add_to(forces, contact);
   mass_solver_->solve(forces);
   result[n_] = -contact / striker_mass_;
@@ -213,9 +232,9 @@ StruckBeam::Bending StruckBeam::bending(const State& y) {
 }
 
 double StruckBeam::back_stress(const State& y) {
-  mesh_->curvatures(beam_positions(y), curvatures_);
   const std::size_t section = mesh_->struck_section();
-  return sections_.outer_stress(section, curvatures_[section], stress_reach_);
+  return sections_.outer_stress(section, mesh_->curvature(section, beam_positions(y)),
+                                stress_reach_);
 }
 
 }  // namespace subimpact

@@ -219,9 +219,12 @@ class StruckBeam final : public MechanicalSystem {
   std::size_t n_;
   double striker_mass_;
   double striker_velocity_;
-  double stress_reach_;                      // E h/2
-  std::span<const double> modal_stiffness_;  // of an elastic beam in natural modes, else empty
-  double highest_frequency_;                 // rad/s
+  double stress_reach_;  // E h/2
+  // Of an elastic beam in natural modes, else empty: stiffnesses, and what a mode's acceleration is
+  // made of.
+  std::span<const double> modal_stiffness_;
+  std::vector<double> modal_frequencies_squared_, modal_loads_;
+  double highest_frequency_;  // rad/s
   Scales scales_;
 
   Evaluation contact_evaluation_ = Evaluation::smooth;

@@ -140,6 +140,36 @@ TEST_F(ModalCoordinates, KeepEnergiesCurvaturesAndFunctionals) {
   for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], 1e-10);
 }
 
+TEST_F(ModalCoordinates, HaveTheBeamsRootMeanSquare) {
+  // Of a translation by 1 m, and of any field weighted with its mass.
+  double sum = 0.0;
+  for (const double x : modal_.translation()) sum += x * x;
+  const auto n = static_cast<double>(modal_.n_unknowns());
+  EXPECT_NEAR(std::sqrt(sum / n), 1.0, 1e-13);
+  for (std::size_t k = 0; k < modal_.n_unknowns(); ++k) {
+    EXPECT_NEAR(modal_.mass().at(k, k), modal_.beam_mass() / n, 1e-15);
+  }
+}
+
+TEST_F(ModalCoordinates, GiveTheCurvatureOfEachSectionAlone) {
+  std::vector<double> z(q_.size());
+  modal_.to_modal(q_, z);
+  std::vector<double> all(physical_.n_sections());
+  physical_.curvatures(q_, all);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_NEAR(physical_.curvature(i, q_), all[i], 1e-13) << i;
+    EXPECT_NEAR(modal_.curvature(i, z), all[i], 1e-10) << i;
+  }
+}
+
+TEST_F(ModalCoordinates, HaveThemselvesAsModes) {
+  const NaturalModes modes = modal_.natural_modes(4.0 * beam_.bending_stiffness());
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    EXPECT_NEAR(modes.frequencies[k], 2.0 * modal_.frequencies()[k], 1e-9);
+    EXPECT_NEAR(modal_.mass().quadratic_form(modes.shape(k)), 1.0, 1e-14);
+  }
+}
+
 TEST_F(ModalCoordinates, MakeTheElasticForceDiagonal) {
   std::vector<double> z(q_.size());
   modal_.to_modal(q_, z);
@@ -152,7 +182,7 @@ TEST_F(ModalCoordinates, MakeTheElasticForceDiagonal) {
   for (const double f : force) largest = std::max(largest, std::abs(f));
   for (std::size_t k = 0; k < z.size(); ++k) {
     const double w = modal_.frequencies()[k];
-    EXPECT_NEAR(force[k], -w * w * z[k], 1e-9 * largest) << k;
+    EXPECT_NEAR(force[k], -modal_.mass().at(k, k) * w * w * z[k], 1e-9 * largest) << k;
   }
 }
 
