@@ -82,7 +82,7 @@ TEST(NoMoreContact, HoldsAgainstABeamBentTheWorstWay) {
       compliance += share * amount;
       for (std::size_t i = 0; i < n; ++i) {
         if (modal) {
-          shape[k] = amount;
+          shape[k] = amount / std::sqrt(beam.mesh().mass().at(k, k));
         } else {
           shape[i] += amount * modes.shape(k)[i];
         }

@@ -33,9 +33,9 @@ std::vector<Mesh> meshes() {
     all.push_back(
         {theory + " cells, struck off centre",
          std::make_unique<CellMesh>(beam, 0.317, std::size_t{60}, CellMesh::Extent::whole)});
-    all.push_back({theory + " half of elements",
-                   std::make_unique<HermiteMesh>(beam, 0.5, std::size_t{40}, 2,
-                                                 HermiteMesh::Extent::half)});
+    all.push_back(
+        {theory + " half of elements",
+         std::make_unique<HermiteMesh>(beam, 0.5, std::size_t{40}, 2, HermiteMesh::Extent::half)});
   }
   return all;
 }
