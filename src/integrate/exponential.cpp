@@ -117,7 +117,8 @@ double Exponential::fourth_derivative_bound() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < n_; ++i) {
     const double w = omega[i];
-    const double amplitude_w = std::hypot(w * y0_[i], y0_[n_ + i]);  // A omega
+    const double wq = w * y0_[i];
+    const double amplitude_w = std::sqrt(wq * wq + y0_[n_ + i] * y0_[n_ + i]);  // A omega
     sum += std::abs(c[i]) * amplitude_w * w * w * w;
   }
   return sum;
@@ -172,6 +173,7 @@ void Exponential::free_step() {
 bool Exponential::solve(const OscillatorStep& step, const NodeForces& free, NodeForces& forces,
                         NodeForces& lambda) const {
   constexpr std::size_t n = n_force_nodes;
+  double largest_before = 0.0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     std::array<NodeForces, n> jacobian;
     NodeForces change;
@@ -192,7 +194,16 @@ bool Exponential::solve(const OscillatorStep& step, const NodeForces& free, Node
       largest = std::max(largest, std::abs(change[i]));
     }
     if (!std::isfinite(largest)) return false;
-    if (largest <= solved * size || largest == 0.0) return true;
+    // Newton's method squares the error: the change before tells how far the next one is from here.
+    const double gain = largest_before > 0.0 ? largest / largest_before : 1.0;
+    const double next = gain < 0.1 ? largest * gain * gain : largest;
+    if (next <= solved * size || largest == 0.0) {
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) lambda[i] += step.compliance(i, j) * change[j];
+      }
+      return true;
+    }
+    largest_before = largest;
   }
   return false;
 }

@@ -18,18 +18,25 @@ void BandedMatrix::multiply(std::span<const double> x, std::span<double> result)
 }
 
 double BandedMatrix::quadratic_form(std::span<const double> x) const {
-  double total = 0.0;
-  for (std::size_t k = 0; k <= half_bandwidth_; ++k) {
-    const double* off = values_.data() + k * size_;
-    const std::size_t n = size_ - std::min(k, size_);
-    Lanes running{};
-    std::size_t i = 0;
-    for (; i + n_lanes <= n; i += n_lanes) {
-      running += lanes_at(off + i) * lanes_at(x.data() + i) * lanes_at(x.data() + i + k);
+  const double* at = x.data();
+  const std::size_t width = std::min(half_bandwidth_ + 1, size_);
+  const std::size_t whole = (size_ + 1 - width) / n_lanes * n_lanes;
+  // Diagonals beside the main one count twice: below it and above.
+  Lanes main{};
+  Lanes beside{};
+  for (std::size_t i = 0; i < whole; i += n_lanes) {
+    const Lanes here = lanes_at(at + i);
+    main += lanes_at(values_.data() + i) * here * here;
+    for (std::size_t k = 1; k < width; ++k) {
+      beside += lanes_at(values_.data() + k * size_ + i) * here * lanes_at(at + i + k);
     }
-    double sum_off = sum(running);
-    for (; i < n; ++i) sum_off += off[i] * x[i] * x[i + k];
-    total += k == 0 ? sum_off : 2.0 * sum_off;
+  }
+  double total = sum(main) + 2.0 * sum(beside);
+  for (std::size_t i = whole; i < size_; ++i) {
+    total += values_[i] * at[i] * at[i];
+    for (std::size_t k = 1; k < width && i + k < size_; ++k) {
+      total += 2.0 * values_[k * size_ + i] * at[i] * at[i + k];
+    }
   }
   return total;
 }
