@@ -26,9 +26,10 @@ struct ExponentialOptions {
 ///
 /// Whoever looks for events in a step sees its ends only, and a cubic in lambda through them. So a
 /// step is also halved until that cubic cannot mistake the side of the critical displacement on
-/// which lambda lies: in contact by comparing it with lambda at the Gauss points; in free motion by
-/// a bound. There |lambda''''| <= sum |c_i| A_i omega_i^4 with the amplitudes A_i, which free
-/// motion keeps, so the cubic is off by at most h^4/384 times that.
+/// which lambda lies, or shows lambda to cross it just once, faster than the cubic's rate can be
+/// wrong. In contact the cubic is compared with lambda at the Gauss points; in free motion there is
+/// a bound, |lambda''''| <= sum |c_i| A_i omega_i^4 with the amplitudes A_i, which free motion
+/// keeps, so that the cubic is off by at most h^4/384 times that.
 ///
 /// state_at gives the flow under the step's force: exact but for the cubic. So the order is eight
 /// at the ends of steps (collocation at four Gauss points) and six within them, and for event

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "integrate/exponential.h"
@@ -142,6 +143,69 @@ TEST(AStateInsideAStep, AgreesWithItsEnds) {
     method.state_at(method.start_time(), y);
     EXPECT_LT(distance(y, method.start_state()), 1e-13);
   }
+}
+
+// A body under way towards others that vibrate: it may cross the critical displacement to and fro.
+class Approach final : public ForcedOscillators {
+ public:
+  std::span<const double> frequencies() const override { return frequencies_; }
+  std::span<const double> loads() const override { return loads_; }
+  std::span<const double> displacements() const override { return displacements_; }
+  Force force(double) const override { return {0.0, 0.0}; }
+  bool is_free() const override { return true; }
+  double critical_displacement() const override { return 0.0; }
+  SecondOrderOde::Scales scales() const override { return {1.0, 1.0}; }
+
+ private:
+  std::vector<double> frequencies_{3.0, 17.0, 60.0, 0.0};
+  std::vector<double> loads_{1.0, 1.0, 1.0, 1.0};
+  std::vector<double> displacements_{1.0, 1.0, 1.0, 1.0};
+};
+
+TEST(TheExponentialMethod, CrossesTheCriticalDisplacementAtMostOnceInAStepThatEndsBeyond) {
+  int n_crossings = 0;
+  long n_attempts = 0;
+  for (int run = 0; run < 400; ++run) {
+    // Amplitudes and phases of all kinds: slow ones that turn back after the first crossing, as a
+    // cubic may, fast ones from none to crossing several times.
+    const double a = 0.37 * run;
+    const double fast = run % 3 == 0 ? 0.0 : run % 3 == 1 ? 0.1 : 1.0;
+    State y{0.3 * std::sin(a),
+            fast * 0.02 * std::sin(2.3 * a),
+            fast * 0.01 * std::sin(3.1 * a),
+            -1.5 - 0.001 * run,
+            2.0 * std::cos(1.7 * a),
+            fast * 0.3 * std::cos(0.9 * a),
+            fast * 0.6 * std::cos(5.3 * a),
+            1.0};
+    const auto lambda_of = [](const State& at) { return at[0] + at[1] + at[2] + at[3]; };
+    if (lambda_of(y) > -0.05) continue;
+    Exponential method(std::make_unique<Approach>(), {1e-8, {}, {}});
+    method.restart(0.0, y);
+    State within;
+    // Up to and with the step that ends beyond.
+    do {
+      method.step();
+      int changes = 0;
+      double before = lambda_of(method.start_state());
+      for (int i = 1; i <= 400; ++i) {
+        const double t = method.start_time() + (method.time() - method.start_time()) * i / 400.0;
+        method.state_at(t, within);
+        const double now = lambda_of(within);
+        if (before * now < 0.0) ++changes;
+        before = now;
+      }
+      const bool beyond = lambda_of(method.state()) > 0.0;
+      EXPECT_EQ(changes, beyond ? 1 : 0) << "run " << run;
+    } while (lambda_of(method.state()) < 0.0);
+    ++n_crossings;
+    n_attempts += method.work().steps + method.work().rejected_steps;
+  }
+  EXPECT_GT(n_crossings, 300);
+  // Halving down to rounding at each crossing would take thirty attempts more.
+  EXPECT_LT(n_attempts, 30 * n_crossings);
+  printf("%d crossings, %.1f attempts each\n", n_crossings,
+         static_cast<double>(n_attempts) / n_crossings);
 }
 
 }  // namespace
