@@ -99,9 +99,11 @@ Result simulate(const Case& input, const Progress& progress) {
   result.work.rejected_steps = counts.rejected_steps;
   result.work.partial_steps = counts.partial_steps;
   result.work.right_hand_sides = beam.n_accelerations() + beam.n_forces();
-  result.work.mass_solves = beam.n_accelerations() + beam.n_further_solves() + counts.mass_solves;
+  const bool in_modes = !beam.mesh().modal_stiffness().empty();  // where mass is diagonal
+  result.work.mass_solves =
+      in_modes ? 0 : beam.n_accelerations() + beam.n_further_solves() + counts.mass_solves;
   result.work.jacobians = counts.jacobians;
-  result.work.factorisations = 1 + counts.factorisations;
+  result.work.factorisations = (in_modes ? 0 : 1) + counts.factorisations;
   result.work.nonlinear_iterations = counts.nonlinear_iterations;
   result.work.nonlinear_failures = counts.nonlinear_failures;
   result.work.roots = loop.n_events();

@@ -55,6 +55,56 @@ TEST(HermiteElements, ComeToTheLimitOfFineMeshes) {
   }
 }
 
+// Explicit methods integrate equal elements in natural modes; asked for KLU, they stay with nodes.
+TEST(HermiteElements, MoveAlikeInNodesAndInModes) {
+  struct Way {
+    Method method;
+    double tolerance_us;  // of event times: rounding, or steps chosen by different means of errors
+  };
+  for (const bool half : {true, false}) {
+    for (const Way& way : {Way{Method::central_difference, 1e-7}, Way{Method::erk, 1e-4},
+                           Way{Method::nystrom, 1e-4}}) {
+      Case input = hermite_case(SectionKind::elastic, 0.3e-3, 40);
+      if (!half) {
+        input.scene.striker.position = 0.25;
+        input.scene.beam.ends = {EndSupport::free, EndSupport::pinned};
+      }
+      input.solver.method = way.method;
+      input.solver.rtol = 1e-9;
+      if (way.method == Method::central_difference) input.solver.step = 1e-7;
+      input.output.interval = 1e-5;
+      input.output.sections = {0.25, 0.4};
+      const Result modes = simulate(input);
+      input.solver.mass_solver = MassSolverKind::klu;
+      const Result nodes = simulate(input);
+      EXPECT_NE(modes.used.mesh.find("natural modes"), std::string::npos);
+      EXPECT_EQ(nodes.used.mesh.find("natural modes"), std::string::npos);
+      EXPECT_EQ(modes.work.mass_solves, 0);
+      EXPECT_GT(nodes.work.mass_solves, 0);
+      EXPECT_LT(modes.max_energy_error, std::max(1e-12, 2.0 * nodes.max_energy_error));
+      ASSERT_GE(modes.sub_impacts.size(), 2u);
+      ASSERT_EQ(modes.sub_impacts.size(), nodes.sub_impacts.size());
+      for (std::size_t i = 0; i < modes.sub_impacts.size(); ++i) {
+        EXPECT_NEAR(start_us(modes.sub_impacts[i]), start_us(nodes.sub_impacts[i]),
+                    way.tolerance_us);
+        if (!modes.sub_impacts[i].end) continue;
+        EXPECT_NEAR(end_us(modes.sub_impacts[i]), end_us(nodes.sub_impacts[i]), way.tolerance_us);
+      }
+      if (way.method != Method::central_difference) continue;
+      ASSERT_EQ(modes.history.size(), nodes.history.size());
+      for (std::size_t i = 0; i < modes.history.size(); ++i) {
+        EXPECT_NEAR(modes.history[i].back_stress, nodes.history[i].back_stress, 10.0) << i;  // Pa
+        EXPECT_NEAR(modes.history[i].striker_relative, nodes.history[i].striker_relative, 1e-14);
+        EXPECT_NEAR(modes.history[i].bending_elastic, nodes.history[i].bending_elastic, 1e-9);
+      }
+      ASSERT_EQ(modes.section_history.size(), nodes.section_history.size());
+      for (std::size_t i = 0; i < modes.section_history.size(); ++i) {
+        EXPECT_NEAR(modes.section_history[i].moment, nodes.section_history[i].moment, 1e-6) << i;
+      }
+    }
+  }
+}
+
 TEST(HermiteElements, BringTheFirstFiveSubImpactsAtFourthOrder) {
   const std::vector<ReferenceEvent> reference = reference_table("mesh_limit_elastic");
   OrderTable first("end of sub-impact 1, us, over elements of the half model");
