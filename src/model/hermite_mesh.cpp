@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -13,46 +12,22 @@
 namespace subimpact {
 namespace {
 
-// Gauss points in [-1, 1] and their weights as shares of the interval.
-struct Quadrature {
-  std::vector<double> points, weights;
-};
-
-Quadrature gauss(std::size_t n) {
-  switch (n) {
-    case 2: {
-      const double x = std::sqrt(1.0 / 3.0);
-      return {{-x, x}, {0.5, 0.5}};
-    }
-    case 3: {
-      const double x = std::sqrt(0.6);
-      return {{-x, 0.0, x}, {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0}};
-    }
-    case 4: {
-      const double root = std::sqrt(1.2);
-      const double inner = std::sqrt((3.0 - 2.0 * root) / 7.0);
-      const double outer = std::sqrt((3.0 + 2.0 * root) / 7.0);
-      const double part = std::sqrt(30.0) / 72.0;
-      return {{-outer, -inner, inner, outer}, {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part}};
-    }
-    default:
-      throw std::invalid_argument("hermite mesh: 2, 3 or 4 sections an element");
-  }
-}
-
 constexpr std::size_t most_in_modes = 2000;  // shapes take n^2 numbers
 
 constexpr double bound_tolerance = 1e-5;  // of the highest squared frequency
 
-std::size_t count_unknowns(const Beam& beam, std::size_t n_elements, bool half) {
+std::size_t count_unknowns(const Beam& beam, double position, std::size_t n_elements, bool half,
+                           bool hinges) {
   if (n_elements < HermiteMesh::fewest_elements) {
     throw std::invalid_argument("hermite mesh: at least 4 elements are needed");
   }
-  const auto held = [](EndSupport end) -> std::size_t {
-    return end == EndSupport::free ? 0 : end == EndSupport::pinned ? 1 : 2;
+  const auto held = [&](EndSupport end) -> std::size_t {
+    if (end == EndSupport::clamped) return hinges ? 1 : 2;
+    return end == EndSupport::pinned ? 1 : 0;
   };
   const std::size_t n_nodes = (half ? n_elements / 2 : n_elements) + 1;
-  return 2 * n_nodes - held(beam.ends[0]) - (half ? 1 : held(beam.ends[1]));
+  const std::size_t slopes_more = hinges && position > 0.0 && position < 1.0 ? 1 : 0;
+  return 2 * n_nodes + slopes_more - held(beam.ends[0]) - (half ? 1 : held(beam.ends[1]));
 }
 
 // integral of rho A N^T N + J N'^T N' over an element, for w_0, h t_0, w_1, h t_1.
@@ -77,52 +52,36 @@ Eigen::Matrix4d element_mass(double a, double h, double mass_per_length, double 
 }  // namespace
 
 HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
-                         std::size_t sections_per_element, Extent extent)
-    : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 3, extent == Extent::half),
+                         std::size_t sections_per_element, Extent extent, const Options& options)
+    : BeamMesh(
+          count_unknowns(beam, position, n_elements, extent == Extent::half, options.hinges), 3,
+          extent == Extent::half),
       n_elements_whole_(n_elements),
       n_elements_(symmetric() ? n_elements / 2 : n_elements),
       slope_unit_(beam.length / static_cast<double>(n_elements)),
       mass_per_length_(beam.mass_per_length()),
       rotary_inertia_(beam.rotary_inertia()),
-      ends_(beam.ends) {
+      ends_(beam.ends),
+      options_(options),
+      copies_(symmetric() ? 2.0 : 1.0) {
   if (symmetric() && (n_elements % 2 != 0 || position != 0.5 || ends_[0] != ends_[1])) {
     throw std::invalid_argument(
         "hermite mesh: a half model needs an even number of elements, struck at 0.5, and ends "
         "alike");
   }
-  const Quadrature quadrature = gauss(sections_per_element);
-  points_ = quadrature.points;
-  point_weights_ = quadrature.weights;
-
-  const auto add_run = [&](std::size_t first, std::size_t end, double length) {
-    if (first == end) return;
-    const double a = length / static_cast<double>(end - first);
-    runs_.push_back(
-        {first, end, a, 1.0 / (a * slope_unit_), 6.0 / (a * a), 3.0 / (a * slope_unit_)});
-  };
-  std::size_t struck_node = n_elements_;
-  if (symmetric()) {
-    add_run(0, n_elements_, 0.5 * beam.length);
-  } else {
-    const auto n = static_cast<double>(n_elements);
-    struck_node = static_cast<std::size_t>(std::lround(position * n));
-    if (position > 0.0) struck_node = std::max<std::size_t>(struck_node, 1);
-    if (position < 1.0) struck_node = std::min(struck_node, n_elements - 1);
-    add_run(0, struck_node, position * beam.length);
-    add_run(struck_node, n_elements, (1.0 - position) * beam.length);
-  }
-  const std::size_t struck = unknown(struck_node, false);
+  place_nodes(position * beam.length, symmetric() ? 0.0 : (1.0 - position) * beam.length);
+  number_unknowns();
+  const std::size_t struck = nodes_[struck_node_].displacement;
   if (struck == none) throw std::invalid_argument("hermite mesh: the strike is on a support");
   struck_point_.terms = {{struck, 1.0}};
   if (ends_[0] == EndSupport::free) first_end_.terms = {{0, 1.0}};
   beam_mass_ = beam.mass();
   if (beam.is_free()) {
     translation_.assign(n_unknowns(), 0.0);
-    for (std::size_t node = 0; node <= n_elements_; ++node)
-      translation_[unknown(node, false)] = 1.0;
+    for (const Node& node : nodes_) translation_[node.displacement] = 1.0;
   }
   assemble_mass();
-  place_sections();
+  gather_elements(sections_per_element);
   const double struck_at = position * beam.length;
   const auto nearer = [&](double x, double y) {
     return std::abs(x - struck_at) < std::abs(y - struck_at);
@@ -131,45 +90,85 @@ HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elemen
       std::min_element(positions_.begin(), positions_.end(), nearer) - positions_.begin());
 }
 
-HermiteMesh::Held HermiteMesh::held(std::size_t node) const {
-  if (node == n_elements_ && symmetric()) return {false, true};
-  if (node > 0 && node < n_elements_) return {false, false};
-  const EndSupport end = ends_[node == 0 ? 0 : 1];
-  return {end != EndSupport::free, end == EndSupport::clamped};
+// Left and right of the strike, nodes are equidistant in elements_within.
+void HermiteMesh::place_nodes(double left_length, double right_length) {
+  const ElementGrading& grading = options_.grading;
+  const double left = grading.elements_within(left_length);
+  const double right = grading.elements_within(right_length);
+  struck_node_ = n_elements_;
+  if (!symmetric()) {
+    const auto n = static_cast<double>(n_elements_);
+    struck_node_ = static_cast<std::size_t>(std::lround(n * left / (left + right)));
+    if (left > 0.0) struck_node_ = std::max<std::size_t>(struck_node_, 1);
+    if (right > 0.0) struck_node_ = std::min(struck_node_, n_elements_ - 1);
+  }
+  // Lengths from the strike outwards.
+  const auto side = [&](std::size_t count, double length, double within) {
+    std::vector<double> lengths(count, length / static_cast<double>(count));
+    if (grading.refinement == 1.0) return lengths;
+    double before = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double share = static_cast<double>(i + 1) / static_cast<double>(count);
+      const double d = i + 1 == count ? length : grading.distance_of(within * share);
+      lengths[i] = d - before;
+      before = d;
+    }
+    return lengths;
+  };
+  if (struck_node_ > 0) {
+    lengths_ = side(struck_node_, left_length, left);
+    std::reverse(lengths_.begin(), lengths_.end());
+  }
+  if (struck_node_ < n_elements_) {
+    const std::vector<double> after = side(n_elements_ - struck_node_, right_length, right);
+    lengths_.insert(lengths_.end(), after.begin(), after.end());
+  }
 }
 
-std::size_t HermiteMesh::unknown(std::size_t node, bool slope) const {
-  const Held here = held(node);
-  if (slope ? here.slope : here.displacement) return none;
-  std::size_t index = 2 * node;
-  if (slope && !here.displacement) ++index;
-  if (node > 0) {
-    const Held first = held(0);
-    index -= (first.displacement ? 1u : 0u) + (first.slope ? 1u : 0u);
+bool HermiteMesh::is_hinge(std::size_t node) const {
+  if (!options_.hinges) return false;
+  const bool mirror = symmetric() && node == n_elements_;
+  if (mirror || (node > 0 && node < n_elements_)) return node == struck_node_;
+  return ends_[node == 0 ? 0 : 1] == EndSupport::clamped;
+}
+
+void HermiteMesh::number_unknowns() {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i <= n_elements_; ++i) {
+    const bool mirror = symmetric() && i == n_elements_;
+    EndSupport support = EndSupport::free;
+    if (i == 0) support = ends_[0];
+    if (i == n_elements_ && !mirror) support = ends_[1];
+    Node node{none, none, none};
+    const bool hinge = is_hinge(i);
+    if (hinge && i > 0) node.slope_before = next++;
+    if (support == EndSupport::free) node.displacement = next++;
+    if (hinge) {
+      if (i < n_elements_) node.slope_after = next++;
+    } else if (support != EndSupport::clamped && !mirror) {
+      node.slope_before = node.slope_after = next++;
+    }
+    nodes_.push_back(node);
   }
-  return index;
 }
 
 std::array<std::size_t, 4> HermiteMesh::unknowns_of(std::size_t element) const {
-  return {unknown(element, false), unknown(element, true), unknown(element + 1, false),
-          unknown(element + 1, true)};
-}
-
-const HermiteMesh::Run& HermiteMesh::run_of(std::size_t element) const {
-  return element < runs_.front().end ? runs_.front() : runs_.back();
+  const Node& left = nodes_[element];
+  const Node& right = nodes_[element + 1];
+  return {left.displacement, left.slope_after, right.displacement, right.slope_before};
 }
 
 void HermiteMesh::assemble_mass() {
-  const double copies = symmetric() ? 2.0 : 1.0;  // the mirrored half is folded in
   momentum_functional_.assign(n_unknowns(), 0.0);
   for (std::size_t e = 0; e < n_elements_; ++e) {
-    const double a = run_of(e).length;
+    const double a = lengths_[e];
     const auto unknowns = unknowns_of(e);
     const Eigen::Matrix4d mass =
-        copies * element_mass(a, slope_unit_, mass_per_length_, rotary_inertia_);
-    const double share = copies * mass_per_length_ * a;
+        copies_ * element_mass(a, slope_unit_, mass_per_length_, rotary_inertia_);
+    const double share = copies_ * mass_per_length_ * a;
     const double lever = a / (12.0 * slope_unit_);
-    add_local(e, {0.5 * share, lever * share, 0.5 * share, -lever * share}, momentum_functional_);
+    add_local(unknowns, {0.5 * share, lever * share, 0.5 * share, -lever * share},
+              momentum_functional_);
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = i; j < 4; ++j) {
         if (unknowns[i] == none || unknowns[j] == none) continue;
@@ -180,135 +179,190 @@ void HermiteMesh::assemble_mass() {
   }
 }
 
-void HermiteMesh::place_sections() {
-  const double copies = symmetric() ? 2.0 : 1.0;
+HermiteMesh::Factors HermiteMesh::factors_of(double length) const {
+  const double mean = 1.0 / (length * slope_unit_);
+  return {length, mean, 6.0 / (length * length), 3.0 / (length * slope_unit_)};
+}
+
+void HermiteMesh::gather_elements(std::size_t sections_per_element) {
+  gauss_ = gauss_rule(sections_per_element);
   double left = 0.0;
+  if (is_hinge(0)) place_hinge(0, 0.0);
   for (std::size_t e = 0; e < n_elements_; ++e) {
-    const Run& run = run_of(e);
+    const bool hinge_before = is_hinge(e);
+    const bool hinge_after = is_hinge(e + 1);
+    const bool beside_hinge = hinge_before || hinge_after;
     const auto unknowns = unknowns_of(e);
-    for (std::size_t g = 0; g < points_.size(); ++g) {
-      const double eta = points_[g];
-      positions_.push_back(left + 0.5 * (1.0 + eta) * run.length);
-      weights_.push_back(copies * point_weights_[g] * run.length);
-      const Local all{eta * run.of_displacements, -run.mean + eta * run.of_slopes,
-                      -eta * run.of_displacements, run.mean + eta * run.of_slopes};
-      Row row{none, 0, {}};
-      for (std::size_t i = 0; i < 4; ++i) {
-        if (unknowns[i] == none) continue;
-        if (row.first == none) row.first = unknowns[i];
-        row.coefficients[row.size++] = all[i];
-      }
-      rows_.push_back(row);
+    const bool complete = std::find(unknowns.begin(), unknowns.end(), none) == unknowns.end();
+    const std::size_t section = positions_.size();
+    if (beside_hinge || !complete) {
+      singles_.push_back({unknowns, section, factors_of(lengths_[e]),
+                          beside_hinge ? rule_beside_hinges(hinge_before, hinge_after) : gauss_});
+      place_element(e, left, singles_.back().rule);
+    } else {
+      const bool goes_on =
+          !runs_.empty() && runs_.back().factors.length == lengths_[e] &&
+          runs_.back().first_section + runs_.back().size * gauss_.size() == section;
+      if (!goes_on) runs_.push_back({0, unknowns[0], section, factors_of(lengths_[e])});
+      ++runs_.back().size;
+      place_element(e, left, gauss_);
     }
-    left += run.length;
+    left += lengths_[e];
+    if (hinge_after) place_hinge(e + 1, left);
   }
 }
 
-HermiteMesh::Local HermiteMesh::local_values(std::size_t element,
-                                             std::span<const double> unknowns) const {
-  Local values{};
-  const auto indices = unknowns_of(element);
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (indices[i] != none) values[i] = unknowns[indices[i]];
+void HermiteMesh::place_element(std::size_t element, double left, const ElementRule& rule) {
+  const Factors f = factors_of(lengths_[element]);
+  const auto unknowns = unknowns_of(element);
+  for (std::size_t g = 0; g < rule.size(); ++g) {
+    positions_.push_back(left + 0.5 * (1.0 + rule.points[g]) * f.length);
+    weights_.push_back(copies_ * rule.weights[g] * f.length);
+    const auto [of_mean, of_half] = rule.of_curvature[g];
+    const Local all{of_half * f.of_displacements, -of_mean * f.mean + of_half * f.of_slopes,
+                    -of_half * f.of_displacements, of_mean * f.mean + of_half * f.of_slopes};
+    add_row(unknowns, all);
   }
-  return values;
 }
 
-void HermiteMesh::add_local(std::size_t element, const Local& values,
+void HermiteMesh::place_hinge(std::size_t node, double x) {
+  const double before = node > 0 ? lengths_[node - 1] : 0.0;
+  const double after = node < n_elements_ ? lengths_[node] : 0.0;
+  const double length = hinge_share * (before + after);
+  const double inverse = 1.0 / (length * slope_unit_);
+  const Node& here = nodes_[node];
+  hinges_.push_back({positions_.size(), here.slope_before, here.slope_after, inverse});
+  positions_.push_back(x);
+  weights_.push_back(copies_ * length);
+  add_row(std::array{here.slope_before, here.displacement, here.slope_after},
+          std::array{-inverse, 0.0, inverse});
+}
+
+// The unknowns are consecutive but for those held, in whatever order.
+void HermiteMesh::add_row(std::span<const std::size_t> unknowns,
+                          std::span<const double> coefficients) {
+  Row row{none, 0, {}};
+  for (const std::size_t unknown : unknowns) row.first = std::min(row.first, unknown);
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    if (unknowns[i] == none) continue;
+    row.coefficients[unknowns[i] - row.first] = coefficients[i];
+    ++row.size;
+  }
+  rows_.push_back(row);
+}
+
+void HermiteMesh::add_local(const std::array<std::size_t, 4>& unknowns, const Local& values,
                             std::span<double> result) const {
-  const auto indices = unknowns_of(element);
   for (std::size_t i = 0; i < 4; ++i) {
-    if (indices[i] != none) result[indices[i]] += values[i];
+    if (unknowns[i] != none) result[unknowns[i]] += values[i];
   }
 }
 
-// The outermost elements may have unknowns held; between them every element has four.
 template <std::size_t points>
-void HermiteMesh::curvatures_with(const double* unknowns, double* kappa) const {
+void HermiteMesh::curvatures_in_runs(const double* unknowns, double* kappa) const {
   double eta[points];
-  std::copy_n(points_.data(), points, eta);
-  const auto emit = [&](const Run& run, const double* q, double* k) {
-    const double mean = run.mean * (q[3] - q[1]);
-    const double half = run.of_displacements * (q[0] - q[2]) + run.of_slopes * (q[1] + q[3]);
-    for (std::size_t g = 0; g < points; ++g) k[g] = mean + eta[g] * half;
-  };
-  const std::size_t last = n_elements_ - 1;
-  const Local first_values = local_values(0, {unknowns, n_unknowns()});
-  const Local last_values = local_values(last, {unknowns, n_unknowns()});
-  emit(runs_.front(), first_values.data(), kappa);
-  const double* base = unknowns + unknown(1, false) - 2;
+  std::copy_n(gauss_.points.data(), points, eta);
   for (const Run& run : runs_) {
-    const std::size_t end = std::min(run.end, last);
-    for (std::size_t e = std::max<std::size_t>(run.first, 1); e < end; ++e) {
-      emit(run, base + 2 * e, kappa + points * e);
+    const Factors f = run.factors;
+    const double* q = unknowns + run.first_unknown;
+    double* k = kappa + run.first_section;
+    for (std::size_t e = 0; e < run.size; ++e, q += 2, k += points) {
+      const double mean = f.mean * (q[3] - q[1]);
+      const double half = f.of_displacements * (q[0] - q[2]) + f.of_slopes * (q[1] + q[3]);
+      for (std::size_t g = 0; g < points; ++g) k[g] = mean + eta[g] * half;
     }
   }
-  emit(runs_.back(), last_values.data(), kappa + points * last);
-}
-
-template <std::size_t points>
-void HermiteMesh::bending_forces_with(const double* moments, std::span<double> forces) const {
-  double eta[points];
-  double weight[points];
-  std::copy_n(points_.data(), points, eta);
-  std::copy_n(point_weights_.data(), points, weight);
-  const double copies = symmetric() ? 2.0 : 1.0;
-  // -B^T W moments of one element.
-  const auto element = [&](const Run& run, const double* m) {
-    double sum = 0.0;
-    double first_moment = 0.0;
-    for (std::size_t g = 0; g < points; ++g) {
-      sum += weight[g] * m[g];
-      first_moment += weight[g] * eta[g] * m[g];
-    }
-    const double scale = copies * run.length;
-    const double mean = scale * run.mean * sum;
-    const double shear = scale * run.of_displacements * first_moment;
-    const double slopes = scale * run.of_slopes * first_moment;
-    return Local{-shear, mean - slopes, shear, -mean - slopes};
-  };
-  const std::size_t last = n_elements_ - 1;
-  const std::size_t inner = unknown(1, false);
-  std::fill_n(forces.begin(), inner, 0.0);
-  std::fill(forces.begin() + static_cast<std::ptrdiff_t>(unknown(last, false)), forces.end(), 0.0);
-  double* base = forces.data() + inner - 2;
-  double left_force = 0.0;  // on an element's first node, by the element before
-  double left_couple = 0.0;
-  for (const Run& run : runs_) {
-    const std::size_t end = std::min(run.end, last);
-    for (std::size_t e = std::max<std::size_t>(run.first, 1); e < end; ++e) {
-      const Local f = element(run, moments + points * e);
-      base[2 * e] = left_force + f[0];
-      base[2 * e + 1] = left_couple + f[1];
-      left_force = f[2];
-      left_couple = f[3];
-    }
-  }
-  base[2 * last] = left_force;
-  base[2 * last + 1] = left_couple;
-  add_local(0, element(runs_.front(), moments), forces);
-  add_local(last, element(runs_.back(), moments + points * last), forces);
 }
 
 void HermiteMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
-  switch (points_.size()) {
+  const auto value = [&](std::size_t i) { return i == none ? 0.0 : unknowns[i]; };
+  for (const Single& one : singles_) {
+    const Factors& f = one.factors;
+    const Local q{value(one.unknowns[0]), value(one.unknowns[1]), value(one.unknowns[2]),
+                  value(one.unknowns[3])};
+    const double mean = f.mean * (q[3] - q[1]);
+    const double half = f.of_displacements * (q[0] - q[2]) + f.of_slopes * (q[1] + q[3]);
+    for (std::size_t g = 0; g < one.rule.size(); ++g) {
+      const auto [of_mean, of_half] = one.rule.of_curvature[g];
+      kappa[one.first_section + g] = of_mean * mean + of_half * half;
+    }
+  }
+  for (const Hinge& hinge : hinges_) {
+    kappa[hinge.section] = hinge.inverse * (value(hinge.slope_after) - value(hinge.slope_before));
+  }
+  switch (gauss_.size()) {
     case 2:
-      return curvatures_with<2>(unknowns.data(), kappa.data());
+      return curvatures_in_runs<2>(unknowns.data(), kappa.data());
     case 3:
-      return curvatures_with<3>(unknowns.data(), kappa.data());
+      return curvatures_in_runs<3>(unknowns.data(), kappa.data());
     default:
-      return curvatures_with<4>(unknowns.data(), kappa.data());
+      return curvatures_in_runs<4>(unknowns.data(), kappa.data());
+  }
+}
+
+// Adds -B^T W moments; within a run every force is written once.
+template <std::size_t points>
+void HermiteMesh::bending_forces_in_runs(const double* moments, double* forces) const {
+  double eta[points];
+  double weight[points];
+  std::copy_n(gauss_.points.data(), points, eta);
+  std::copy_n(gauss_.weights.data(), points, weight);
+  for (const Run& run : runs_) {
+    const Factors f = run.factors;
+    const double scale = copies_ * f.length;
+    const double* m = moments + run.first_section;
+    double* force = forces + run.first_unknown;
+    double left_force = force[0];  // on an element's first node, so far
+    double left_couple = force[1];
+    for (std::size_t e = 0; e < run.size; ++e, force += 2, m += points) {
+      double sum = 0.0;
+      double first_moment = 0.0;
+      for (std::size_t g = 0; g < points; ++g) {
+        sum += weight[g] * m[g];
+        first_moment += weight[g] * eta[g] * m[g];
+      }
+      const double mean = scale * f.mean * sum;
+      const double shear = scale * f.of_displacements * first_moment;
+      const double slopes = scale * f.of_slopes * first_moment;
+      force[0] = left_force - shear;
+      force[1] = left_couple + (mean - slopes);
+      left_force = shear;
+      left_couple = -mean - slopes;
+    }
+    force[0] += left_force;
+    force[1] += left_couple;
   }
 }
 
 void HermiteMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
-  switch (points_.size()) {
+  std::fill(forces.begin(), forces.end(), 0.0);
+  for (const Single& one : singles_) {
+    const Factors& f = one.factors;
+    double sum = 0.0;
+    double first_moment = 0.0;
+    for (std::size_t g = 0; g < one.rule.size(); ++g) {
+      const double m = one.rule.weights[g] * moments[one.first_section + g];
+      sum += one.rule.of_curvature[g][0] * m;
+      first_moment += one.rule.of_curvature[g][1] * m;
+    }
+    const double scale = copies_ * f.length;
+    const double mean = scale * f.mean * sum;
+    const double shear = scale * f.of_displacements * first_moment;
+    const double slopes = scale * f.of_slopes * first_moment;
+    add_local(one.unknowns, {-shear, mean - slopes, shear, -mean - slopes}, forces);
+  }
+  for (const Hinge& hinge : hinges_) {
+    const double couple = weights_[hinge.section] * hinge.inverse * moments[hinge.section];
+    if (hinge.slope_before != none) forces[hinge.slope_before] += couple;
+    if (hinge.slope_after != none) forces[hinge.slope_after] -= couple;
+  }
+  switch (gauss_.size()) {
     case 2:
-      return bending_forces_with<2>(moments.data(), forces);
+      return bending_forces_in_runs<2>(moments.data(), forces.data());
     case 3:
-      return bending_forces_with<3>(moments.data(), forces);
+      return bending_forces_in_runs<3>(moments.data(), forces.data());
     default:
-      return bending_forces_with<4>(moments.data(), forces);
+      return bending_forces_in_runs<4>(moments.data(), forces.data());
   }
 }
 
@@ -317,21 +371,45 @@ BeamMesh::SectionStencil HermiteMesh::section_stencil(std::size_t section) const
   return {row.first, std::span(row.coefficients).first(row.size)};
 }
 
+// An element by itself, with springs on its slopes, N/m.
+double HermiteMesh::frequency_squared(const Factors& f, const ElementRule& rule,
+                                      std::array<double, 2> springs,
+                                      double bending_stiffness) const {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(4, 4);
+  stiffness(1, 1) = springs[0];
+  stiffness(3, 3) = springs[1];
+  for (std::size_t g = 0; g < rule.size(); ++g) {
+    const auto [of_mean, of_half] = rule.of_curvature[g];
+    const Eigen::Vector4d row(of_half * f.of_displacements,
+                              -of_mean * f.mean + of_half * f.of_slopes,
+                              -of_half * f.of_displacements,  //
+                              of_mean * f.mean + of_half * f.of_slopes);
+    stiffness += bending_stiffness * rule.weights[g] * f.length * row * row.transpose();
+  }
+  const Eigen::MatrixXd mass =
+      element_mass(f.length, slope_unit_, mass_per_length_, rotary_inertia_);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass,
+                                                                         Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(3);
+}
+
+// Of every kind of element by itself. A hinge between two lengths has the energy EI/(2 L) (t_+ -
+// t_-)^2, at most EI/L (t_+^2 + t_-^2), of which either element takes its part.
 double HermiteMesh::highest_element_frequency_squared(double bending_stiffness) const {
   double highest = 0.0;
   for (const Run& run : runs_) {
-    Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();
-    for (std::size_t g = 0; g < points_.size(); ++g) {
-      const double eta = points_[g];
-      const Eigen::Vector4d row(eta * run.of_displacements, -run.mean + eta * run.of_slopes,
-                                -eta * run.of_displacements, run.mean + eta * run.of_slopes);
-      stiffness += bending_stiffness * point_weights_[g] * run.length * row * row.transpose();
+    highest =
+        std::max(highest, frequency_squared(run.factors, gauss_, {0.0, 0.0}, bending_stiffness));
+  }
+  for (const Single& one : singles_) {
+    std::array<double, 2> springs{0.0, 0.0};
+    for (const Hinge& hinge : hinges_) {
+      const double spring = 2.0 * bending_stiffness * hinge.inverse / slope_unit_;
+      if (hinge.slope_after != none && hinge.slope_after == one.unknowns[1]) springs[0] = spring;
+      if (hinge.slope_before != none && hinge.slope_before == one.unknowns[3]) springs[1] = spring;
     }
-    const Eigen::Matrix4d mass =
-        element_mass(run.length, slope_unit_, mass_per_length_, rotary_inertia_);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix4d> solver(stiffness, mass,
-                                                                           Eigen::EigenvaluesOnly);
-    highest = std::max(highest, solver.eigenvalues()(3));
+    highest =
+        std::max(highest, frequency_squared(one.factors, one.rule, springs, bending_stiffness));
   }
   return highest;
 }
@@ -356,17 +434,19 @@ double HermiteMesh::highest_frequency(double bending_stiffness) const {
   return std::sqrt(above);
 }
 
-bool HermiteMesh::has_equal_elements() const {
-  return std::abs(runs_.back().length / runs_.front().length - 1.0) < 1e-14;
+// Of equal elements, with nothing between them.
+bool HermiteMesh::is_chain() const {
+  const auto [shortest, longest] = std::minmax_element(lengths_.begin(), lengths_.end());
+  return hinges_.empty() && *longest / *shortest - 1.0 < 1e-14;
 }
 
 bool HermiteMesh::prefers_modes() const {
-  return has_equal_elements() && has_closed_modes(ends_) && n_unknowns() <= most_in_modes;
+  return is_chain() && has_closed_modes(ends_) && n_unknowns() <= most_in_modes;
 }
 
 NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
   std::optional<NaturalModes> modes;
-  if (has_equal_elements()) {
+  if (is_chain()) {
     modes = hermite_chain_modes({n_elements_whole_, slope_unit_, mass_per_length_, rotary_inertia_,
                                  bending_stiffness, ends_, symmetric()});
   }
@@ -381,9 +461,14 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
 }
 
 std::string HermiteMesh::description() const {
-  return std::to_string(n_elements_whole_) + " Hermite elements of " +
-         std::to_string(points_.size()) + " sections" +
-         (symmetric() ? ", one half by symmetry" : "");
+  std::string text = std::to_string(n_elements_whole_) + " Hermite elements of " +
+                     std::to_string(gauss_.size()) + " sections";
+  if (options_.grading.refinement != 1.0) text += ", shorter near the strike";
+  if (!hinges_.empty()) {
+    const std::size_t n = symmetric() ? 2 * hinges_.size() - 1 : hinges_.size();
+    text += n == 1 ? ", one hinge" : ", " + std::to_string(n) + " hinges";
+  }
+  return text + (symmetric() ? ", one half by symmetry" : "");
 }
 
 }  // namespace subimpact

@@ -58,6 +58,14 @@ std::span<const Named<SymmetryUse>> names_of(SymmetryUse) {
   return names;
 }
 
+std::span<const Named<HingeUse>> names_of(HingeUse) {
+  static constexpr Named<HingeUse> names[] = {
+      {HingeUse::automatic, "auto", "at the strike and at clamped ends, if the beam may yield"},
+      {HingeUse::off, "off", "none: the slope is continuous"},
+  };
+  return names;
+}
+
 std::span<const Named<StopRule>> names_of(StopRule) {
   static constexpr Named<StopRule> names[] = {
       {StopRule::end_time, "end", "at time.end"},

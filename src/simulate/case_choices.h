@@ -23,6 +23,7 @@ std::span<const Named<ContactKind>> names_of(ContactKind);
 std::span<const Named<MeshKind>> names_of(MeshKind);
 std::span<const Named<SectionKind>> names_of(SectionKind);
 std::span<const Named<SymmetryUse>> names_of(SymmetryUse);
+std::span<const Named<HingeUse>> names_of(HingeUse);
 std::span<const Named<StopRule>> names_of(StopRule);
 std::span<const Named<Method>> names_of(Method);
 std::span<const Named<MassSolverKind>> names_of(MassSolverKind);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "model/cell_mesh.h"
 #include "subimpact/simulate/simulate.h"
 
@@ -34,6 +36,7 @@ void check_cells(const Case& input) {
 void check_elements(const Case& input) {
   const double elements = input.model.elements;
   const double at = input.scene.striker.position;
+  const double length = input.scene.beam.length;
   const auto& ends = input.scene.beam.ends;
   if (at == 0.0 || at == 1.0) {
     if (ends[at == 0.0 ? 0 : 1] == EndSupport::free) return;
@@ -42,7 +45,17 @@ void check_elements(const Case& input) {
                                   "move the strike inwards",
                                   at));
   }
-  if (at * elements >= 0.5 && (1.0 - at) * elements >= 0.5) return;
+  const ElementGrading grading = grading_of(input);
+  const double before = grading.elements_within(at * length);
+  const double after = grading.elements_within((1.0 - at) * length);
+  if (elements * std::min(before, after) >= 0.5 * (before + after)) return;
+  if (grading.refinement != 1.0) {
+    throw InvalidCase("striker.position",
+                      fmt::format("is {}, closer to an end than half an element, of {} graded "
+                                  "towards the strike; move the strike inwards or use more "
+                                  "elements",
+                                  at, input.model.elements));
+  }
   throw InvalidCase(
       "striker.position",
       fmt::format("is {}, closer to an end than half an element; allowed with {} elements: from "
@@ -51,9 +64,22 @@ void check_elements(const Case& input) {
                   at, input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements));
 }
 
+void check_is_not_graded(const Case& input) {
+  if (input.model.strike_refinement == 1.0) return;
+  throw InvalidCase("model.strike_refinement",
+                    fmt::format("is {:g}, but only elements can be shorter at the strike; allowed "
+                                "with this mesh: 1; leave it out, or set model.mesh = \"hermite\"",
+                                input.model.strike_refinement));
+}
+
 }  // namespace
 
+ElementGrading grading_of(const Case& input) {
+  return {input.model.strike_refinement, input.model.refined_length * input.scene.beam.length};
+}
+
 void check_mesh(const Case& input) {
+  if (input.model.mesh != MeshKind::hermite) check_is_not_graded(input);
   switch (input.model.mesh) {
     case MeshKind::cells:
       return check_cells(input);

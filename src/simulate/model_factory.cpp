@@ -15,6 +15,7 @@
 #include "model/hermite_mesh.h"
 #include "model/modal_mesh.h"
 #include "model/rigid_mesh.h"
+#include "simulate/mesh_checks.h"
 #include "subimpact/simulate/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
 
@@ -123,6 +124,11 @@ std::unique_ptr<BeamMesh> make_cell_mesh(const Case& input) {
                                     half ? CellMesh::Extent::half : CellMesh::Extent::whole);
 }
 
+bool sections_may_yield(const Case& input) {
+  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
+         std::isfinite(input.scene.beam.yield_stress);
+}
+
 std::unique_ptr<BeamMesh> make_hermite_mesh(const Case& input) {
   const bool half = uses_symmetry(input);
   const int elements = input.model.elements;
@@ -137,7 +143,9 @@ std::unique_ptr<BeamMesh> make_hermite_mesh(const Case& input) {
   return std::make_unique<HermiteMesh>(
       input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
       static_cast<std::size_t>(input.model.sections_per_element),
-      half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole);
+      half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole,
+      HermiteMesh::Options{grading_of(input), input.model.hinges == HingeUse::automatic &&
+                                                  sections_may_yield(input)});
 }
 
 std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
@@ -169,10 +177,7 @@ bool in_modes(const Case& input, const BeamMesh& mesh) {
 
 SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {
   const Beam& beam = input.scene.beam;
-  if (input.model.section == SectionKind::elastic || input.model.mesh == MeshKind::rigid ||
-      std::isinf(beam.yield_stress)) {
-    return SectionField(n, beam.bending_stiffness());
-  }
+  if (!sections_may_yield(input)) return SectionField(n, beam.bending_stiffness());
   const Fibres fibres = input.model.section == SectionKind::layers
                             ? Fibres::layered(input.model.layers)
                             : Fibres::continuous();

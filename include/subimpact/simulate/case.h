@@ -28,11 +28,20 @@ enum class MeshKind {
 /// Whether a scene that is symmetric about mid-span is modelled by one half.
 enum class SymmetryUse { automatic, off };
 
+/// Whether a Hermite mesh has hinges where a beam that yields bends most.
+enum class HingeUse {
+  automatic,  ///< at the strike and at clamped ends, where the beam may yield
+  off
+};
+
 struct ModelOptions {
   MeshKind mesh = MeshKind::cells;
   int segments = 501;            ///< cells
   int elements = 200;            ///< Hermite elements
   int sections_per_element = 2;  ///< of Hermite elements
+  HingeUse hinges = HingeUse::automatic;
+  double strike_refinement = 1.0;  ///< far elements' length over that of those at the strike
+  double refined_length = 0.05;    ///< either side of the strike, as a fraction of the length
   SectionKind section = SectionKind::exact;
   int layers = 40;
   SymmetryUse symmetry = SymmetryUse::automatic;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace subimpact {
+
+/// The sections of a Hermite element, whose curvature is mean + eta half, eta in [-1, 1]: where
+/// they stand, what they weigh, and what each sees of the curvature.
+struct ElementRule {
+  std::vector<double> points;   ///< eta
+  std::vector<double> weights;  ///< shares of the element's length
+  /// kappa of a section = of_curvature[0] mean + of_curvature[1] half.
+  std::vector<std::array<double, 2>> of_curvature;
+
+  std::size_t size() const { return points.size(); }
+};
+
+/// Gauss points: 2 to 4; two integrate the elastic stiffness exactly. Throws std::invalid_argument
+/// for any other number.
+ElementRule gauss_rule(std::size_t n);
+
+/// The length of a hinge, as a share of the elements beside it: each gives it as much of its own.
+constexpr double hinge_share = 0.05;
+
+/// Two sections of an element with a hinge at its start, its end, or both. Under a concentrated
+/// force the moment has a peak; where it comes near the plastic moment, curvatures grow as the
+/// inverse root of the distance and at last a hinge turns. No linear curvature follows either. So a
+/// section at the node turns by itself, and the two others see
+///
+///     sum w M = mean of M,  sum w eta M = mean of eta M   for every linear M,
+///
+/// that is, two unknowns of the element's curvature find the very moments of a linear moment in two
+/// sections, whatever their law. With the hinge's share of the weights the three integrate any
+/// quadratic, so that elastic sections bend as they should, and without it x^(-1/2), x the distance
+/// from the hinge.
+ElementRule rule_beside_hinges(bool at_start, bool at_end);
+
+}  // namespace subimpact
