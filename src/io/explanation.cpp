@@ -35,6 +35,7 @@ std::string mesh_text(const Case& input, const Used& used) {
     case MeshKind::cells:
       return fmt::format("{}; cells of {:.6g} mm", used.mesh, length / input.model.segments);
     case MeshKind::hermite:
+      if (input.model.strike_refinement != 1.0) return used.mesh;
       return fmt::format("{}; elements of {:.6g} mm", used.mesh, length / input.model.elements);
     case MeshKind::rigid:
       break;

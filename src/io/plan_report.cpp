@@ -24,6 +24,10 @@ std::string settings_text(const PlanPoint& point) {
   text += model.mesh == MeshKind::cells
               ? fmt::format(" --set model.mesh=cells --set model.segments={}", model.segments)
               : fmt::format(" --set model.mesh=hermite --set model.elements={}", model.elements);
+  if (model.strike_refinement != 1.0 && model.mesh == MeshKind::hermite) {
+    text += fmt::format(" --set model.strike_refinement={:g} --set model.refined_length={:g}",
+                        model.strike_refinement, model.refined_length);
+  }
   text += fmt::format(" --set model.section={}", name_of(model.section));
   text += fmt::format(" --set solver.{}={:.6g}", point.run.setting.fixed_step ? "step" : "rtol",
                       point.run.setting.value);

@@ -21,9 +21,8 @@ ElementRule gauss_points(std::size_t n) {
       const double inner = std::sqrt((3.0 - 2.0 * root) / 7.0);
       const double outer = std::sqrt((3.0 + 2.0 * root) / 7.0);
       const double part = std::sqrt(30.0) / 72.0;
-      return {{-outer, -inner, inner, outer},
-              {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part},
-              {}};
+      return {
+          {-outer, -inner, inner, outer}, {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part}, {}};
     }
     default:
       throw std::invalid_argument("hermite mesh: 2, 3 or 4 sections an element");

@@ -33,8 +33,8 @@ constexpr double hinge_share = 0.05;
 ///
 /// that is, two unknowns of the element's curvature find the very moments of a linear moment in two
 /// sections, whatever their law. With the hinge's share of the weights the three integrate any
-/// quadratic, so that elastic sections bend as they should, and without it x^(-1/2), x the distance
-/// from the hinge.
+/// quadratic, so that an elastic beam bends as it should under linear moments; the two alone
+/// integrate x^(-1/2), x the distance from the hinge (not between two hinges).
 ElementRule rule_beside_hinges(bool at_start, bool at_end);
 
 }  // namespace subimpact

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -53,9 +54,8 @@ Eigen::Matrix4d element_mass(double a, double h, double mass_per_length, double 
 
 HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
                          std::size_t sections_per_element, Extent extent, const Options& options)
-    : BeamMesh(
-          count_unknowns(beam, position, n_elements, extent == Extent::half, options.hinges), 3,
-          extent == Extent::half),
+    : BeamMesh(count_unknowns(beam, position, n_elements, extent == Extent::half, options.hinges),
+               3, extent == Extent::half),
       n_elements_whole_(n_elements),
       n_elements_(symmetric() ? n_elements / 2 : n_elements),
       slope_unit_(beam.length / static_cast<double>(n_elements)),
@@ -463,7 +463,13 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
 std::string HermiteMesh::description() const {
   std::string text = std::to_string(n_elements_whole_) + " Hermite elements of " +
                      std::to_string(gauss_.size()) + " sections";
-  if (options_.grading.refinement != 1.0) text += ", shorter near the strike";
+  if (options_.grading.refinement != 1.0) {
+    const auto [shortest, longest] = std::minmax_element(lengths_.begin(), lengths_.end());
+    char range[64];
+    std::snprintf(range, sizeof range, ", from %.4g to %.4g mm long", 1e3 * *shortest,
+                  1e3 * *longest);
+    text += range;
+  }
   if (!hinges_.empty()) {
     const std::size_t n = symmetric() ? 2 * hinges_.size() - 1 : hinges_.size();
     text += n == 1 ? ", one hinge" : ", " + std::to_string(n) + " hinges";

@@ -32,7 +32,8 @@ namespace subimpact {
 ///
 ///     kappa = (t_+ - t_-)/L,  L = hinge_share (a_- + a_+),
 ///
-/// which is taken from the elements beside it (rule_beside_hinges). Unknowns there: h t_-, w, h t_+.
+/// which is taken from the elements beside it (rule_beside_hinges). Unknowns there: h t_-, w, h
+/// t_+.
 class HermiteMesh final : public BeamMesh {
  public:
   enum class Extent { whole, half };
@@ -131,7 +132,7 @@ class HermiteMesh final : public BeamMesh {
   double rotary_inertia_;
   std::array<EndSupport, 2> ends_;
   Options options_;
-  double copies_;            // 2 where the mirrored half is folded in
+  double copies_;  // 2 where the mirrored half is folded in
   std::size_t struck_node_;
   std::vector<double> lengths_;
   std::vector<Node> nodes_;

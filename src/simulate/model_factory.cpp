@@ -144,8 +144,8 @@ std::unique_ptr<BeamMesh> make_hermite_mesh(const Case& input) {
       input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
       static_cast<std::size_t>(input.model.sections_per_element),
       half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole,
-      HermiteMesh::Options{grading_of(input), input.model.hinges == HingeUse::automatic &&
-                                                  sections_may_yield(input)});
+      HermiteMesh::Options{grading_of(input),
+                           input.model.hinges == HingeUse::automatic && sections_may_yield(input)});
 }
 
 std::unique_ptr<BeamMesh> make_mesh(const Case& input) {

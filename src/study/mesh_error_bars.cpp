@@ -74,7 +74,8 @@ std::optional<int> mesh_order(const Case& input) {
     case MeshKind::cells:
       return 2;
     case MeshKind::hermite:
-      return may_yield(input) ? 1 : 4;
+      if (!may_yield(input)) return 4;
+      return input.model.hinges == HingeUse::off ? 1 : 2;
     case MeshKind::rigid:
       break;
   }

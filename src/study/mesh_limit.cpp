@@ -38,6 +38,7 @@ struct Sequence {
 Sequence sequence_of(const Case& input, MeshKind kind) {
   Case base = accurate(input);
   base.model.mesh = kind;
+  if (kind != MeshKind::hermite) base.model.strike_refinement = 1.0;
   if (base.model.section == SectionKind::layers) base.model.section = SectionKind::exact;
   Sequence sequence;
   sequence.order = mesh_order(base).value_or(0);
@@ -130,8 +131,8 @@ MeshLimit limit_of(const Sequence& sequence, double end_time, double largest_err
 }  // namespace
 
 MeshLimit mesh_limit(const Case& input, double largest_error) {
-  std::vector<Sequence> sequences = {sequence_of(input, MeshKind::cells)};
-  if (!may_yield(input)) sequences.push_back(sequence_of(input, MeshKind::hermite));
+  std::vector<Sequence> sequences = {sequence_of(input, MeshKind::cells),
+                                     sequence_of(input, MeshKind::hermite)};
   MeshLimit best;
   std::vector<FirstEndLimit> first_end;
   for (const Sequence& sequence : sequences) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -19,8 +20,8 @@ namespace {
 using Extent = HermiteMesh::Extent;
 constexpr EndSupport all_ends[] = {EndSupport::free, EndSupport::pinned, EndSupport::clamped};
 
-// Meshes of every shape: theories, supports, whole and half, strikes in the middle, aside and at
-// free ends, few and many elements and sections.
+// Meshes of every shape: hinges, gradings, theories, supports, whole and half, strikes in the
+// middle, aside and at free ends, few and many elements and sections.
 std::vector<HermiteMesh> meshes() {
   std::vector<HermiteMesh> all;
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
@@ -39,6 +40,21 @@ std::vector<HermiteMesh> meshes() {
           if (first == second) all.emplace_back(beam, 0.5, 12, sections, Extent::half);
           if (first == EndSupport::free) all.emplace_back(beam, 0.0, 6, sections, Extent::whole);
           if (second == EndSupport::free) all.emplace_back(beam, 1.0, 6, sections, Extent::whole);
+          // With hinges, alike and graded, and with both.
+          for (const HermiteMesh::Options& options :
+               {HermiteMesh::Options{{}, true}, HermiteMesh::Options{{5.0, 0.1}, false},
+                HermiteMesh::Options{{3.0, 0.2}, true}}) {
+            for (const std::size_t n : {4u, 5u, 12u}) {
+              for (const double position : {0.2, 0.5, 0.77}) {
+                all.emplace_back(beam, position, n, sections, Extent::whole, options);
+              }
+            }
+            if (first == second) all.emplace_back(beam, 0.5, 4, sections, Extent::half, options);
+            if (first == second) all.emplace_back(beam, 0.5, 12, sections, Extent::half, options);
+            if (second == EndSupport::free) {
+              all.emplace_back(beam, 1.0, 6, sections, Extent::whole, options);
+            }
+          }
         }
       }
     }
@@ -114,9 +130,10 @@ TEST(HermiteMesh, SectionsWeighTheWholeBeamAndStandInOrder) {
     const auto positions = mesh.section_positions();
     const double length = paper_beam().length;
     EXPECT_NEAR(std::accumulate(weights.begin(), weights.end(), 0.0), length, 1e-14);
+    for (const double weight : weights) EXPECT_GT(weight, 0.0);
     for (std::size_t i = 1; i < positions.size(); ++i) EXPECT_GT(positions[i], positions[i - 1]);
-    EXPECT_GT(positions.front(), 0.0);
-    EXPECT_LT(positions.back(), length);
+    EXPECT_GE(positions.front(), 0.0);
+    EXPECT_LE(positions.back(), length * (1.0 + 1e-15));
   }
 }
 
@@ -242,6 +259,134 @@ TEST(HermiteMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
       EXPECT_NEAR(kappa[i], both_kappa[both_kappa.size() - 1 - i], 1e-10);
     }
   }
+}
+
+// The displacement of the struck point under unit force there, of an elastic beam.
+double compliance(const HermiteMesh& mesh, double bending_stiffness) {
+  const Eigen::MatrixXd stiffness = stiffness_matrix(mesh, bending_stiffness);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(stiffness.rows());
+  mesh.struck_point().add_to(entries(load), 1.0);
+  const Eigen::VectorXd answer = stiffness.ldlt().solve(load);
+  return mesh.struck_point()(entries(answer));
+}
+
+// Moments are linear between force and supports: a patch test of forces, hinges and gradings.
+TEST(HermiteMesh, DeflectsUnderAPointForceAsABeamWhateverItsHingesAndGrading) {
+  Beam beam = paper_beam();
+  const double stiffness = beam.bending_stiffness();
+  const double l = beam.length;
+  const double a = 0.3 * l;
+  const double b = 0.7 * l;
+  struct Expected {
+    EndSupport first, second;
+    double compliance;
+  };
+  const Expected table[] = {
+      {EndSupport::clamped, EndSupport::free, a * a * a / 3.0},
+      {EndSupport::pinned, EndSupport::pinned, a * a * b * b / (3.0 * l)},
+      {EndSupport::clamped, EndSupport::clamped, a * a * a * b * b * b / (3.0 * l * l * l)},
+      {EndSupport::clamped, EndSupport::pinned,
+       a * a * a * b * b * (3.0 * l + b) / (12.0 * l * l * l)},
+  };
+  for (const Expected& expected : table) {
+    beam.ends = {expected.first, expected.second};
+    for (const bool hinges : {false, true}) {
+      for (const double refinement : {1.0, 3.0}) {
+        for (const std::size_t n : {4u, 5u, 20u}) {
+          const HermiteMesh mesh(beam, 0.3, n, 2, Extent::whole, {{refinement, 0.2 * l}, hinges});
+          EXPECT_NEAR(compliance(mesh, stiffness) * stiffness, expected.compliance,
+                      1e-9 * expected.compliance)
+              << mesh.description() << ", ends " << static_cast<int>(expected.first)
+              << static_cast<int>(expected.second);
+        }
+      }
+    }
+  }
+  beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  const HermiteMesh half(beam, 0.5, 12, 2, Extent::half, {{2.0, 0.1}, true});
+  EXPECT_NEAR(compliance(half, stiffness) * stiffness, l * l * l / 192.0, 1e-9 * l * l * l);
+}
+
+TEST(HermiteMesh, GradedHasShortElementsAtTheStrikeAndTheNodesOfTheCoarserMesh) {
+  const Beam beam = paper_beam();
+  const ElementGrading grading{8.0, 0.1};
+  for (const double position : {0.5, 0.4}) {
+    const HermiteMesh coarse(beam, position, 100, 2, Extent::whole, {grading, false});
+    const HermiteMesh fine(beam, position, 200, 2, Extent::whole, {grading, true});
+    const auto lengths = coarse.element_lengths();
+    const auto halves = fine.element_lengths();
+    EXPECT_NEAR(std::accumulate(lengths.begin(), lengths.end(), 0.0), beam.length, 1e-14);
+    const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
+    EXPECT_NEAR(*longest / *shortest, 8.0, 1.0);
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      EXPECT_NEAR(halves[2 * i] + halves[2 * i + 1], lengths[i], 1e-14);
+      if (i == 0) continue;
+      const double growth = std::max(lengths[i] / lengths[i - 1], lengths[i - 1] / lengths[i]);
+      EXPECT_LT(growth, 1.12);
+    }
+    // The shortest are those at the strike.
+    double end = 0.0;
+    for (std::size_t i = 0; end < position * beam.length - 1e-9; ++i) {
+      end += lengths[i];
+      if (i > 0) {
+        EXPECT_LE(lengths[i], lengths[i - 1] * (1.0 + 1e-12));
+      }
+    }
+    EXPECT_NEAR(end, position * beam.length, 1e-12);
+  }
+}
+
+TEST(HermiteMesh, AHingeTakesOneUnknownMoreAndTurnsByItself) {
+  const Beam beam = paper_beam();
+  for (const Extent extent : {Extent::half, Extent::whole}) {
+    const HermiteMesh without(beam, 0.5, 20, 2, extent);
+    const HermiteMesh with(beam, 0.5, 20, 2, extent, {{}, true});
+    EXPECT_EQ(with.n_unknowns(), without.n_unknowns() + 1);
+    const double length = 2.0 * hinge_share * beam.length / 20;
+    const std::size_t hinge = with.struck_section();
+    EXPECT_NEAR(with.section_positions()[hinge], 0.5 * beam.length, 1e-15);
+    EXPECT_NEAR(with.section_weights()[hinge], length, 1e-15);
+    // Two rigid halves, w = -angle |x - l/2|/2, turn against each other in the hinge alone.
+    const double angle = 0.02;
+    const double h = beam.length / 20;
+    std::vector<double> q;
+    for (std::size_t i = 0; i <= (extent == Extent::half ? 10 : 20); ++i) {
+      const double x = h * static_cast<double>(i) - 0.5 * beam.length;
+      const double w = 0.5 * angle * std::abs(x);
+      if (i == 10) q.push_back(-0.5 * angle * h);
+      q.push_back(w);
+      if (i == 10 && extent == Extent::half) break;
+      q.push_back(i < 10 ? -0.5 * angle * h : 0.5 * angle * h);
+    }
+    ASSERT_EQ(q.size(), with.n_unknowns());
+    std::vector<double> kappa(with.n_sections());
+    with.curvatures(q, kappa);
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      EXPECT_NEAR(kappa[i], i == hinge ? angle / length : 0.0, 1e-11) << i;
+    }
+  }
+}
+
+TEST(ARuleBesideAHinge, IntegratesWithTheHingeAnyQuadraticAndWithoutItTheInverseRoot) {
+  const ElementRule rule = rule_beside_hinges(true, false);
+  const ElementRule mirrored = rule_beside_hinges(false, true);
+  double unit = hinge_share;
+  double first = 0.0;
+  double second = 0.0;
+  double inverse_root = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double x = 0.5 * (1.0 + rule.points[i]);
+    unit += rule.weights[i];
+    first += rule.weights[i] * x;
+    second += rule.weights[i] * x * x;
+    inverse_root += rule.weights[i] / std::sqrt(x);
+    EXPECT_NEAR(mirrored.points[1 - i], -rule.points[i], 1e-15);
+    EXPECT_NEAR(mirrored.weights[1 - i], rule.weights[i], 1e-15);
+  }
+  EXPECT_NEAR(unit, 1.0, 1e-14);
+  EXPECT_NEAR(first, 1.0 / 2.0, 1e-14);
+  EXPECT_NEAR(second, 1.0 / 3.0, 1e-14);
+  EXPECT_NEAR(inverse_root, 2.0, 1e-12);
 }
 
 TEST(HermiteMesh, HasANodeAtTheStrikeAndASectionBesideIt) {

@@ -130,6 +130,56 @@ TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
   EXPECT_GT(median, 1.0);
 }
 
+// The paper's example with exact sections in the limit of fine meshes, us: from 4003 and 8007
+// cells, to 0.02 us (grazing starts 0.05).
+constexpr double yielding_limit[][2] = {{0.000, 201.471},   {203.299, 216.261}, {222.386, 275.651},
+                                        {290.740, 314.837}, {347.832, 371.940}, {428.736, 460.403},
+                                        {552.670, 567.946}, {572.759, 588.389}, {785.357, 796.643}};
+
+// On elements with hinges, companions have hinges and grading, too.
+TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
+  int n_events = 0;
+  int n_covered = 0;
+  std::vector<double> ratios;
+  for (const double refinement : {1.0, 4.0}) {
+    for (const int elements : {120, 200}) {
+      Case input = on_elements(scene(SectionKind::exact, 0.84e-3), elements);
+      input.model.strike_refinement = refinement;
+      const Result result = simulate_with_all_error_bars(input);
+      const auto& here = result.sub_impacts;
+      const std::size_t n = result.trust->first_undecided.value_or(here.size());
+      double largest = 0.0;
+      double stated = 0.0;
+      const auto judge = [&](double bar, double error) {
+        ++n_events;
+        n_covered += error <= bar;
+        largest = std::max(largest, error);
+        stated = std::max(stated, bar);
+        ratios.push_back(bar / error);
+      };
+      for (std::size_t i = 0; i < std::min<std::size_t>(n, 9); ++i) {
+        const auto [start, end] = yielding_limit[i];
+        if (i > 0) judge(1e6 * *here[i].start_error, std::abs(1e6 * here[i].start - start));
+        judge(1e6 * *here[i].end_error, std::abs(1e6 * *here[i].end - end));
+      }
+      printf("%d elements, refinement %.0f: %zu decided, true error up to %.3f us, stated %.3f\n",
+             elements, refinement, n, largest, stated);
+      // Equal elements leave the short opening near 201.5 us in doubt, graded ones nothing.
+      if (refinement > 1.0) {
+        EXPECT_EQ(n, here.size());
+      }
+      EXPECT_NE(result.trust->companion.find("elements"), std::string::npos);
+    }
+  }
+  std::sort(ratios.begin(), ratios.end());
+  const double median = ratios[ratios.size() / 2];
+  printf("%d of %d event times covered, median stated/true %.1f\n", n_covered, n_events, median);
+  EXPECT_GE(n_events, 30);
+  EXPECT_GE(n_covered, 0.95 * n_events);
+  EXPECT_LT(median, 16.0);
+  EXPECT_GT(median, 1.0);
+}
+
 TEST(PartsOfErrors, AddUpAndNameTheirCompanions) {
   Case input = scene(SectionKind::layers, 0.2e-3, 101);
   const Result result = simulate_with_all_error_bars(input);
@@ -182,6 +232,11 @@ TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
   EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input) % 2, 0);
   EXPECT_EQ(mesh_order(input), 4);
   input.model.section = SectionKind::exact;
+  EXPECT_EQ(mesh_order(input), 2);
+  input.model.strike_refinement = 4.0;
+  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.strike_refinement, 4.0);
+  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.refined_length, input.model.refined_length);
+  input.model.hinges = HingeUse::off;
   EXPECT_EQ(mesh_order(input), 1);
   input.model.elements = 4;
   EXPECT_FALSE(on_other_mesh(input, 0.5).has_value());

@@ -30,12 +30,12 @@ namespace subimpact {
 Result simulate_with_all_error_bars(const Case& input, const Progress& progress = {});
 
 /// The order at which event times of a case converge with its mesh: cells 2; Hermite elements 4,
-/// but 1 where sections may yield; nothing for a rigid beam.
+/// but where sections may yield 2, without hinges 1; nothing for a rigid beam.
 std::optional<int> mesh_order(const Case& input);
 
 /// The same case on a mesh with `factor` times as many cells or elements, as nearly as the mesh
-/// allows; nothing for a rigid beam or where too few would be left. A fixed step beyond the finer
-/// mesh's limit is reduced to 0.9 of it.
+/// allows, of the same grading; nothing for a rigid beam or where too few would be left. A fixed
+/// step beyond the finer mesh's limit is reduced to 0.9 of it.
 std::optional<Companion> on_other_mesh(const Case& input, double factor);
 
 /// Its cells or elements over the whole length; 1 for a rigid beam.

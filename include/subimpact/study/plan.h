@@ -40,8 +40,8 @@ struct MeshLimit {
   std::vector<MeshRun> runs;             ///< every mesh, coarse to fine, cells first
 };
 
-/// Meshes of a quarter, half, the whole, twice and four times the case's size, of cells and, where
-/// the beam stays elastic, of Hermite elements; those whose times converge closest tell the limit.
+/// Meshes of a quarter, half, the whole, twice and four times the case's size, of cells and
+/// of Hermite elements; those whose times converge closest tell the limit.
 /// For layers it is the limit of the exact section, so that errors hold the layers' share. With
 /// meshes in the ratio r, times t1, t2, t3 from coarse to fine and the order p of the mesh,
 ///
