@@ -11,6 +11,7 @@
 
 #include "paper_scene.h"
 #include "subimpact/study/match.h"
+#include "yielding_limit.h"
 
 namespace subimpact {
 namespace {
@@ -130,12 +131,6 @@ TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
   EXPECT_GT(median, 1.0);
 }
 
-// The paper's example with exact sections in the limit of fine meshes, us: from 4003 and 8007
-// cells, to 0.02 us (grazing starts 0.05).
-constexpr double yielding_limit[][2] = {{0.000, 201.471},   {203.299, 216.261}, {222.386, 275.651},
-                                        {290.740, 314.837}, {347.832, 371.940}, {428.736, 460.403},
-                                        {552.670, 567.946}, {572.759, 588.389}, {785.357, 796.643}};
-
 // On elements with hinges, companions have hinges and grading, too.
 TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
   int n_events = 0;
@@ -158,7 +153,7 @@ TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
         ratios.push_back(bar / error);
       };
       for (std::size_t i = 0; i < std::min<std::size_t>(n, 9); ++i) {
-        const auto [start, end] = yielding_limit[i];
+        const auto [start, end] = yielding_limit_us[i];
         if (i > 0) judge(1e6 * *here[i].start_error, std::abs(1e6 * here[i].start - start));
         judge(1e6 * *here[i].end_error, std::abs(1e6 * *here[i].end - end));
       }

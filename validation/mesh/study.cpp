@@ -1,5 +1,6 @@
 // What the mesh costs and what it leaves wrong: cells and Hermite elements on the paper's example,
-// elastic and yielding. Writes convergence.csv, limits.csv and the figure beside this file.
+// elastic and yielding, elements with and without hinges and graded. Writes convergence.csv,
+// limits.csv and the figure beside this file.
 
 #include <fmt/format.h>
 
@@ -26,7 +27,30 @@ using namespace subimpact;
 constexpr double us = 1e6;
 constexpr double horizon = 0.84e-3;  // s: sub-impacts 1 to 9 of the elastic beam
 
-Case example(MeshKind mesh, int count, SectionKind section, double end_time) {
+// Kinds of meshes side by side.
+enum class Kind { cells, without_hinges, elements, graded };
+
+struct KindName {
+  Kind kind;
+  const char* name;   // in tables and in the figure's data
+  const char* title;  // in the figure's key
+};
+constexpr KindName kinds[] = {
+    {Kind::cells, "cells", "cells"},
+    {Kind::without_hinges, "without_hinges", "elements without hinges"},
+    {Kind::elements, "elements", "elements"},
+    {Kind::graded, "graded", "elements graded towards the strike"},
+};
+constexpr double refinement = 4.0;  // of graded elements, over the default length
+
+const char* name_of(Kind kind) {
+  for (const KindName& k : kinds) {
+    if (k.kind == kind) return k.name;
+  }
+  return "";
+}
+
+Case example(Kind kind, int count, SectionKind section, double end_time) {
   Case input;
   input.scene.beam = {.length = 0.7112,
                       .width = 0.0163,
@@ -37,8 +61,10 @@ Case example(MeshKind mesh, int count, SectionKind section, double end_time) {
   input.scene.striker.mass = 0.201;
   input.scene.striker.nose_radius = 0.01;
   input.scene.striker.velocity = 15.9;
-  input.model.mesh = mesh;
-  (mesh == MeshKind::cells ? input.model.segments : input.model.elements) = count;
+  input.model.mesh = kind == Kind::cells ? MeshKind::cells : MeshKind::hermite;
+  (kind == Kind::cells ? input.model.segments : input.model.elements) = count;
+  if (kind == Kind::without_hinges) input.model.hinges = HingeUse::off;
+  if (kind == Kind::graded) input.model.strike_refinement = refinement;
   input.model.section = section;
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-9;
@@ -56,34 +82,38 @@ struct Point {
   std::string section, mesh;
   int count;
   std::size_t unknowns;
-  double error, first_error, seconds;  // s
+  double error, median, first_error, seconds;  // s
 };
 
 std::vector<Point> converge(SectionKind section, const std::vector<SubImpact>& limit) {
   std::vector<Point> points;
   const char* name = section == SectionKind::elastic ? "elastic" : "exact";
-  const auto add = [&](MeshKind mesh, int count) {
+  const auto add = [&](Kind kind, int count) {
     const auto start = std::chrono::steady_clock::now();
-    const Result result = simulate(example(mesh, count, section, horizon));
+    const Result result = simulate(example(kind, count, section, horizon));
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     const EventErrors errors = event_errors(result.sub_impacts, limit);
-    points.push_back({name, mesh == MeshKind::cells ? "cells" : "hermite", count,
-                      result.used.n_unknowns, errors.overall(), errors.first, taken.count()});
+    points.push_back({name, name_of(kind), count, result.used.n_unknowns, errors.overall(),
+                      errors.median, errors.first, taken.count()});
     const Point& p = points.back();
-    fmt::print("{:8} {:8} {:6} {:6} {:12.3e} {:12.3e} {:10.3f}\n", p.section, p.mesh, p.count,
-               p.unknowns, p.error * us, p.first_error * us, p.seconds);
+    fmt::print("{:8} {:15} {:6} {:6} {:12.3e} {:12.3e} {:12.3e} {:10.3f}\n", p.section, p.mesh,
+               p.count, p.unknowns, p.error * us, p.median * us, p.first_error * us, p.seconds);
     std::fflush(stdout);
   };
-  for (const int n : {251, 501, 1001, 1415, 2001, 2829}) add(MeshKind::cells, n);
-  for (const int n : {100, 140, 200, 280, 400, 566, 800}) {
-    if (section == SectionKind::elastic && n > 400) break;  // the limit's own error shows
-    add(MeshKind::hermite, n);
+  for (const int n : {251, 501, 1001, 1415, 2001, 2829}) add(Kind::cells, n);
+  const bool elastic = section == SectionKind::elastic;
+  for (const Kind kind : {Kind::without_hinges, Kind::elements, Kind::graded}) {
+    if (elastic && kind == Kind::without_hinges) continue;  // there are none
+    for (const int n : {70, 100, 140, 200, 280, 400, 566, 800}) {
+      if (elastic && n > 400) break;  // the limit's own error shows
+      add(kind, n);
+    }
   }
   return points;
 }
 
 std::vector<SubImpact> elastic_limit() {
-  Case finest = example(MeshKind::hermite, 800, SectionKind::elastic, horizon);
+  Case finest = example(Kind::elements, 800, SectionKind::elastic, horizon);
   finest.solver.method = Method::exponential;
   finest.solver.rtol = 1e-11;
   return simulate(finest).sub_impacts;
@@ -120,9 +150,10 @@ std::optional<std::pair<double, double>> needed(const std::vector<Point>& points
 
 void print_needed(const std::vector<Point>& points) {
   for (const double wanted : {1e-6, 1e-7}) {
-    for (const char* mesh : {"cells", "hermite"}) {
-      const auto found = needed(points, mesh, wanted);
-      fmt::print("{:8} within {:.1f} us: {:8} {}\n", points.front().section, wanted * us, mesh,
+    for (const KindName& kind : kinds) {
+      const auto found = needed(points, kind.name, wanted);
+      fmt::print("{:8} within {:.1f} us: {:15} {}\n", points.front().section, wanted * us,
+                 kind.name,
                  found ? fmt::format("{:.0f} unknowns, {:.2f} s", found->first, found->second)
                        : std::string("not reached"));
     }
@@ -130,6 +161,9 @@ void print_needed(const std::vector<Point>& points) {
 }
 
 // --- limits of the yielding example -------------------------------------------------------------
+
+const std::vector<int> limit_cells{1001, 2001, 4001};
+const std::vector<int> limit_elements{200, 400, 800};
 
 struct Quantity {
   const char* name;
@@ -166,33 +200,58 @@ const Quantity quantities[] = {
      }},
 };
 
-void write_limits(const std::string& directory, const std::vector<Result>& runs,
-                  const std::vector<int>& counts) {
+struct Estimate {
+  double value, doubt;  // us
+  std::vector<double> times;
+  double ratio;  // of successive differences
+};
+
+Estimate estimate(const Quantity& quantity, const std::vector<Result>& runs) {
+  std::vector<double> t;
+  for (const Result& run : runs) t.push_back(quantity.of(run).value_or(NAN) * us);
+  const std::size_t n = t.size();
+  const double limit = extrapolated(t[n - 2], t[n - 1]);
+  const double ratio = (t[n - 3] - t[n - 2]) / (t[n - 2] - t[n - 1]);
+  // At a ratio near 4, second order, the extrapolation is trusted to its own size; else the finest
+  // mesh to the last two differences.
+  if (ratio > 2.5 && ratio < 6.5) return {limit, std::abs(limit - t[n - 1]), t, ratio};
+  const double spread = std::max(std::abs(t[n - 1] - t[n - 2]), std::abs(t[n - 2] - t[n - 3]));
+  return {t[n - 1], spread, t, ratio};
+}
+
+// Two sequences of meshes that have nothing in common. The limit is that of the sequence with the
+// smaller doubt; its uncertainty is no smaller than what the two differ by.
+void write_limits(const std::string& directory, const std::vector<Result>& on_cells,
+                  const std::vector<Result>& on_elements) {
   std::ofstream csv(directory + "/limits.csv");
   std::string head = "quantity";
-  for (const int n : counts) head += fmt::format(",cells_{}_us", n);
-  csv << head << ",limit_us,uncertainty_us,differences_ratio\n";
+  for (const int n : limit_cells) head += fmt::format(",cells_{}_us", n);
+  for (const int n : limit_elements) head += fmt::format(",graded_{}_us", n);
+  csv << head
+      << ",cells_limit_us,cells_doubt_us,graded_limit_us,graded_doubt_us,limit_us,"
+         "uncertainty_us\n";
   fmt::print("\nyielding example (section exact), us\n");
   for (const Quantity& quantity : quantities) {
-    std::vector<double> t;
-    for (const Result& run : runs) t.push_back(quantity.of(run).value_or(NAN) * us);
-    const std::size_t n = t.size();
-    const double limit = extrapolated(t[n - 2], t[n - 1]);
-    const double ratio = (t[n - 3] - t[n - 2]) / (t[n - 2] - t[n - 1]);
-    // At a ratio near 4, the order of cells, the extrapolation is trusted to its own size; else to
-    // the last two differences.
-    const bool orderly = ratio > 2.5 && ratio < 6.5;
-    const double doubt =
-        orderly ? std::abs(limit - t[n - 1])
-                : std::max(std::abs(t[n - 1] - t[n - 2]), std::abs(t[n - 2] - t[n - 3]));
+    const Estimate a = estimate(quantity, on_cells);
+    const Estimate b = estimate(quantity, on_elements);
+    const double limit = a.doubt < b.doubt ? a.value : b.value;
+    const double apart = std::abs(a.value - b.value);
+    const double uncertainty = std::max(apart, std::min(a.doubt, b.doubt));
     std::string row = quantity.name;
-    for (const double x : t) row += fmt::format(",{:.4f}", x);
-    csv << row << fmt::format(",{:.4f},{:.4f},{:.2f}\n", limit, doubt, ratio);
-    fmt::print("{:22} {:10.3f} +- {:.3f}   (differences in the ratio {:.1f})\n", quantity.name,
-               limit, doubt, ratio);
+    for (const double x : a.times) row += fmt::format(",{:.4f}", x);
+    for (const double x : b.times) row += fmt::format(",{:.4f}", x);
+    csv << row
+        << fmt::format(",{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", a.value, a.doubt, b.value,
+                       b.doubt, limit, uncertainty);
+    fmt::print(
+        "{:22} {:10.4f} +- {:.4f}   cells {:.4f} +- {:.4f} (ratio {:.1f}), elements {:.4f} +- "
+        "{:.4f} (ratio {:.1f})\n",
+        quantity.name, limit, uncertainty, a.value, a.doubt, a.ratio, b.value, b.doubt, b.ratio);
   }
   std::string impacts;
-  for (const Result& run : runs) impacts += fmt::format(" {}", run.sub_impacts.size());
+  for (const Result& run : on_cells) impacts += fmt::format(" {}", run.sub_impacts.size());
+  impacts += ";";
+  for (const Result& run : on_elements) impacts += fmt::format(" {}", run.sub_impacts.size());
   fmt::print("sub-impacts:{}\n", impacts);
 }
 
@@ -200,10 +259,11 @@ void write_limits(const std::string& directory, const std::vector<Result>& runs,
 
 void write_points(const std::string& directory, const std::vector<Point>& points) {
   std::ofstream csv(directory + "/convergence.csv");
-  csv << "section,mesh,count,unknowns,max_error_us,first_separation_error_us,wall_s\n";
+  csv << "section,mesh,count,unknowns,max_error_us,median_error_us,"
+         "first_separation_error_us,wall_s\n";
   for (const Point& p : points) {
-    csv << fmt::format("{},{},{},{},{:.4e},{:.4e},{:.4f}\n", p.section, p.mesh, p.count, p.unknowns,
-                       p.error * us, p.first_error * us, p.seconds);
+    csv << fmt::format("{},{},{},{},{:.4e},{:.4e},{:.4e},{:.4f}\n", p.section, p.mesh, p.count,
+                       p.unknowns, p.error * us, p.median * us, p.first_error * us, p.seconds);
   }
 }
 
@@ -218,24 +278,28 @@ void draw(const std::string& directory, const std::vector<Point>& points) {
     }
     script += "EOD\n";
   };
+  const auto plot = [&](const std::string& section, const std::string& title) {
+    script += fmt::format("set title '{}'\nplot ", title);
+    int style = 0;
+    for (const KindName& kind : kinds) {
+      ++style;
+      if (section == "elastic" && kind.kind == Kind::without_hinges) continue;
+      script += fmt::format("${}_{} using 1:2 with linespoints lw 2 lt {} title '{}', ", section,
+                            kind.name, style, kind.title);
+    }
+    script += "1 with lines dt 2 lc 'grey40' notitle, 0.1 with lines dt 2 lc 'grey40' notitle\n";
+  };
   for (const char* section : {"elastic", "exact"}) {
-    for (const char* mesh : {"cells", "hermite"}) block(section, mesh);
+    for (const KindName& kind : kinds) block(section, kind.name);
   }
   script +=
       "set logscale xy\nset format y '10^{%T}'\nset xlabel 'unknowns of the half model'\n"
-      "set ylabel 'largest error of a start or end, us'\nset xrange [40:2000]\n"
-      "set yrange [1e-3:2e2]\nset xtics (50, 100, 200, 500, 1000, 2000)\n"
-      "set key top right\nset multiplot layout 1,2\n"
-      "set title 'elastic sections'\n"
-      "plot $elastic_cells using 1:2 with linespoints lw 2 title 'cells', "
-      "$elastic_hermite using 1:2 with linespoints lw 2 title 'Hermite elements', "
-      "1 with lines dt 2 lc 'grey40' notitle, 0.1 with lines dt 2 lc 'grey40' "
-      "notitle\n"
-      "set title 'sections that yield (exact)'\n"
-      "plot $exact_cells using 1:2 with linespoints lw 2 title 'cells', "
-      "$exact_hermite using 1:2 with linespoints lw 2 title 'Hermite elements', "
-      "1 with lines dt 2 lc 'grey40' notitle, 0.1 with lines dt 2 lc 'grey40' notitle\n"
-      "unset multiplot\n";
+      "set ylabel 'largest error of a start or end, us'\nset xrange [60:2000]\n"
+      "set yrange [1e-3:2e2]\nset xtics (100, 200, 500, 1000, 2000)\n"
+      "set key top right\nset multiplot layout 1,2\n";
+  plot("elastic", "elastic sections");
+  plot("exact", "sections that yield (exact)");
+  script += "unset multiplot\n";
   draw_figure(directory, "convergence", script, {1100, 480});
   std::filesystem::remove(directory + "/convergence.gp");  // the study itself is the script
 }
@@ -244,21 +308,23 @@ void draw(const std::string& directory, const std::vector<Point>& points) {
 
 int main() {
   const std::string directory = SUBIMPACT_MESH_STUDY;
-  const std::vector<int> counts{1001, 2001, 4001};
-  auto behind = std::async(std::launch::async, [&] {
-    std::vector<Result> runs;
-    for (const int n : counts) {
-      runs.push_back(simulate(example(MeshKind::cells, n, SectionKind::exact, 8e-3)));
-    }
-    return runs;
-  });
+  const auto run_all = [](Kind kind, const std::vector<int>& counts) {
+    return std::async(std::launch::async, [kind, counts] {
+      std::vector<Result> runs;
+      for (const int n : counts) {
+        runs.push_back(simulate(example(kind, n, SectionKind::exact, 8e-3)));
+      }
+      return runs;
+    });
+  };
   fmt::print(
       "errors of starts and ends before {:.2f} ms, nystrom at rtol 1e-9\n\n"
-      "{:8} {:8} {:>6} {:>6} {:>12} {:>12} {:>10}\n",
-      1e3 * horizon, "section", "mesh", "count", "unkn.", "largest, us", "first, us", "wall, s");
+      "{:8} {:15} {:>6} {:>6} {:>12} {:>12} {:>12} {:>10}\n",
+      1e3 * horizon, "section", "mesh", "count", "unkn.", "largest, us", "median, us", "first, us",
+      "wall, s");
   std::vector<Point> points = converge(SectionKind::elastic, elastic_limit());
-  const Result coarse = simulate(example(MeshKind::cells, 2001, SectionKind::exact, horizon));
-  const Result fine = simulate(example(MeshKind::cells, 4003, SectionKind::exact, horizon));
+  const Result coarse = simulate(example(Kind::cells, 4003, SectionKind::exact, horizon));
+  const Result fine = simulate(example(Kind::cells, 8007, SectionKind::exact, horizon));
   const std::vector<Point> yielding = converge(SectionKind::exact, limit_of(coarse, fine));
   fmt::print("\n");
   print_needed(points);
@@ -266,5 +332,7 @@ int main() {
   points.insert(points.end(), yielding.begin(), yielding.end());
   write_points(directory, points);
   draw(directory, points);
-  write_limits(directory, behind.get(), counts);
+  auto on_cells = run_all(Kind::cells, limit_cells);
+  auto on_elements = run_all(Kind::graded, limit_elements);
+  write_limits(directory, on_cells.get(), on_elements.get());
 }
