@@ -25,7 +25,7 @@ struct Terms {
   std::size_t count = 0;
 
   Terms(const std::vector<double>& row, std::size_t length,
-        const std::vector<std::vector<double>>& stages, double factor) {
+        const std::vector<AlignedVector>& stages, double factor) {
     for (std::size_t j = 0; j < length; ++j) {
       if (row[j] == 0.0) continue;
       weight[count] = factor * row[j];
@@ -38,10 +38,15 @@ struct Terms {
 template <std::size_t N>
 void sum_up(const double* base, double h, const double* rate, const Terms& terms, double* out,
             std::size_t n) {
+  // Copies, which no store to `out` can change.
+  std::array<double, N> weight;
+  std::array<const double*, N> column;
+  std::copy_n(terms.weight.begin(), N, weight.begin());
+  std::copy_n(terms.column.begin(), N, column.begin());
 #pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
     double sum = base[i] + h * rate[i];
-    for (std::size_t k = 0; k < N; ++k) sum += terms.weight[k] * terms.column[k][i];
+    for (std::size_t k = 0; k < N; ++k) sum += weight[k] * column[k][i];
     out[i] = sum;
   }
 }
@@ -53,6 +58,39 @@ void combine(const double* base, double h, const double* rate, const Terms& term
   if constexpr (N <= 17) {
     if (terms.count == N) return sum_up<N>(base, h, rate, terms, out, n);
     return combine<N + 1>(base, h, rate, terms, out, n);
+  }
+}
+
+template <std::size_t N>
+double squares(const Terms& terms, std::size_t n) {
+  std::array<double, N> weight;
+  std::array<const double*, N> column;
+  std::copy_n(terms.weight.begin(), N, weight.begin());
+  std::copy_n(terms.column.begin(), N, column.begin());
+  Lanes running{};
+  std::size_t i = 0;
+  for (; i + n_lanes <= n; i += n_lanes) {
+    Lanes here{};
+    for (std::size_t k = 0; k < N; ++k) here += weight[k] * lanes_at(column[k] + i);
+    running += here * here;
+  }
+  double total = sum(running);
+  for (; i < n; ++i) {
+    double here = 0.0;
+    for (std::size_t k = 0; k < N; ++k) here += weight[k] * column[k][i];
+    total += here * here;
+  }
+  return total;
+}
+
+// Sum over the entries of (sum of terms)^2.
+template <std::size_t N = 0>
+double sum_of_squares(const Terms& terms, std::size_t n) {
+  if constexpr (N <= 17) {
+    if (terms.count == N) return squares<N>(terms, n);
+    return sum_of_squares<N + 1>(terms, n);
+  } else {
+    return std::numeric_limits<double>::quiet_NaN();
   }
 }
 
@@ -106,20 +144,7 @@ void Nystrom::advance(double h, std::vector<Vector>& stages, State& y) {
 double Nystrom::error_norm(double h) const {
   const Terms position(table_.position_error, table_.n_stages(), stages_, h * h * position_weight_);
   const Terms velocity(table_.velocity_error, table_.n_stages(), stages_, h * velocity_weight_);
-  double sum = 0.0;
-  std::array<double, 64> part;
-  static constexpr std::array<double, 64> zero{};
-  for (std::size_t start = 0; start < n_; start += part.size()) {
-    const std::size_t length = std::min(part.size(), n_ - start);
-    for (const Terms* terms : {&position, &velocity}) {
-      Terms here = *terms;
-      for (std::size_t k = 0; k < here.count; ++k) here.column[k] += start;
-      combine(zero.data(), 0.0, zero.data(), here, part.data(), length);
-      double lanes[8] = {};
-      for (std::size_t i = 0; i < length; ++i) lanes[i % 8] += part[i] * part[i];
-      for (const double lane : lanes) sum += lane;
-    }
-  }
+  const double sum = sum_of_squares(position, n_) + sum_of_squares(velocity, n_);
   return std::sqrt(sum / static_cast<double>(2 * n_));
 }
 

@@ -5,6 +5,7 @@
 
 #include "integrate/integrator.h"
 #include "integrate/nystrom_tables.h"
+#include "model/lanes.h"
 
 namespace subimpact {
 
@@ -33,7 +34,7 @@ class Nystrom final : public Integrator {
   WorkCounts work() const override { return work_; }
 
  private:
-  using Vector = std::vector<double>;
+  using Vector = AlignedVector;
   // The stages of a step of length h from (y0_, stages_[0]), and its end.
   void advance(double h, std::vector<Vector>& stages, State& y);
   double error_norm(double h) const;

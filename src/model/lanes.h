@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstring>
+#include <new>
+#include <vector>
 
 namespace subimpact {
 
@@ -11,6 +13,23 @@ constexpr std::size_t n_lanes = 8;
 using Lanes = double __attribute__((vector_size(n_lanes * sizeof(double)), aligned(8), may_alias));
 /// What comparing two Lanes gives: all bits set or none, lane by lane.
 using LaneMask = decltype(Lanes{} < Lanes{});
+
+/// A vector that begins on a cache line, so that Lanes read from its start never straddle two.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* at, std::size_t) { ::operator delete(at, line); }
+  template <class U>
+  bool operator==(const LineAllocator<U>&) const {
+    return true;
+  }
+};
+using AlignedVector = std::vector<double, LineAllocator<double>>;
 
 inline const Lanes& lanes_at(const double* at) { return *reinterpret_cast<const Lanes*>(at); }
 inline void store(const Lanes& values, double* at) { *reinterpret_cast<Lanes*>(at) = values; }
@@ -37,6 +56,19 @@ inline double dot(const double* a, const double* b, std::size_t n) {
   for (; i + n_lanes <= n; i += n_lanes) running[0] += lanes_at(a + i) * lanes_at(b + i);
   double total = sum((running[0] + running[1]) + (running[2] + running[3]));
   for (; i < n; ++i) total += a[i] * b[i];
+  return total;
+}
+
+/// Sum of |a_i| b_i.
+inline double dot_of_size(const double* a, const double* b, std::size_t n) {
+  Lanes running{};
+  std::size_t i = 0;
+  for (; i + n_lanes <= n; i += n_lanes) {
+    const Lanes here = lanes_at(a + i);
+    running += (here < 0.0 ? -here : here) * lanes_at(b + i);
+  }
+  double total = sum(running);
+  for (; i < n; ++i) total += (a[i] < 0.0 ? -a[i] : a[i]) * b[i];
   return total;
 }
 

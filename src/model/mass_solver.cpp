@@ -38,28 +38,38 @@ BandedMatrix cholesky_factor(const BandedMatrix& a, std::size_t padded) {
   return factor;
 }
 
-// D x - P z for one block: D is 8 x 8, P is 8 x width, both column by column; z are the `width`
-// entries of `neighbour` from `first` on.
+// D x - P z for one block: D is 8 x 8, P is 8 x width, z the `width` entries of `neighbour` from
+// `first` on.
 template <std::size_t width>
-inline Lanes apply_block(const double* coefficients, const double* x, const Lanes& neighbour,
-                         std::size_t first) {
-  const auto column = [&](std::size_t c) { return lanes_at(coefficients + c * block_size); };
-  // Two partial sums, so that the products with x do not wait for each other. The neighbour comes
-  // last and in a register: it has only just been computed, and everything waits for it.
-  Lanes even = column(0) * x[0];
-  Lanes odd = column(1) * x[1];
-  for (std::size_t c = 2; c < block_size; c += 2) {
-    even += column(c) * x[c];
-    odd += column(c + 1) * x[c + 1];
+class BlockProduct {
+ public:
+  // Column by column, D then P; in registers while it lasts.
+  explicit BlockProduct(const double* coefficients) {
+    for (std::size_t c = 0; c < block_size + width; ++c) {
+      column_[c] = lanes_at(coefficients + c * block_size);
+    }
   }
-  even += odd;
-  for (std::size_t c = 0; c < width; ++c) even -= column(block_size + c) * neighbour[first + c];
-  return even;
-}
+  Lanes operator()(const double* x, const Lanes& neighbour, std::size_t first) const {
+    // Two partial sums, so that the products with x do not wait for each other. The neighbour comes
+    // last and in a register: it has only just been computed, and everything waits for it.
+    Lanes even = column_[0] * x[0];
+    Lanes odd = column_[1] * x[1];
+    for (std::size_t c = 2; c < block_size; c += 2) {
+      even += column_[c] * x[c];
+      odd += column_[c + 1] * x[c + 1];
+    }
+    even += odd;
+    for (std::size_t c = 0; c < width; ++c) even -= column_[block_size + c] * neighbour[first + c];
+    return even;
+  }
+
+ private:
+  Lanes column_[block_size + width];
+};
 
 // The index of `coefficients` among those stored, stored now if new. A uniform mesh's factor
 // settles to a repeating pattern, so few blocks differ and all stay in the nearest cache.
-std::size_t store_once(std::vector<double>& stored, const std::vector<double>& coefficients) {
+std::size_t store_once(AlignedVector& stored, const std::vector<double>& coefficients) {
   const std::size_t size = coefficients.size();
   for (std::size_t at = stored.size(); at > 0; at -= size) {
     const auto candidate = stored.begin() + static_cast<std::ptrdiff_t>(at - size);
@@ -117,40 +127,42 @@ BandedSolver::BandedSolver(const BandedMatrix& matrix)
     Eigen::Map<Block>(up.data()) = inverse.transpose();
     std::copy_n(coupling_before.data(), block * half_bandwidth_, down.data() + block * block);
     std::copy_n(coupling_after.data(), block * half_bandwidth_, up.data() + block * block);
-    forward_.push_back(store_once(coefficients_, down));
-    backward_.push_back(store_once(coefficients_, up));
+    add_block(forward_, b, store_once(coefficients_, down));
+    add_block(backward_, b, store_once(coefficients_, up));
   }
+  std::reverse(backward_.begin(), backward_.end());
+}
+
+void BandedSolver::add_block(std::vector<Run>& runs, std::size_t b, std::size_t coefficients) {
+  if (runs.empty() || runs.back().coefficients != coefficients)
+    runs.push_back({coefficients, b, 0});
+  ++runs.back().count;
 }
 
 template <std::size_t width>
 void BandedSolver::solve_with(double* x) const {
-  const double* coefficients = coefficients_.data();
   const std::size_t n_whole = size_ / block;
   const std::size_t rest = size_ % block;
   double tail[block] = {};  // the last block, if it is not whole
   std::copy_n(x + n_whole * block, rest, tail);
+  const auto place = [&](std::size_t b) { return b < n_whole ? x + b * block : tail; };
   Lanes neighbour{};
-  for (std::size_t b = 0; b < n_whole; ++b) {
-    double* here = x + b * block;
-    neighbour = apply_block<width>(coefficients + forward_[b], here, neighbour, block - width);
-    store(neighbour, here);
-  }
-  if (rest > 0) {
-    neighbour =
-        apply_block<width>(coefficients + forward_[n_whole], tail, neighbour, block - width);
-    store(neighbour, tail);
+  for (const Run& run : forward_) {
+    const BlockProduct<width> product(coefficients_.data() + run.coefficients);
+    for (std::size_t b = run.first; b < run.first + run.count; ++b) {
+      neighbour = product(place(b), neighbour, block - width);
+      store(neighbour, place(b));
+    }
   }
   neighbour = Lanes{};
-  if (rest > 0) {
-    neighbour = apply_block<width>(coefficients + backward_[n_whole], tail, neighbour, 0);
-    store(neighbour, tail);
-    std::copy_n(tail, rest, x + n_whole * block);
+  for (const Run& run : backward_) {
+    const BlockProduct<width> product(coefficients_.data() + run.coefficients);
+    for (std::size_t b = run.first + run.count; b-- > run.first;) {
+      neighbour = product(place(b), neighbour, 0);
+      store(neighbour, place(b));
+    }
   }
-  for (std::size_t b = n_whole; b-- > 0;) {
-    double* here = x + b * block;
-    neighbour = apply_block<width>(coefficients + backward_[b], here, neighbour, 0);
-    store(neighbour, here);
-  }
+  std::copy_n(tail, rest, x + n_whole * block);
 }
 
 void BandedSolver::solve(std::span<double> x) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/banded_matrix.h"
+#include "model/lanes.h"
 
 namespace subimpact {
 
@@ -41,9 +42,15 @@ class BandedSolver final : public MassSolver {
   std::size_t n_blocks_;
   std::size_t half_bandwidth_;
   // Per distinct block, column by column: the inverse diagonal block (8 x 8), then the coupling
-  // (8 x bandwidth); and where each block's begin.
-  std::vector<double> coefficients_;
-  std::vector<std::size_t> forward_, backward_;
+  // (8 x bandwidth).
+  AlignedVector coefficients_;
+  // Neighbouring blocks of the same coefficients, in the order in which they are solved.
+  struct Run {
+    std::size_t coefficients;  // where they begin
+    std::size_t first, count;  // blocks
+  };
+  std::vector<Run> forward_, backward_;
+  static void add_block(std::vector<Run>& runs, std::size_t b, std::size_t coefficients);
 };
 
 }  // namespace subimpact

@@ -240,8 +240,8 @@ class StruckBeam final : public MechanicalSystem {
   long n_accelerations_ = 0;
   long n_forces_ = 0;
   long n_further_solves_ = 0;
-  std::vector<double> curvatures_, moments_;  // of the last evaluation
-  std::vector<double> trial_;                 // accelerations
+  AlignedVector curvatures_, moments_;  // of the last evaluation
+  std::vector<double> trial_;           // accelerations
   void read_motion(const State& y, SectionMotion& at) const;
   void read_moments(const State& y, SectionMotion& at);
   // Tangents of the smooth pieces, taken at `curvatures`, times changes of curvature.
