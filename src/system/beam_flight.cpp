@@ -29,23 +29,42 @@ BeamFlight::BeamFlight(const StruckBeam& beam)
     : beam_(beam),
       modes_(beam.mesh().natural_modes(beam.sections().stiffness())),
       n_(modes_.size()),
-      frequencies_(modes_.frequencies),
+      frequencies_{0.0},  // the striker
       guards_(n_guards() * (n_ + 1), 0.0),
       shape_(n_),
       equilibrium_(n_),
       moments_(beam.sections().size()),
       curvatures_(beam.sections().size()),
+      curvature_rates_(beam.sections().size()),
       force_(n_) {
-  frequencies_.push_back(0.0);  // the striker
+  frequencies_.insert(frequencies_.end(), modes_.frequencies.begin(), modes_.frequencies.end());
   const std::size_t stride = n_ + 1;
   double* indentation = guards_.data() + beam.sections().size() * stride;
   for (std::size_t k = 0; k < n_; ++k) {
-    indentation[k] = -beam.mesh().struck_point()(modes_.shape(k));
+    indentation[k + 1] = -beam.mesh().struck_point()(modes_.shape(k));
     if (modes_.frequencies[k] == 0.0) continue;
     beam.mesh().curvatures(modes_.shape(k), curvatures_);
-    for (std::size_t i = 0; i < curvatures_.size(); ++i) guards_[i * stride + k] = curvatures_[i];
+    for (std::size_t i = 0; i < curvatures_.size(); ++i)
+      guards_[i * stride + k + 1] = curvatures_[i];
   }
-  indentation[n_] = 1.0;
+  indentation[0] = 1.0;
+}
+
+double BeamFlight::outlook(const State& y) {
+  beam_.mesh().curvatures({y.data(), n_}, curvatures_);
+  beam_.mesh().curvatures({y.data() + n_ + 1, n_}, curvature_rates_);
+  const double* low = beam_.sections().window_low().data();
+  const double* high = beam_.sections().window_high().data();
+  // The highest rate at which a part of the way to a limit is covered, 1/s.
+  double fastest =
+      beam_.indentation_rate(y) / (beam_.residual_indentation() - beam_.indentation(y));
+  fastest = std::max(fastest, 0.0);
+  for (std::size_t i = 0; i < curvatures_.size(); ++i) {
+    const double rate = curvature_rates_[i];
+    const double limit = rate > 0.0 ? high[i] : low[i];
+    fastest = std::max(fastest, rate / (limit - curvatures_[i]));
+  }
+  return 1.0 / fastest;
 }
 
 void BeamFlight::enter(const State& y, std::span<double> z, std::span<double> rates,
@@ -57,7 +76,7 @@ void BeamFlight::enter(const State& y, std::span<double> z, std::span<double> ra
   mesh.bending_forces(moments_, force_);
   writable(equilibrium_).noalias() = matrix(modes_).transpose() * view(force_);
   for (std::size_t k = 0; k < n_; ++k) {
-    const double w = frequencies_[k];
+    const double w = modes_.frequencies[k];
     equilibrium_[k] = w > 0.0 ? equilibrium_[k] / (w * w) : 0.0;
   }
   writable(shape_).noalias() = matrix(modes_) * view(equilibrium_);
@@ -65,12 +84,12 @@ void BeamFlight::enter(const State& y, std::span<double> z, std::span<double> ra
 
   const auto to_modal = [&](std::size_t first, std::span<double> modal) {
     mesh.mass().multiply({y.data() + first, n_}, force_);
-    writable(modal.first(n_)).noalias() = matrix(modes_).transpose() * view(force_);
-    modal[n_] = y[first + n_];
+    modal[0] = y[first + n_];
+    writable(modal.last(n_)).noalias() = matrix(modes_).transpose() * view(force_);
   };
   to_modal(0, z);
   to_modal(n_ + 1, rates);
-  for (std::size_t k = 0; k < n_; ++k) z[k] -= equilibrium_[k];
+  for (std::size_t k = 0; k < n_; ++k) z[k + 1] -= equilibrium_[k];
   for (std::size_t i = 0; i < curvatures_.size(); ++i) {
     low[i] = sections.window_low()[i] - curvatures_[i];
     high[i] = sections.window_high()[i] - curvatures_[i];
@@ -83,11 +102,11 @@ void BeamFlight::leave(std::span<const double> z, std::span<const double> rates,
   y.resize(2 * (n_ + 1));
   const std::span<double> positions{y.data(), n_};
   const std::span<double> velocities{y.data() + n_ + 1, n_};
-  writable(positions).noalias() = matrix(modes_) * view(z.first(n_));
+  writable(positions).noalias() = matrix(modes_) * view(z.last(n_));
   writable(positions) += view(shape_);
-  writable(velocities).noalias() = matrix(modes_) * view(rates.first(n_));
-  y[n_] = z[n_];
-  y.back() = rates[n_];
+  writable(velocities).noalias() = matrix(modes_) * view(rates.last(n_));
+  y[n_] = z[0];
+  y.back() = rates[0];
 }
 
 }  // namespace subimpact

@@ -25,6 +25,7 @@ class BeamFlight final : public FreeFlight {
   bool possible() const override {
     return !beam_.in_contact() && beam_.sections().flowing().empty();
   }
+  double outlook(const State& y) override;
   void enter(const State& y, std::span<double> z, std::span<double> rates, std::span<double> low,
              std::span<double> high) override;
   void leave(std::span<const double> z, std::span<const double> rates, State& y) const override;
@@ -36,7 +37,7 @@ class BeamFlight final : public FreeFlight {
   std::vector<double> frequencies_, guards_;
   std::vector<double> shape_;        // w of the equilibrium
   std::vector<double> equilibrium_;  // z of the equilibrium
-  std::vector<double> moments_, curvatures_;
+  std::vector<double> moments_, curvatures_, curvature_rates_;
   mutable std::vector<double> force_;
 };
 

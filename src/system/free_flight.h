@@ -19,13 +19,16 @@ class FreeFlight {
  public:
   virtual ~FreeFlight() = default;
 
-  virtual std::span<const double> frequencies() const = 0;  ///< omega, rad/s, n of them
+  virtual std::span<const double> frequencies() const = 0;  ///< omega, rad/s, n of them, ascending
   virtual std::size_t n_guards() const = 0;
   /// g_i, n coefficients.
   virtual std::span<const double> guard(std::size_t i) const = 0;
 
   /// Whether such a stretch begins at the last committed state.
   virtual bool possible() const = 0;
+  /// For a state y at which one begins: how long the guards would keep within their limits if all
+  /// rates stayed as they are, s. A first look, not a bound.
+  virtual double outlook(const State& y) = 0;
   /// Displacements z and their rates for a state y at which one begins, and its limits.
   virtual void enter(const State& y, std::span<double> z, std::span<double> rates,
                      std::span<double> low, std::span<double> high) = 0;

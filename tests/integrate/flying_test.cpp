@@ -16,13 +16,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Oscillators, the last two of which move uniformly, under random guards; y holds z and its rates.
+// Oscillators, the first two of which move uniformly, under random guards; y holds z and its rates.
 class RandomFlight final : public FreeFlight {
  public:
   explicit RandomFlight(unsigned seed) : random_(seed) {
     for (std::size_t k = 0; k + 2 < n; ++k) omega.push_back(std::pow(10.0, between(0.0, 2.0)));
-    std::sort(omega.begin(), omega.end());
     omega.resize(n, 0.0);
+    std::sort(omega.begin(), omega.end());
     for (std::size_t i = 0; i < n_guards(); ++i) {
       for (std::size_t k = 0; k < n; ++k) {
         const bool uniform = omega[k] == 0.0;
@@ -47,6 +47,7 @@ class RandomFlight final : public FreeFlight {
   std::size_t n_guards() const override { return 5; }
   std::span<const double> guard(std::size_t i) const override { return {rows.data() + i * n, n}; }
   bool possible() const override { return true; }
+  double outlook(const State&) override { return infinity; }
   void enter(const State& y, std::span<double> z, std::span<double> rates, std::span<double> low,
              std::span<double> high) override {
     std::copy_n(y.begin(), n, z.begin());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "beam_under_test.h"
@@ -66,6 +67,17 @@ TEST_P(FlyingBeam, LimitsAreTheElasticWindowsAndTheGap) {
   }
   EXPECT_NEAR(high_.back() - value(kappa.size()),
               beam_.residual_indentation() - beam_.indentation(y_), 1e-15);
+}
+
+TEST_P(FlyingBeam, OutlookIsTheTimeInWhichTheFirstGuardGetsToItsLimitAtItsRate) {
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < flight_->n_guards(); ++i) {
+    double rate = 0.0;
+    for (std::size_t k = 0; k < z_.size(); ++k) rate += flight_->guard(i)[k] * rates_[k];
+    const double way = rate > 0.0 ? high_[i] - value(i) : low_[i] - value(i);
+    first = std::min(first, way / rate);
+  }
+  EXPECT_NEAR(flight_->outlook(y_), first, 1e-6 * first);
 }
 
 TEST_P(FlyingBeam, AcceleratesAsTheBeamDoes) {
