@@ -81,7 +81,9 @@ void SectionField::moments(std::span<const double> curvatures, std::span<double>
     for (std::size_t i = 0; i < n; ++i) m[i] = law_->moment(history(i), k[i]);
     return;
   }
-  for (std::size_t i = 0; i < n; ++i) m[i] = stiffness_ * k[i] - offset[i];
+  const double stiffness = stiffness_;  // out of reach of the stores
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) m[i] = stiffness * k[i] - offset[i];
   if (!law_) return;
   for_each_outside(curvatures, low_, high_,
                    [&](std::size_t i) { m[i] = law_->moment(history(i), k[i]); });
@@ -98,7 +100,9 @@ void SectionField::smooth_moments(std::span<const double> curvatures,
   const double* k = curvatures.data();
   const double* offset = offset_.data();
   double* m = moments.data();
-  for (std::size_t i = 0; i < n; ++i) m[i] = stiffness_ * k[i] - offset[i];
+  const double stiffness = stiffness_;  // out of reach of the stores
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) m[i] = stiffness * k[i] - offset[i];
   for (const Flow& flow : flowing_) {
     m[flow.section] = law_->moment_on(flow.branch, k[flow.section]);
   }

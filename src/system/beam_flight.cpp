@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/lanes.h"
+
 namespace subimpact {
 namespace {
 
@@ -59,10 +61,20 @@ double BeamFlight::outlook(const State& y) {
   double fastest =
       beam_.indentation_rate(y) / (beam_.residual_indentation() - beam_.indentation(y));
   fastest = std::max(fastest, 0.0);
-  for (std::size_t i = 0; i < curvatures_.size(); ++i) {
-    const double rate = curvature_rates_[i];
-    const double limit = rate > 0.0 ? high[i] : low[i];
-    fastest = std::max(fastest, rate / (limit - curvatures_[i]));
+  const double* kappa = curvatures_.data();
+  const double* rates = curvature_rates_.data();
+  const std::size_t n = curvatures_.size();
+  Lanes fastest_lanes{};
+  std::size_t i = 0;
+  for (; i + n_lanes <= n; i += n_lanes) {
+    const Lanes rate = lanes_at(rates + i);
+    const Lanes limit = rate > 0.0 ? lanes_at(high + i) : lanes_at(low + i);
+    const Lanes speed = rate / (limit - lanes_at(kappa + i));
+    fastest_lanes = speed > fastest_lanes ? speed : fastest_lanes;
+  }
+  for (std::size_t l = 0; l < n_lanes; ++l) fastest = std::max(fastest, fastest_lanes[l]);
+  for (; i < n; ++i) {
+    fastest = std::max(fastest, rates[i] / ((rates[i] > 0.0 ? high[i] : low[i]) - kappa[i]));
   }
   return 1.0 / fastest;
 }

@@ -285,6 +285,11 @@ void SectionKinks::add_kink(const SectionField& sections, const Trace& trace) {
     if (left < *turn) integrate(left, *turn, before, add);
     own_until = *turn;
     const double farthest = trace.path(*turn) + change(*turn).value;
+    // Disturbed by earlier kinks it may have stayed in its window.
+    if (!trace.branch && farthest >= sections.window_low()[i] &&
+        farthest <= sections.window_high()[i]) {
+      return;
+    }
     turned_ = before;
     law.commit(turned_, farthest);
     integrate(*turn, 1.0, turned_, add);

@@ -105,7 +105,8 @@ double StruckBeam::bound_of_term(std::size_t k) {
   for (const SectionKink& kink : kinks_.kinks()) {
     sum += std::abs(kink.amount[2 * k]) * influence_->strength(kink.section);
   }
-  return sum * std::pow(highest_frequency_, 2.0 * static_cast<double>(k));
+  for (std::size_t i = 0; i < k; ++i) sum *= highest_frequency_ * highest_frequency_;
+  return sum;
 }
 
 }  // namespace subimpact
