@@ -30,6 +30,7 @@ struct Setting {
   Case input;
   double error;  // s
   long right_hand_sides;
+  double work;  // right-hand sides times unknowns
 };
 
 // The settings of a method in time, loosest first.
@@ -64,11 +65,21 @@ std::optional<Setting> cheapest(const Settings& settings, Method method, MeshKin
       if (!result.outcome.completed()) continue;
       const EventErrors errors = event_errors(result.sub_impacts, limit);
       if (errors.overall() > wanted_error) continue;
-      good.push_back({input, errors.overall(), result.work.right_hand_sides});
+      const long evaluations = result.work.right_hand_sides;
+      good.push_back(
+          {input, errors.overall(), evaluations,
+           static_cast<double>(evaluations) * static_cast<double>(result.used.n_unknowns)});
       break;
     }
   }
   if (good.empty()) return std::nullopt;
+  // What takes far more evaluations of more unknowns than another need not be timed. (The
+  // exponential method hardly evaluates.)
+  if (method != Method::exponential) {
+    double least_work = good.front().work;
+    for (const Setting& setting : good) least_work = std::min(least_work, setting.work);
+    std::erase_if(good, [&](const Setting& of) { return of.work > 1.5 * least_work; });
+  }
   std::vector<std::function<void()>> runs;
   for (const Setting& setting : good) runs.push_back([&] { run_to_end(setting.input); });
   const std::vector<double> seconds = seconds_side_by_side(settings, runs);
