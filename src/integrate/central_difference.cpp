@@ -22,13 +22,17 @@ void CentralDifference::advance(double h, State& y, std::vector<double>& acceler
   const double* v0 = q0 + n_;
   double* q = y.data();
   double* v = q + n_;
+  const double* a0 = a0_.data();
+  const double* a1 = acceleration.data();
+#pragma GCC ivdep
   for (std::size_t i = 0; i < n_; ++i) {
-    v[i] = v0[i] + half * a0_[i];
+    v[i] = v0[i] + half * a0[i];
     q[i] = q0[i] + h * v[i];
   }
   ode_.acceleration({q, n_}, acceleration);
   ++work_.right_hand_sides;
-  for (std::size_t i = 0; i < n_; ++i) v[i] += half * acceleration[i];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n_; ++i) v[i] += half * a1[i];
 }
 
 void CentralDifference::step() {

@@ -35,7 +35,8 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
     result_.first_section_yield = beam.first_flow(step);
   }
   if (in_contact_) {
-    follow_peak(beam.indentation(step.y1), beam.contact_force(step.y1));
+    const double indentation = beam.indentation(step.y1);
+    follow_peak(indentation, beam.contact_force_at(indentation));
     look_for_peak(step, beam, integrator);
   }
 }
@@ -48,9 +49,11 @@ void Recorder::follow_peak(double indentation, double force) {
 
 void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
   // In the plastic branch the peak is an event; in the elastic one it lies inside some step.
+  if (beam.contact_branch() != ContactBranch::elastic) return;
   const double rate0 = beam.indentation_rate(step.y0);
+  if (!(rate0 > 0.0)) return;
   const double rate1 = beam.indentation_rate(step.y1);
-  if (!(rate0 > 0.0 && rate1 < 0.0) || beam.contact_branch() != ContactBranch::elastic) return;
+  if (!(rate1 < 0.0)) return;
   const double h = step.length();
   const HermiteCubic path(beam.indentation(step.y0), rate0, beam.indentation(step.y1), rate1, h);
   const double guess = path.peak();

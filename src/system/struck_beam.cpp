@@ -139,8 +139,6 @@ double StruckBeam::indentation_rate(const State& y) const {
   return y.back() - mesh_->struck_point()(beam_velocities(y));
 }
 
-double StruckBeam::contact_force(const State& y) const { return force(indentation(y)); }
-
 // --- memory -------------------------------------------------------------------------------------
 
 void StruckBeam::apply(const Guard& guard, const State& y) {

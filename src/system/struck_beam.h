@@ -122,7 +122,8 @@ class StruckBeam final : public MechanicalSystem {
   double residual_indentation() const {
     return contact_law_.residual_indentation(contact_history_);
   }
-  double contact_force(const State& y) const;
+  double contact_force(const State& y) const { return contact_force_at(indentation(y)); }
+  double contact_force_at(double indentation) const { return force(indentation); }
 
   // --- events ------------------------------------------------------------------------------------
   /// The earliest end of the contact's branch within a step that began at the last committed state,
