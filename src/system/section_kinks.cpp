@@ -26,28 +26,9 @@ const SectionBranch* branch_of(const SectionField& sections, std::size_t section
   return nullptr;
 }
 
-// How a defect d moves what it acts on: its double integral over time, a part of the step each way.
-// At the end of its span it has the value and the slope that the integrals of d tell, and it begins
-// as the third power of the time since, as a defect does that grows in proportion to it.
-class Growth {
- public:
-  // `amount`, `next_amount`: integrals of d and of (span - s) d over the span.
-  Growth(double span, double length, double amount, double next_amount)
-      : span_(span),
-        cubic_(4.0 * next_amount - span * length * amount),
-        quartic_(span * length * amount - 3.0 * next_amount) {}
-  double value(double since) const {
-    const double u = since / span_;
-    return u * u * u * (cubic_ + u * quartic_);
-  }
-  double slope(double since) const {
-    const double u = since / span_;
-    return u * u * (3.0 * cubic_ + u * 4.0 * quartic_) / span_;
-  }
-
- private:
-  double span_, cubic_, quartic_;
-};
+// The earlier kinks of a step whose disturbance of a section is followed, the strongest: where a
+// step has more of them it is far too long to be told apart so finely.
+constexpr std::size_t most_disturbances = 12;
 
 // Where f falls through zero between a (above, or taken so) and b (below), near a guess.
 template <class F>
@@ -142,7 +123,9 @@ void SectionKinks::find(const SectionField& sections, const SectionMotion& start
     const std::size_t i = flow.section;
     const double sense = flow.branch.sense;
     const double slope = length_ * end.rates[i];
-    if (sense * slope <= 0.0 || sense * (slope + change_by_kinks(i, 1.0).slope) >= 0.0) continue;
+    if (sense * slope <= 0.0) continue;
+    choose_disturbances(i);
+    if (sense * (slope + change_by_kinks(1.0).slope) >= 0.0) continue;
     if (std::find(suspects_.begin(), suspects_.end(), i) != suspects_.end()) continue;
     add_kink(sections, {i, &flow.branch, sense, path_of(i, start, end), 1.0, 1.0});
   }
@@ -197,15 +180,31 @@ void SectionKinks::trace(const SectionField& sections, const SectionMotion& star
             [](const Trace& a, const Trace& b) { return a.left < b.left; });
 }
 
-SectionKinks::Change SectionKinks::change_by_kinks(std::size_t section, double s) const {
-  Change sum;
+void SectionKinks::choose_disturbances(std::size_t section) {
+  disturbances_.clear();
   for (const SectionKink& kink : kinks_) {
-    const double left = (kink.start - t0_) / length_;
-    if (s <= left || kink.amount[1] == 0.0) continue;
-    const Growth growth(1.0 - left, length_, kink.amount[0], kink.amount[1]);
     const double coupling = influence_.curvature_acceleration_at(section, kink.section);
-    sum.value += coupling * growth.value(s - left);
-    sum.slope += coupling * growth.slope(s - left);
+    const double left = (kink.start - t0_) / length_;
+    const double strength = std::abs(coupling * kink.amount[1]);
+    if (strength == 0.0 || left >= 1.0) continue;
+    disturbances_.push_back(
+        {left, strength,
+         Growth(1.0 - left, length_, coupling * kink.amount[0], coupling * kink.amount[1])});
+  }
+  if (disturbances_.size() <= most_disturbances) return;
+  const auto kept = disturbances_.begin() + most_disturbances;
+  std::nth_element(
+      disturbances_.begin(), kept, disturbances_.end(),
+      [](const Disturbance& a, const Disturbance& b) { return a.strength > b.strength; });
+  disturbances_.erase(kept, disturbances_.end());
+}
+
+SectionKinks::Change SectionKinks::change_by_kinks(double s) const {
+  Change sum;
+  for (const Disturbance& by : disturbances_) {
+    if (s <= by.left) continue;
+    sum.value += by.growth.value(s - by.left);
+    sum.slope += by.growth.slope(s - by.left);
   }
   return sum;
 }
@@ -215,12 +214,13 @@ void SectionKinks::add_kink(const SectionField& sections, const Trace& trace) {
   const std::size_t i = trace.section;
   const SectionHistory& before = sections.history(i);
 
+  choose_disturbances(i);
   // Until it turns the section's own flow moves it, too.
   std::optional<Growth> own;
   double own_until = 1.0;
   const double own_coupling = influence_.curvature_acceleration_at(i, i);
   const auto change = [&](double s) {
-    Change sum = change_by_kinks(i, s);
+    Change sum = change_by_kinks(s);
     const double since = std::min(s, own_until) - trace.left;
     if (own && since > 0.0) {
       sum.value += own_coupling * own->value(since);

@@ -26,6 +26,29 @@ struct SectionKink {
   std::array<double, 2 * most_terms> amount;  ///< see SectionKinks, N m s^(k+1)
 };
 
+/// How a defect d moves what it acts on: its double integral over time, in parts of the step. At
+/// the end of its span it has the value and the slope that the integrals of d tell, and it begins
+/// as the third power of the time since, as a defect does that grows in proportion to it.
+class Growth {
+ public:
+  /// `amount`, `next_amount`: integrals of d and of (span - s) d over the span.
+  Growth(double span, double length, double amount, double next_amount)
+      : span_(span),
+        cubic_(4.0 * next_amount - span * length * amount),
+        quartic_(span * length * amount - 3.0 * next_amount) {}
+  double value(double since) const {
+    const double u = since / span_;
+    return u * u * u * (cubic_ + u * quartic_);
+  }
+  double slope(double since) const {
+    const double u = since / span_;
+    return u * u * (3.0 * cubic_ + u * 4.0 * quartic_) / span_;
+  }
+
+ private:
+  double span_, cubic_, quartic_;
+};
+
 /// The sections at one end of a step, an entry each.
 struct SectionMotion {
   std::vector<double> curvatures, rates;  ///< 1/m, 1/(m s)
@@ -97,13 +120,21 @@ class SectionKinks {
   struct Change {
     double value = 0.0, slope = 0.0;
   };
-  Change change_by_kinks(std::size_t section, double s) const;
+  Change change_by_kinks(double s) const;
+  // What earlier kinks do to one section: chosen for it before change_by_kinks is asked.
+  struct Disturbance {
+    double left;      // part of the step after which it acts
+    double strength;  // of what it does by the step's end
+    Growth growth;
+  };
+  void choose_disturbances(std::size_t section);
 
   SectionInfluence& influence_;
   double t0_ = 0.0, length_ = 0.0;
   std::vector<std::size_t> suspects_;
   std::optional<double> cut_;
   std::vector<Trace> traces_;
+  std::vector<Disturbance> disturbances_;
   std::vector<SectionKink> kinks_;
   SectionHistory turned_;
 };
