@@ -115,6 +115,7 @@ void SectionKinks::find(const SectionField& sections, const SectionMotion& start
   t0_ = t0;
   length_ = t1 - t0;
   kinks_.clear();
+  interplay_ = {};
   trace(sections, start, end);
   for (const Trace& trace : traces_) add_kink(sections, trace);
   if (kinks_.empty()) return;
@@ -295,6 +296,9 @@ void SectionKinks::add_kink(const SectionField& sections, const Trace& trace) {
     integrate(*turn, 1.0, turned_, add);
     kink.turn = {t0_ + *turn * length_, farthest};
   }
+  const double disturbed = std::abs(change_by_kinks(turn.value_or(1.0)).value) *
+                           sections.stiffness() * (1.0 - left) * length_ * influence_.strength(i);
+  if (disturbed > interplay_.velocity) interplay_ = {disturbed, kink.start};
   kinks_.push_back(kink);
 }
 

@@ -100,6 +100,13 @@ class SectionKinks {
   void find(const SectionField& sections, const SectionMotion& start, const SectionMotion& end,
             double t0, double t1);
   void clear() { kinks_.clear(); }
+  /// How much the kinks found matter to each other, to first order, and the time (s) of the one
+  /// that is disturbed most: what earlier kinks change in its amount_0, as the beam's answer to
+  /// that (root mean square of velocities, m/s).
+  struct Interplay {
+    double velocity = 0.0, time = 0.0;
+  };
+  const Interplay& interplay() const { return interplay_; }
   const std::vector<SectionKink>& kinks() const { return kinks_; }
 
  private:
@@ -135,6 +142,7 @@ class SectionKinks {
   std::optional<double> cut_;
   std::vector<Trace> traces_;
   std::vector<Disturbance> disturbances_;
+  Interplay interplay_;
   std::vector<SectionKink> kinks_;
   SectionHistory turned_;
 };

@@ -11,6 +11,10 @@ namespace {
 // A step that must be cut ends after the kink that spoils it, by this part of what is estimated to
 // be tolerable.
 constexpr double cut_safety = 0.8;
+// Kinks are followed in what they do to each other to first order. This part of it is taken to be
+// left: with it steps of the paper's beam at rtol 1e-11 are off by 0.7 of the tolerance (root mean
+// square), without it single ones by 600 times the tolerance.
+constexpr double interplay_left = 0.03;
 // Steps shorter than this, in radians of the highest frequency, are not cut.
 constexpr double shortest_cut = 1e-3;
 
@@ -23,15 +27,19 @@ double StruckBeam::find_section_kinks(const StepEnds& step) {
   }
   read_motion(step.y1, end_);
   if (!kinks_.suspect(sections_, start_, end_, step.length())) return step.t1;
-  // (In a very short step it is rounding that changes direction.)
-  if (kinks_.cut() && highest_frequency_ * step.length() > shortest_cut) {
-    return step.t0 + *kinks_.cut() * step.length();
-  }
+  // In a very short step it is rounding that changes direction.
+  const bool may_cut = highest_frequency_ * step.length() > shortest_cut;
+  if (kinks_.cut() && may_cut) return step.t0 + *kinks_.cut() * step.length();
   read_moments(step.y0, start_);
   read_moments(step.y1, end_);
   kinks_.find(sections_, start_, end_, step.t0, step.t1);
   if (kinks_.kinks().empty()) return step.t1;
 
+  const SectionKinks::Interplay& interplay = kinks_.interplay();
+  if (may_cut && interplay_left * interplay.velocity > kink_tolerance_ &&
+      interplay.time > step.t0) {
+    return interplay.time;
+  }
   std::size_t last = 0;
   while (last + 2 < SectionKink::most_terms && bound_of_term(last + 1) > kink_tolerance_) ++last;
   answer_to_kinks(0, last, velocity_change_);
