@@ -215,11 +215,7 @@ NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
   const std::size_t n = n_unknowns();
   NaturalModes modes = free_cell_modes(
       {n_cells_, spacing_, mass_per_length_, rotary_inertia_, bending_stiffness}, symmetric(), n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::span<double> shape(modes.shapes.data() + k * n, n);
-    const double scale = 1.0 / std::sqrt(mass().quadratic_form(shape));
-    for (double& entry : shape) entry *= scale;
-  }
+  normalise(modes, mass());
   return modes;
 }
 

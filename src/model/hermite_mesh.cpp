@@ -451,12 +451,7 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
                                  bending_stiffness, ends_, symmetric()});
   }
   if (!modes) return dense_natural_modes(*this, bending_stiffness);
-  const std::size_t n = n_unknowns();
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::span<double> shape(modes->shapes.data() + k * n, n);
-    const double scale = 1.0 / std::sqrt(mass_.quadratic_form(shape));
-    for (double& entry : shape) entry *= scale;
-  }
+  normalise(*modes, mass_);
   return *std::move(modes);
 }
 

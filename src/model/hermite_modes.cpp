@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "model/bracketed_root.h"
 #include "model/lanes.h"
 #include "model/sin_cos.h"
 
@@ -156,35 +157,6 @@ double square_of_half(double number, Band band) {
   return band == Band::above ? -2.0 * half * half : 2.0 * half * half;
 }
 
-// A root of f, which rises through zero once in (low, high): secants from a guess and the slope
-// there, halving where they leave the bracket.
-template <class F>
-double rising_root(F f, double low, double high, double guess, double slope) {
-  double x = guess > low && guess < high ? guess : 0.5 * (low + high);
-  double before = 0.0;
-  double value_before = 0.0;
-  for (int i = 0; i < 200; ++i) {
-    const double value = f(x);
-    if (value == 0.0) return x;
-    (value < 0.0 ? low : high) = x;
-    if (i > 0) {
-      const double secant = (value - value_before) / (x - before);
-      if (secant > 0.0) slope = secant;
-    }
-    before = x;
-    value_before = value;
-    x -= value / slope;
-    const bool inside = x > low && x < high;
-    // The secant's error is the product of the last two.
-    if (inside && std::abs(x - before) <= 1e-12 * x) return x;
-    if (!inside) {
-      x = 0.5 * (low + high);
-      if (x <= low || x >= high) return x;
-    }
-  }
-  return x;
-}
-
 // The modes of one parity of a chain whose ends, alike, are m elements from its middle.
 class Finder {
  public:
@@ -307,7 +279,7 @@ class Finder {
       return theta * m_ - std::atan(decay_over(at) * at.ratio());
     };
     if (parity == Parity::even && in_band(least) < 0.0) {
-      const double theta = rising_root(in_band, least, 0.5 * pi / m_, 0.0, m_);
+      const double theta = root_in(in_band, least, 0.5 * pi / m_);
       add(parity, Band::optical, theta, waves(theta, Band::optical), std::sin(theta * m_),
           std::cos(theta * m_), modes);
       return true;
@@ -326,7 +298,7 @@ class Finder {
       high *= 1.5;
       if (high > 20.0) return false;
     }
-    const double psi = rising_root(above, low, high, 0.5 * (low + high), 1.0);
+    const double psi = root_in(above, low, high);
     add(parity, Band::above, psi, waves(psi, Band::above), std::tanh(psi * m_), 1.0, modes);
     return true;
   }

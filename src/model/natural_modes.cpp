@@ -8,6 +8,15 @@
 
 namespace subimpact {
 
+void normalise(NaturalModes& modes, const BandedMatrix& mass) {
+  const std::size_t n = modes.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::span<double> shape(modes.shapes.data() + k * n, n);
+    const double scale = 1.0 / std::sqrt(mass.quadratic_form(shape));
+    for (double& entry : shape) entry *= scale;
+  }
+}
+
 NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness) {
   const auto n = static_cast<Eigen::Index>(mesh.n_unknowns());
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);

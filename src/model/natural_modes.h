@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "model/banded_matrix.h"
+
 namespace subimpact {
 
 class BeamMesh;
@@ -18,6 +20,9 @@ struct NaturalModes {
     return {shapes.data() + mode * size(), size()};
   }
 };
+
+/// Scales shapes so that phi^T Mass phi = 1.
+void normalise(NaturalModes& modes, const BandedMatrix& mass);
 
 /// By dense decomposition, for any mesh. Frequencies are Rayleigh quotients of B phi, which keeps
 /// the lowest of them accurate in spite of the highest; those below 1e-7 of the highest count as

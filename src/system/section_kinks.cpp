@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "events/hermite.h"
+#include "model/bracketed_root.h"
 #include "model/lanes.h"
 
 namespace subimpact {
@@ -29,32 +30,6 @@ const SectionBranch* branch_of(const SectionField& sections, std::size_t section
 // The earlier kinks of a step whose disturbance of a section is followed, the strongest: where a
 // step has more of them it is far too long to be told apart so finely.
 constexpr std::size_t most_disturbances = 12;
-
-// Where f falls through zero between a (above, or taken so) and b (below), near a guess.
-template <class F>
-double find_fall(F f, double a, double b, double guess) {
-  double s = guess;
-  double fa = f(a);
-  double fb = f(b);
-  if (fa <= 0.0) return a;
-  for (int i = 0; i < 60 && b - a > 1e-13; ++i) {
-    if (!(s > a && s < b)) s = a + (b - a) * fa / (fa - fb);
-    const double fs = f(s);
-    if (fs == 0.0) return s;
-    // Halving the far value keeps false position from creeping (Illinois).
-    if (fs > 0.0) {
-      a = s;
-      fa = fs;
-      fb *= 0.5;
-    } else {
-      b = s;
-      fb = fs;
-      fa *= 0.5;
-    }
-    s = a + (b - a) * fa / (fa - fb);
-  }
-  return s;
-}
 
 }  // namespace
 
@@ -260,7 +235,10 @@ void SectionKinks::add_kink(const SectionField& sections, const Trace& trace) {
     return trace.sense * (trace.path.slope(s) + change(s).slope);
   };
   std::optional<double> turn;
-  if (speed(1.0) < 0.0) turn = find_fall(speed, own ? trace.left : 0.0, 1.0, flow_ends);
+  if (speed(1.0) < 0.0) {
+    const double begin = own ? trace.left : 0.0;
+    turn = speed(begin) > 0.0 ? root_in(speed, begin, 1.0) : begin;
+  }
   double left = trace.left;
   if (left == flow_ends) {  // it leaves its branch by turning only
     if (!turn) return;

@@ -100,6 +100,28 @@ TEST(SectionKinks, HardlyEverCutAStep) {
   EXPECT_LT(work.partial_steps, counter.turns / 5);
 }
 
+State state_late(double rtol) {
+  Case input = paper_case(SectionKind::exact, 0.9e-3);
+  input.solver.method = Method::nystrom;
+  input.solver.rtol = rtol;
+  StruckBeam beam = make_struck_beam(input);
+  const Used used = describe(input, beam);
+  RunObserver nobody;
+  const auto integrator = make_integrator(input, used, beam);
+  EventLoop loop(beam, *integrator, nobody, loop_options(input, used));
+  loop.start();
+  while (!loop.finished()) loop.advance();
+  return loop.state();
+}
+
+// A kink that moves the next one in its step, or undoes it: what is left out then does not shrink
+// with the tolerance.
+TEST(SectionKinks, OfOneStepAreFollowedInWhatTheyDoToEachOther) {
+  const double off = largest_difference(state_late(1e-11), state_late(1e-12));
+  std::printf("velocities at rtol 1e-11 and 1e-12 differ by %.2e m/s\n", off);
+  EXPECT_LT(off, 1e-7);
+}
+
 TEST(SectionKinks, LeftAloneBringAnyMethodDownToSecondOrder) {
   errors("steps a us, memory advanced at step ends", only_at_ends)
       .expect_overall_order_within(1.0, 2.6);

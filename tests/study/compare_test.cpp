@@ -2,18 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "paper_scene.h"
+#include "elastic_case.h"
 
 namespace subimpact {
 namespace {
-
-Case elastic_case(double end_time) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.section = SectionKind::elastic;
-  input.end_time = end_time;
-  return input;
-}
 
 TEST(ComparedMethods, AllFindTheSameSubImpactsOfAnElasticBeam) {
   const Comparison comparison =

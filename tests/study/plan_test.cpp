@@ -4,18 +4,10 @@
 
 #include <cmath>
 
-#include "paper_scene.h"
+#include "elastic_case.h"
 
 namespace subimpact {
 namespace {
-
-Case elastic_case(double end_time) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.section = SectionKind::elastic;
-  input.end_time = end_time;
-  return input;
-}
 
 // 218.049244 us and 275.925801 us: the limit of an independent program (tests/data).
 TEST(TheLimitOfFineMeshes, IsThatOfAnIndependentProgramWithinItsUncertainty) {

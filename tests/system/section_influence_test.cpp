@@ -40,12 +40,25 @@ std::vector<Mesh> meshes() {
   return all;
 }
 
-TEST(SectionInfluence, GivesTheCurvatureAccelerationsThatAMassSolveGives) {
+// Calls check(mesh, solver, influence) on every mesh.
+template <class Check>
+void on_every_mesh(Check check) {
   for (const Mesh& of : meshes()) {
     SCOPED_TRACE(of.name);
-    const BeamMesh& mesh = *of.mesh;
-    const BandedSolver solver(mesh.mass());
-    SectionInfluence influence(mesh, solver);
+    const BandedSolver solver(of.mesh->mass());
+    SectionInfluence influence(*of.mesh, solver);
+    check(*of.mesh, solver, influence);
+  }
+}
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+TEST(SectionInfluence, GivesTheCurvatureAccelerationsThatAMassSolveGives) {
+  on_every_mesh([](const BeamMesh& mesh, const BandedSolver& solver, SectionInfluence& influence) {
     const std::vector<double> moments = random_numbers(7, mesh.n_sections());
     constexpr double force = 3.0;
     std::vector<double> accelerations(mesh.n_unknowns());
@@ -55,25 +68,18 @@ TEST(SectionInfluence, GivesTheCurvatureAccelerationsThatAMassSolveGives) {
     std::vector<double> expected(mesh.n_sections());
     mesh.curvatures(accelerations, expected);
     std::vector<double> weighted = moments;
-    double largest = 0.0;
-    for (std::size_t i = 0; i < weighted.size(); ++i) {
-      weighted[i] *= mesh.section_weights()[i];
-      largest = std::max(largest, std::abs(expected[i]));
-    }
+    for (std::size_t i = 0; i < weighted.size(); ++i) weighted[i] *= mesh.section_weights()[i];
+    const double largest = largest_of(expected);
     for (std::size_t i = 0; i < weighted.size(); ++i) {
       EXPECT_NEAR(influence.curvature_acceleration(i, weighted, force), expected[i],
                   1e-13 * largest)
           << "section " << i;
     }
-  }
+  });
 }
 
 TEST(SectionInfluence, AddsUpToTheAccelerationsOfAllMoments) {
-  for (const Mesh& of : meshes()) {
-    SCOPED_TRACE(of.name);
-    const BeamMesh& mesh = *of.mesh;
-    const BandedSolver solver(mesh.mass());
-    SectionInfluence influence(mesh, solver);
+  on_every_mesh([](const BeamMesh& mesh, const BandedSolver& solver, SectionInfluence& influence) {
     const std::vector<double> moments = random_numbers(11, mesh.n_sections());
     std::vector<double> expected(mesh.n_unknowns());
     mesh.bending_forces(moments, expected);
@@ -82,20 +88,15 @@ TEST(SectionInfluence, AddsUpToTheAccelerationsOfAllMoments) {
     for (std::size_t i = 0; i < moments.size(); ++i) {
       influence.add_accelerations(i, moments[i], sum);
     }
-    double largest = 0.0;
-    for (const double a : expected) largest = std::max(largest, std::abs(a));
+    const double largest = largest_of(expected);
     for (std::size_t i = 0; i < sum.size(); ++i) {
       EXPECT_NEAR(sum[i], expected[i], 1e-13 * largest) << "unknown " << i;
     }
-  }
+  });
 }
 
 TEST(SectionInfluence, OfOneSectionOnAnotherIsTheCurvatureOfItsAccelerations) {
-  for (const Mesh& of : meshes()) {
-    SCOPED_TRACE(of.name);
-    const BeamMesh& mesh = *of.mesh;
-    const BandedSolver solver(mesh.mass());
-    SectionInfluence influence(mesh, solver);
+  on_every_mesh([](const BeamMesh& mesh, const BandedSolver&, SectionInfluence& influence) {
     for (const std::size_t section : {std::size_t{0}, mesh.n_sections() / 3}) {
       std::vector<double> accelerations(mesh.n_unknowns(), 0.0);
       influence.add_accelerations(section, 1.0, accelerations);
@@ -107,7 +108,7 @@ TEST(SectionInfluence, OfOneSectionOnAnotherIsTheCurvatureOfItsAccelerations) {
                     1e-13 * own);
       }
     }
-  }
+  });
 }
 
 }  // namespace
