@@ -36,7 +36,9 @@ int exit_status(OutcomeKind kind) {
       return interrupted;
     case OutcomeKind::left_validity:
       return refused;
+    case OutcomeKind::inaccurate:
     case OutcomeKind::unstable:
+    case OutcomeKind::chattering:
     case OutcomeKind::solver_failed:
       return failed;
   }

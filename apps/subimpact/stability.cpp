@@ -161,7 +161,8 @@ void add_stability(CLI::App& program, int& status) {
           "--parts", options->parts,
           "Only these parts, separated by commas: critical (largest stable steps), contact "
           "(the same in stiff contact), damping (of implicit methods), map (right, wrong "
-          "count, unstable, refused, failed), pairs (sub-impacts within one step), layers "
+          "count, inaccurate, unstable, refused, failed), pairs (sub-impacts within one step), "
+          "layers "
           "(against the exact section)")
       ->delimiter(',');
   command->add_option("--out", options->directory,

@@ -75,8 +75,9 @@ EventKind event_kind(std::string_view name) {
 
 OutcomeKind outcome_kind(const std::string& name) {
   for (const OutcomeKind kind :
-       {OutcomeKind::completed, OutcomeKind::stopped, OutcomeKind::unstable,
-        OutcomeKind::solver_failed, OutcomeKind::left_validity}) {
+       {OutcomeKind::completed, OutcomeKind::stopped, OutcomeKind::inaccurate,
+        OutcomeKind::unstable, OutcomeKind::chattering, OutcomeKind::solver_failed,
+        OutcomeKind::left_validity}) {
     if (to_string(kind) == name) return kind;
   }
   throw ResultsError(fmt::format("summary.json: unknown outcome \"{}\"; run the case again", name));
@@ -105,7 +106,13 @@ Used used_from(const Json& json) {
   used.yield_curvature = number(json.at("yield_curvature_per_m"));
   used.first_period = number(json.at("first_period_s"));
   used.initial_energy = number(json.at("initial_energy_J"));
+  used.energy_tolerance = number(json.value("energy_tolerance_relative", Json(0.0)));
   return used;
+}
+
+std::optional<Interval> interval_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return Interval{number(json.at(0)), number(json.at(1))};
 }
 
 Work work_from(const Json& json) {
@@ -152,6 +159,13 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
   const std::string text = read_whole_file(path);
   try {
     const Json json = Json::parse(text);
+    if (const int layout = json.value("layout", 1); layout > summary_layout) {
+      throw ResultsError(
+          fmt::format("{}: has layout {}, but this program reads layouts 1 to {}; use the program "
+                      "that wrote it, "
+                      "or run the case again",
+                      path.string(), layout, summary_layout));
+    }
     run.program_version = json.at("program").at("version").get<std::string>();
     for (const auto& [name, version] : json.at("libraries").items()) {
       run.libraries.emplace_back(name, version.get<std::string>());
@@ -161,7 +175,9 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
     result.used = used_from(json.at("used"));
     const Json& outcome = json.at("outcome");
     result.outcome = {outcome_kind(outcome.at("kind").get<std::string>()),
-                      number(outcome.at("time_s")), outcome.at("message").get<std::string>()};
+                      number(outcome.at("time_s")), outcome.at("message").get<std::string>(),
+                      interval_from(outcome.value("first_failure_s", Json()))};
+    result.warnings = json.value("warnings", std::vector<std::string>());
     result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();
     result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
     result.first_contact_yield = optional_number(json.at("first_yield").at("contact_s"));
@@ -173,6 +189,7 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
     const Json& conservation = json.at("conservation");
     result.max_energy_error = number(conservation.at("max_energy_error_relative"));
     result.max_momentum_error = optional_number(conservation.at("max_momentum_error_relative"));
+    result.max_impulse_error = number(conservation.value("max_impulse_error_relative", Json(0.0)));
     result.trust = trust_from(json.at("error_bars"));
     result.work = work_from(json.at("work"));
   } catch (const nlohmann::json::exception& error) {

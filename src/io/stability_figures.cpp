@@ -138,13 +138,16 @@ std::string outcome_figure(const OutcomeMap& map) {
     const char* colour;
     const char* title;
   };
-  const Look looks[] = {
-      {Verdict::right, "#009E73", "right"},       {Verdict::wrong_count, "#E69F00", "wrong count"},
-      {Verdict::unstable, "#D55E00", "unstable"}, {Verdict::failed, "#7A0019", "solver failed"},
-      {Verdict::refused, "#56B4E9", "refused"},   {Verdict::not_run, "#D0D0D0", "left out"}};
+  const Look looks[] = {{Verdict::right, "#009E73", "right"},
+                        {Verdict::wrong_count, "#E69F00", "wrong count"},
+                        {Verdict::inaccurate, "#CC79A7", "inaccurate"},
+                        {Verdict::unstable, "#D55E00", "unstable"},
+                        {Verdict::failed, "#7A0019", "solver failed"},
+                        {Verdict::refused, "#56B4E9", "refused"},
+                        {Verdict::not_run, "#D0D0D0", "left out"}};
   // The key, below both panels.
   for (std::size_t k = 0; k < std::size(looks); ++k) {
-    const double x = 0.2 + 0.13 * static_cast<double>(k);
+    const double x = 0.12 + 0.125 * static_cast<double>(k);
     text += fmt::format(
         "set object {} rect from screen {:.3f},0.02 to screen {:.3f},0.06 fc rgb '{}' fs solid 1 "
         "noborder\nset label {} '{}' at screen {:.3f},0.04 left\n",

@@ -19,6 +19,8 @@ char letter(Verdict verdict) {
       return '+';
     case Verdict::wrong_count:
       return 'w';
+    case Verdict::inaccurate:
+      return 'i';
     case Verdict::unstable:
       return 'U';
     case Verdict::failed:
@@ -101,8 +103,9 @@ std::string outcome_table(const OutcomeMap& map) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "reference: {}; {} sub-impacts up to {:.3f} us\n", map.reference.description,
                  map.reference.sub_impacts.size(), map.reference.horizon * us);
-  fmt::format_to(
-      out, "+ right   w wrong count   U unstable   F solver failed   r refused   . left out\n");
+  fmt::format_to(out,
+                 "+ right   w wrong count   i inaccurate   U unstable   F solver failed   r "
+                 "refused   . left out\n");
   std::string group, row;
   for (const OutcomePoint& point : map.points) {
     if (point.group != group) {

@@ -71,6 +71,7 @@ Json what_was_used(const Case& input, const Used& used) {
       {"yield_curvature_per_m", number(used.yield_curvature)},
       {"first_period_s", number(used.first_period)},
       {"initial_energy_J", number(used.initial_energy)},
+      {"energy_tolerance_relative", number(used.energy_tolerance)},
   };
 }
 
@@ -126,6 +127,11 @@ Json work_counts(const Work& work) {
   };
 }
 
+Json interval(const std::optional<Interval>& times) {
+  if (!times) return nullptr;
+  return {number(times->from), number(times->to)};
+}
+
 Json undecided(const std::optional<std::size_t>& index) {
   return index ? Json(*index + 1) : Json(nullptr);
 }
@@ -160,8 +166,12 @@ std::string_view to_string(OutcomeKind kind) {
       return "completed";
     case OutcomeKind::stopped:
       return "stopped";
+    case OutcomeKind::inaccurate:
+      return "inaccurate";
     case OutcomeKind::unstable:
       return "unstable";
+    case OutcomeKind::chattering:
+      return "chattering";
     case OutcomeKind::solver_failed:
       return "solver-failed";
     case OutcomeKind::left_validity:
@@ -191,6 +201,7 @@ std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impac
 std::string summary_json(const Case& input, const Result& result) {
   const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
   const Json json = {
+      {"layout", summary_layout},
       {"program", {{"name", "subimpact"}, {"version", project_version()}}},
       {"libraries", versions()},
       {"case", case_as_asked(input)},
@@ -199,7 +210,9 @@ std::string summary_json(const Case& input, const Result& result) {
       {"outcome",
        {{"kind", to_string(result.outcome.kind)},
         {"time_s", number(result.outcome.time)},
-        {"message", result.outcome.message}}},
+        {"message", result.outcome.message},
+        {"first_failure_s", interval(result.outcome.first_failure)}}},
+      {"warnings", result.warnings},
       {"counts", counts(result, zones)},
       {"zones", zone_list(zones)},
       {"first_yield",
@@ -213,7 +226,8 @@ std::string summary_json(const Case& input, const Result& result) {
         {"beam_mean_velocity_m_per_s", number(result.beam_mean_velocity)}}},
       {"conservation",
        {{"max_energy_error_relative", number(result.max_energy_error)},
-        {"max_momentum_error_relative", number(result.max_momentum_error)}}},
+        {"max_momentum_error_relative", number(result.max_momentum_error)},
+        {"max_impulse_error_relative", number(result.max_impulse_error)}}},
       {"error_bars", trust_in_times(result.trust)},
       {"work", work_counts(result.work)},
   };

@@ -46,7 +46,8 @@ bool completed(const WorkPrecisionPoint& point) {
 }
 
 bool broke_down(const WorkPrecisionPoint& point) {
-  return point.verdict == Verdict::unstable || point.verdict == Verdict::failed;
+  return point.verdict == Verdict::inaccurate || point.verdict == Verdict::unstable ||
+         point.verdict == Verdict::failed;
 }
 
 // An error too small to be told from none stands at a tenth of the reference's.

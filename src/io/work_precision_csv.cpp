@@ -24,8 +24,9 @@ constexpr const char* header =
     "peak_force_error,striker_velocity_error,beam_velocity_error,wall_s,repeats,setup_s,steps,"
     "rejected_steps,right_hand_sides,mass_solves,jacobians,factorisations,message\n";
 
-constexpr Verdict verdicts[] = {Verdict::right,  Verdict::wrong_count, Verdict::unstable,
-                                Verdict::failed, Verdict::refused,     Verdict::not_run};
+constexpr Verdict verdicts[] = {Verdict::right,    Verdict::wrong_count, Verdict::inaccurate,
+                                Verdict::unstable, Verdict::failed,      Verdict::refused,
+                                Verdict::not_run};
 
 std::size_t whole(long value) { return static_cast<std::size_t>(value); }
 

@@ -237,6 +237,8 @@ std::vector<CaseKey> make_case_keys() {
     row("solver.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(solver.vector_operations)),
     row("solver.beyond_critical", "", any_value, "lets a fixed step exceed the stability limit, to see it fail", as_in_case, AT(solver.beyond_critical)),
 
+    row("accuracy.energy", "", between("above 0, up to 1", std::numeric_limits<double>::min(), 1.0), "largest error of the energy, relative to the initial energy, of a run that counts as completed", "from method and rtol, 1e-3 at most", AT(accuracy.energy)),
+
     row("output.interval", "s", not_negative, "time between history rows; 0: none", as_in_case, AT(output.interval)),
     row("output.zone_gap", "", positive, "separation that ends a zone, in first flexural periods", as_in_case, AT(output.zone_gap)),
     row("output.subzone_gap", "", positive, "separation that ends a sub-zone, in first flexural periods", as_in_case, AT(output.subzone_gap)),

@@ -8,6 +8,8 @@ std::string_view to_string(Verdict verdict) {
       return "right";
     case Verdict::wrong_count:
       return "wrong count";
+    case Verdict::inaccurate:
+      return "inaccurate";
     case Verdict::unstable:
       return "unstable";
     case Verdict::failed:
@@ -24,6 +26,9 @@ Verdict judge(const Result& run, const EventErrors& errors) {
   switch (run.outcome.kind) {
     case OutcomeKind::completed:
       return errors.all_correspond() ? Verdict::right : Verdict::wrong_count;
+    case OutcomeKind::inaccurate:
+    case OutcomeKind::chattering:
+      return Verdict::inaccurate;
     case OutcomeKind::unstable:
     case OutcomeKind::left_validity:  // of a scene whose reference stays within it
       return Verdict::unstable;

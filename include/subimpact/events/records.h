@@ -35,7 +35,8 @@ struct SubImpact {
   double start = 0.0;                  ///< s
   std::optional<double> end;           ///< s; none: still in contact when the simulation ended
   double peak_force = 0.0;             ///< N
-  double impulse = 0.0;                ///< N s
+  double impulse = 0.0;                ///< N s, from the striker's velocities at start and end
+  double force_integral = 0.0;         ///< N s, the contact force integrated over the sub-impact
   double max_indentation = 0.0;        ///< m, largest within this sub-impact
   double residual_indentation = 0.0;   ///< m, after it
   double striker_velocity = 0.0;       ///< m/s, at its end

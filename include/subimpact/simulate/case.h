@@ -82,6 +82,13 @@ struct SolverOptions {
   bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
 };
 
+/// What results must come up to.
+struct AccuracyOptions {
+  /// Largest error of the energy, relative to the initial energy, of a run that counts as
+  /// completed; empty: follows from method and rtol, 1e-3 at most.
+  std::optional<double> energy;
+};
+
 /// When a run ends.
 enum class StopRule {
   end_time,        ///< at the end time
@@ -108,6 +115,7 @@ struct Case {
   double end_time = 0.0;  ///< s
   StopRule stop = StopRule::end_time;
   SolverOptions solver;
+  AccuracyOptions accuracy;
   OutputOptions output;
 };
 

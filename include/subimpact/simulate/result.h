@@ -46,17 +46,28 @@ struct SectionRow {
 
 /// How a simulation ended.
 enum class OutcomeKind {
-  completed,
+  completed,      ///< the end was reached, and energy, momentum and events were right all the way
   stopped,        ///< the caller's progress function asked to stop
-  unstable,       ///< energy grew without reason, or a value is not a number
+  inaccurate,     ///< energy, momentum, an impulse or an event was off by more than the tolerance
+  unstable,       ///< the energy grows without bound, or a value is not finite
+  chattering,     ///< the contact opened and closed over and over while time stood still
   solver_failed,  ///< the integrator could not go on
   left_validity,  ///< the indentation reached the beam's thickness
+};
+
+/// From the last time at which a check passed to the first at which it failed.
+struct Interval {
+  double from = 0.0;  ///< s
+  double to = 0.0;    ///< s
 };
 
 struct Outcome {
   OutcomeKind kind = OutcomeKind::completed;
   double time = 0.0;    ///< s, reached
   std::string message;  ///< one line: for failures, cause and what to do
+  /// Where results stop being right, for `inaccurate` and `unstable`: those up to `from` passed
+  /// every check.
+  std::optional<Interval> first_failure;
   bool completed() const { return kind == OutcomeKind::completed; }
 };
 
@@ -81,6 +92,7 @@ struct Used {
   double yield_curvature = 0.0;     ///< 1/m
   double first_period = 0.0;        ///< T1 of the beam in bending, s
   double initial_energy = 0.0;      ///< J
+  double energy_tolerance = 0.0;    ///< relative to the initial energy
 };
 
 struct Work {
@@ -129,14 +141,18 @@ struct Result {
   std::optional<double> first_contact_yield;  ///< s
   /// s: from here on no contact is possible, proven; looked for with time.stop = "no-more-contact".
   std::optional<double> no_more_contact;
-  std::size_t n_yielded_sections = 0;  ///< of the sections modelled
-  double max_force = 0.0;              ///< N
-  double max_indentation = 0.0;        ///< m
-  double striker_velocity = 0.0;       ///< m/s, at the end
-  double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
-  double max_energy_error = 0.0;       ///< largest relative error over the rows and at the end
+  std::size_t n_yielded_sections = 0;        ///< of the sections modelled
+  double max_force = 0.0;                    ///< N
+  double max_indentation = 0.0;              ///< m
+  double striker_velocity = 0.0;             ///< m/s, at the end
+  double beam_mean_velocity = 0.0;           ///< m/s, at the end: beam momentum over beam mass
+  double max_energy_error = 0.0;             ///< largest relative error over all checks
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
-  std::optional<Trust> trust;                ///< with error bars
+  /// Largest difference of a sub-impact's impulse and its integrated force, over m v0.
+  double max_impulse_error = 0.0;
+  /// Reasons to doubt results that passed all checks, one sentence each.
+  std::vector<std::string> warnings;
+  std::optional<Trust> trust;  ///< with error bars
   Work work;
 };
 

@@ -11,6 +11,7 @@ namespace subimpact {
 enum class Verdict {
   right,        ///< completed, and every sub-impact corresponds
   wrong_count,  ///< completed, but sub-impacts are missing, merged or invented
+  inaccurate,   ///< ended by one of its own checks, and the run said so
   unstable,     ///< the solution grew without bound, and the run said so
   failed,       ///< the solver could not go on, and said so
   refused,      ///< the setting was not accepted
