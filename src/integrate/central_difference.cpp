@@ -16,13 +16,14 @@ void CentralDifference::restart(double t, const State& y) {
   ++work_.right_hand_sides;
 }
 
-void CentralDifference::advance(double h, State& y, std::vector<double>& acceleration) {
+void CentralDifference::advance(double h, const State& from, const std::vector<double>& a_from,
+                                State& y, std::vector<double>& acceleration) {
   const double half = 0.5 * h;
-  const double* q0 = y0_.data();
+  const double* q0 = from.data();
   const double* v0 = q0 + n_;
   double* q = y.data();
   double* v = q + n_;
-  const double* a0 = a0_.data();
+  const double* a0 = a_from.data();
   const double* a1 = acceleration.data();
 #pragma GCC ivdep
   for (std::size_t i = 0; i < n_; ++i) {
@@ -39,14 +40,20 @@ void CentralDifference::step() {
   std::swap(y0_, y1_);
   std::swap(a0_, a1_);
   t0_ = t1_;
-  advance(step_, y1_, a1_);
+  advance(step_, y0_, a0_, y1_, a1_);
   t1_ = origin_ + static_cast<double>(++steps_from_origin_) * step_;
   ++work_.steps;
 }
 
 void CentralDifference::state_at(double t, State& y) {
   y.resize(2 * n_);
-  advance(t - t0_, y, a_partial_);
+  advance(t - t0_, y0_, a0_, y, a_partial_);
+  ++work_.partial_steps;
+}
+
+void CentralDifference::state_before_end(double t, State& y) {
+  y.resize(2 * n_);
+  advance(t - t1_, y1_, a1_, y, a_partial_);
   ++work_.partial_steps;
 }
 

@@ -19,11 +19,15 @@ class CentralDifference final : public Integrator {
   void restart(double t, const State& y) override;
   void step() override;
   void state_at(double t, State& y) override;
+  /// The scheme is reversible in time: a step from the end with the velocity reversed.
+  void state_before_end(double t, State& y) override;
   WorkCounts work() const override { return work_; }
 
  private:
-  // One step of length h from (y0_, a0_) into y; leaves a(q) at its end in `acceleration`.
-  void advance(double h, State& y, std::vector<double>& acceleration);
+  // One step of length h (which may be negative) from (from, a_from) into y; leaves a(q) at its end
+  // in `acceleration`.
+  void advance(double h, const State& from, const std::vector<double>& a_from, State& y,
+               std::vector<double>& acceleration);
 
   SecondOrderOde& ode_;
   std::size_t n_;

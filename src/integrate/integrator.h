@@ -61,6 +61,10 @@ class Integrator {
   /// the start, not an interpolant of lower order).
   virtual void state_at(double t, State& y) = 0;
 
+  /// The same, followed backwards from the step's end. It differs from state_at by the step's own
+  /// error, which is large only where the force changes within the step.
+  virtual void state_before_end(double t, State& y) { state_at(t, y); }
+
   /// Whether the integrator itself has shown that nothing happened in the last step, however long:
   /// nobody need look for events in it.
   virtual bool is_eventless() const { return false; }

@@ -90,6 +90,9 @@ Used used_from(const Json& json) {
   used.n_sections = json.at("n_sections").get<std::size_t>();
   used.mesh = json.at("mesh").get<std::string>();
   used.highest_frequency = number(json.at("highest_frequency_rad_per_s"));
+  used.largest_contact_slope = number(json.value("largest_contact_slope_N_per_m", Json(0.0)));
+  used.joined_frequency = number(json.value("joined_frequency_rad_per_s", Json(0.0)));
+  used.contact_time = number(json.value("contact_time_s", Json(0.0)));
   used.critical_step = number(json.at("critical_step_s"));
   used.step = optional_number(json.at("step_s"));
   used.table = optional_text(json.at("table"));

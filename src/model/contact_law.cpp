@@ -110,6 +110,23 @@ double ContactLaw::recoverable_energy(ContactHistory history, double indentation
                        power(residual) * (indentation - residual));
 }
 
+double ContactLaw::indentation_at(double energy) const {
+  const auto work = [this](double indentation) {
+    const ContactHistory reached{indentation};
+    return recoverable_energy(reached, indentation) + dissipated_energy(reached);
+  };
+  // Exact without yielding; yielding takes more depth for the same work.
+  double low = std::pow((exponent_ + 1.0) * energy / stiffness_, 1.0 / (exponent_ + 1.0));
+  if (!(work(low) < energy)) return low;
+  double high = 2.0 * low;
+  while (work(high) < energy) high *= 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (work(middle) < energy ? low : high) = middle;
+  }
+  return high;
+}
+
 double ContactLaw::dissipated_energy(ContactHistory history) const {
   const double residual = residual_indentation(history);
   if (residual == 0.0) return 0.0;

@@ -91,6 +91,12 @@ class ContactLaw {
   /// Work the contact would give back on unloading from here, J.
   double recoverable_energy(ContactHistory history, double indentation) const;
 
+  /// The largest indentation (m) that work `energy` (J) can press into the surface.
+  double indentation_at(double energy) const;
+  /// The largest slope dF/dlambda (N/m) that any history can show up to an indentation: that of
+  /// unloading from there.
+  double largest_slope(double indentation) const { return stiffness_ * power_slope(indentation); }
+
   /// Work that plastic indentation has consumed so far: K lambda_r^n lambda_s for n = 3/2, J.
   double dissipated_energy(ContactHistory history) const;
 

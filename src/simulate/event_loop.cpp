@@ -1,5 +1,7 @@
 #include "simulate/event_loop.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,16 +17,28 @@ namespace {
 // Roots are found to rounding.
 constexpr double root_tolerance = 8.0 * std::numeric_limits<double>::epsilon();
 
-// How often the energy is looked at, in steps (and at the end), and by which part of the initial
-// energy it may be off before the run is called unstable.
-constexpr long energy_check_interval = 512;
-constexpr double tolerated_energy_gain = 0.5;
+// Within the shortest time that a contact takes there is room for a begin, a yield, an unloading
+// and an end. Many times as many events are chattering.
+constexpr long most_events_in_place = 64;
+
+// By how many times the rounding of displacements, velocities and times a located event may miss
+// its guard.
+constexpr double tolerated_rounding = 64.0;
+
+// How far a run whose energy is off is followed to see whether it blows up.
+constexpr long most_steps_ahead = 2000;
+
+constexpr double us = 1e6;  // per second
 
 }  // namespace
 
-EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer,
+EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
                      LoopOptions options)
-    : beam_(beam), integrator_(integrator), observer_(observer), options_(options) {
+    : beam_(beam),
+      integrator_(integrator),
+      observer_(&observer),
+      audit_(&audit),
+      options_(options) {
   beam_.set_contact_evaluation(options.events == EventHandling::located
                                    ? StruckBeam::Evaluation::smooth
                                    : StruckBeam::Evaluation::switching);
@@ -37,6 +51,8 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
 
 void EventLoop::start() {
   const State y = beam_.initial_state();
+  end_state_ = y;
+  state_ = &end_state_;
   beam_.commit(y);
   report({EventKind::contact_begins}, 0.0, y, true);
   start_from(y);
@@ -44,7 +60,6 @@ void EventLoop::start() {
 
 void EventLoop::start_from(const State& y) {
   time_ = 0.0;
-  initial_energy_ = beam_.energies(y).total();
   beam_.commit(y);
   end_state_ = y;
   state_ = &end_state_;  // where the run stands if the integrator cannot even begin
@@ -56,32 +71,45 @@ void EventLoop::advance() {
   integrator_.step();
   ++n_steps_;
   state_ = &integrator_.start_state();  // until the step's end is found good
-  check_state(integrator_.state());
+  check_step_end(integrator_.state());
+  const bool suspicious = audit_->is_suspicious(integrator_.time(), integrator_.state());
   if (options_.events == EventHandling::located) {
     locate_events();
   } else {
     interpolate_events();
   }
+  check_accepted(suspicious);
 }
 
-void EventLoop::check_state(const State& y) {
-  const double indentation = beam_.indentation(y);
-  const bool too_deep = indentation >= options_.largest_indentation;
-  const bool last = integrator_.time() >= options_.end_time;
-  const bool looked_at = too_deep || last || n_steps_ % energy_check_interval == 0;
-  const double energy = looked_at ? beam_.energies(y).total() : initial_energy_;
-  if (!std::isfinite(indentation) || !std::isfinite(energy) ||
-      energy > (1.0 + tolerated_energy_gain) * initial_energy_) {
-    throw RunStopped(RunStopped::Reason::unstable,
-                     "the solution grows without bound: total energy is no longer near its initial "
-                     "value; use a smaller solver.step or another method");
+void EventLoop::check_step_end(const State& y) {
+  if (!(beam_.indentation(y) >= options_.largest_indentation)) return;
+  audit_->check(integrator_.time(), y);  // a blow-up is called by its name
+  throw RunStopped(OutcomeKind::left_validity,
+                   "the indentation reached the beam's thickness, where the contact law ends; "
+                   "reduce striker.velocity or striker.mass, or make the contact stiffer");
+}
+
+void EventLoop::check_accepted(bool now) {
+  if (now || finished() || n_steps_ % options_.audit_interval == 0) audit_->check(time_, *state_);
+}
+
+bool EventLoop::energy_keeps_growing() {
+  Audit without_limits = audit_->without_limits();
+  RunObserver nobody;
+  audit_ = &without_limits;
+  observer_ = &nobody;
+  const State y = *state_;
+  try {
+    integrator_.restart(time_, y);
+    for (long n = 0; n < most_steps_ahead && !finished(); ++n) {
+      advance();
+      audit_->check(time_, *state_);
+    }
+  } catch (const RunStopped& stop) {
+    return stop.kind == OutcomeKind::unstable;
+  } catch (const IntegrationFailure&) {
   }
-  if (too_deep) {
-    throw RunStopped(
-        RunStopped::Reason::left_validity,
-        "the indentation reached the beam's thickness, where the contact law ends; reduce "
-        "striker.velocity or striker.mass, or make the contact stiffer");
-  }
+  return false;
 }
 
 StepEnds EventLoop::step_to_end_time() {
@@ -122,11 +150,17 @@ void EventLoop::locate_events() {
       event = crossing.guard;
     }
     const double good_until = beam_.find_section_kinks({t0, t1, y0, *y1, whole.eventless});
-    if (!(good_until < t1)) break;
-    integrator_.state_at(good_until, event_state_);
-    end_at_event_state(good_until);
+    if (good_until < t1) {
+      integrator_.state_at(good_until, event_state_);
+      end_at_event_state(good_until);
+      event.reset();
+      continue;
+    }
+    if (!event || beam_.section_kinks().empty()) break;
+    if (!relocate(*event, {t0, t1, y0, *y1}, whole.t1, t1)) event.reset();
+    break;
   }
-  observer_.on_step({t0, t1, y0, *y1, whole.eventless}, beam_, integrator_);
+  observer_->on_step({t0, t1, y0, *y1, whole.eventless}, beam_, integrator_);
   const bool kinked = !beam_.section_kinks().empty();
   if (kinked) put_sections_right(y1);
   time_ = t1;
@@ -153,7 +187,45 @@ void EventLoop::put_sections_right(const State*& y) {
   }
   std::sort(turns_.begin(), turns_.end(),
             [](const Transition& a, const Transition& b) { return a.time < b.time; });
-  for (const Transition& turn : turns_) observer_.on_turn(turn);
+  for (const Transition& turn : turns_) observer_->on_turn(turn);
+}
+
+bool EventLoop::relocate(const Guard& guard, const StepEnds& step, double latest, double& time) {
+  RootOptions options;
+  options.tolerance = root_tolerance * step.t1;
+  // The state at t without the kinks is left in event_state_.
+  const auto guard_at = [&](double t) {
+    integrator_.state_at(t, event_state_);
+    beam_.find_section_kinks({step.t0, t, step.y0, event_state_});
+    trial_state_ = event_state_;
+    beam_.add_kinks(trial_state_);
+    return beam_.evaluate(guard, trial_state_);
+  };
+  trial_state_ = event_state_;
+  beam_.add_kinks(trial_state_);
+  const GuardValue here = beam_.evaluate(guard, trial_state_);
+  if (std::abs(here.value) <= rounding_of(guard, trial_state_, step.t1, here)) return true;
+  if (here.value > 0.0) {
+    time = find_rise(guard_at, step.t0, step.t1, step.t1 - here.value / here.rate, options);
+    return true;
+  }
+  // Not reached yet: a little later, if the guard rises fast enough to be sure of it.
+  const double ahead = std::min(step.t1 - 2.0 * here.value / here.rate, latest);
+  if (here.rate > 0.0 && ahead > step.t1 && guard_at(ahead).value > 0.0) {
+    time = find_rise(guard_at, step.t1, ahead, step.t1 - here.value / here.rate, options);
+    return true;
+  }
+  guard_at(step.t1);
+  return false;
+}
+
+double EventLoop::rounding_of(const Guard& guard, const State& y, double time,
+                              const GuardValue& at) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double of_value = guard.kind == EventKind::contact_unloads
+                              ? epsilon * beam_.scales().velocity
+                              : beam_.negligible_excursion(y);
+  return of_value + epsilon * time * std::abs(at.rate);
 }
 
 bool EventLoop::confirm(Crossing& crossing, const StepEnds& step) {
@@ -201,52 +273,123 @@ double EventLoop::locate(const Crossing& crossing, const StepEnds& step) {
   return find_rise(guard_at, after, before, guess, options);
 }
 
+ContactBranch EventLoop::branch_after(EventKind kind) {
+  if (kind == EventKind::contact_yields) return ContactBranch::plastic;
+  return kind == EventKind::contact_ends ? ContactBranch::separated : ContactBranch::elastic;
+}
+
 void EventLoop::report(const Guard& guard, double time, const State& y, bool switch_branch) {
   Transition event;
   event.time = time;
   event.kind = guard.kind;
   event.value = beam_.indentation(y);
+  if (switch_branch) check_root(guard, time, y);
+  watch_for_chattering(time);
+  audit_->check(time, y);
   ++n_events_;
-  observer_.before_event(event, y, beam_);
+  observer_->before_event(event, y, beam_);
   if (switch_branch) {
     beam_.commit(y);
     beam_.apply(guard, y);
+  } else {
+    beam_.set_contact(branch_after(guard.kind), beam_.contact_history());
   }
-  observer_.after_event(event, y, beam_);
+  audit_->check(time, y);
+  observer_->after_event(event, y, beam_);
+}
+
+void EventLoop::check_root(const Guard& guard, double time, const State& y) {
+  const GuardValue at = beam_.evaluate(guard, y);
+  const double tolerated = tolerated_rounding * rounding_of(guard, y, time, at);
+  if (!(std::abs(at.value) <= tolerated)) {
+    audit_->fail(time, OutcomeKind::inaccurate,
+                 fmt::format("{} was located at {:.6g} us, but its condition is missed there by "
+                             "{:.2e} {}, tolerated are {:.1e}",
+                             to_string(guard.kind), us * time, at.value,
+                             guard.kind == EventKind::contact_unloads ? "m/s" : "m", tolerated));
+  }
+  if (!(time >= last_event_)) {
+    audit_->fail(time, OutcomeKind::inaccurate,
+                 fmt::format("{} was located at {:.6g} us, before the event that precedes it",
+                             to_string(guard.kind), us * time));
+  }
+  if (guard.kind == EventKind::contact_begins) contact_start_ = time;
+  if (guard.kind == EventKind::contact_ends && !(time > contact_start_)) {
+    audit_->fail(
+        time, OutcomeKind::inaccurate,
+        fmt::format("the contact that begins at {:.6g} us ends at the same instant", us * time));
+  }
+  last_event_ = time;
+}
+
+void EventLoop::watch_for_chattering(double time) {
+  if (time - events_since_ > options_.shortest_contact) {
+    events_since_ = time;
+    n_events_in_place_ = 0;
+  }
+  if (++n_events_in_place_ <= most_events_in_place) return;
+  audit_->fail(time, OutcomeKind::chattering,
+               fmt::format("the contact changed its state {} times within {:.2e} us",
+                           n_events_in_place_, us * (time - events_since_)));
+}
+
+std::vector<EventLoop::Interpolated> EventLoop::events_within(const StepEnds& step,
+                                                              ContactBranch after) {
+  const ContactBranch before = beam_.contact_branch();
+  const double threshold = beam_.contact_law().yield_threshold(beam_.contact_history());
+  const double residual = beam_.residual_indentation();
+  const double lambda0 = beam_.indentation(step.y0);
+  const double lambda1 = beam_.indentation(step.y1);
+  const double rate0 = beam_.indentation_rate(step.y0);
+  const double rate1 = beam_.indentation_rate(step.y1);
+  std::vector<Interpolated> events;
+  const auto add = [&](EventKind kind, double s) {
+    events.push_back({kind, step.t0 + s * step.length()});
+  };
+  const auto rise = [&](EventKind kind, double level, double sign) {
+    const HermiteCubic path(sign * (lambda0 - level), sign * rate0, sign * (lambda1 - level),
+                            sign * rate1, step.length());
+    add(kind, path.rise(0.0, 1.0));
+  };
+  if (before == ContactBranch::separated) rise(EventKind::contact_begins, residual, 1.0);
+  if (before == ContactBranch::plastic) {
+    add(EventKind::contact_unloads, rate0 > 0.0 && rate1 < 0.0 ? rate0 / (rate0 - rate1) : 0.0);
+  }
+  if (after == ContactBranch::plastic) rise(EventKind::contact_yields, threshold, 1.0);
+  if (after == ContactBranch::separated) rise(EventKind::contact_ends, residual, -1.0);
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Interpolated& a, const Interpolated& b) { return a.time < b.time; });
+  return events;
 }
 
 void EventLoop::interpolate_events() {
   const StepEnds step = step_to_end_time();
-  observer_.on_step(step, beam_, integrator_);
-
-  const ContactBranch before = beam_.contact_branch();
-  const double threshold = beam_.contact_law().yield_threshold(beam_.contact_history());
-  const double residual = beam_.residual_indentation();
-  beam_.follow_branch(step.y1);
-  const ContactBranch after = beam_.contact_branch();
-  if (before != after) {
-    const double h = step.length();
-    const double lambda0 = beam_.indentation(step.y0);
-    const double lambda1 = beam_.indentation(step.y1);
-    const double rate0 = beam_.indentation_rate(step.y0);
-    const double rate1 = beam_.indentation_rate(step.y1);
-    const auto event_at = [&](EventKind kind, double s) {
-      integrator_.state_at(step.t0 + s * h, event_state_);
-      report({kind}, step.t0 + s * h, event_state_, false);
-    };
-    const auto rise = [&](EventKind kind, double level, double sign) {
-      const HermiteCubic path(sign * (lambda0 - level), sign * rate0, sign * (lambda1 - level),
-                              sign * rate1, h);
-      event_at(kind, path.rise(0.0, 1.0));
-    };
-    if (before == ContactBranch::separated) rise(EventKind::contact_begins, residual, 1.0);
-    if (before == ContactBranch::plastic) {
-      const double turn = rate0 > 0.0 && rate1 < 0.0 ? rate0 / (rate0 - rate1) : 0.0;
-      event_at(EventKind::contact_unloads, turn);
+  const ContactBranch after =
+      beam_.contact_law().branch(beam_.contact_history(), beam_.indentation(step.y1));
+  double t0 = step.t0;
+  const State* y0 = &step.y0;
+  bool from_end = false;
+  if (after != beam_.contact_branch()) {
+    for (const Interpolated& event : events_within(step, after)) {
+      // Forces act at the ends of steps: before contact begins the motion is that of the step's
+      // start, after it ends that of the step's end, both without the contact force.
+      from_end = event.kind == EventKind::contact_ends;
+      trial_state_ = *y0;
+      if (from_end) {
+        integrator_.state_before_end(event.time, event_state_);
+      } else {
+        integrator_.state_at(event.time, event_state_);
+      }
+      observer_->on_step({t0, event.time, trial_state_, event_state_}, beam_, integrator_);
+      report({event.kind}, event.time, event_state_, false);
+      t0 = event.time;
+      y0 = &event_state_;
     }
-    if (after == ContactBranch::plastic) rise(EventKind::contact_yields, threshold, 1.0);
-    if (after == ContactBranch::separated) rise(EventKind::contact_ends, residual, -1.0);
+    beam_.follow_branch(step.y1);
   }
+  StepEnds rest{t0, step.t1, *y0, step.y1};
+  rest.from_end = from_end;
+  observer_->on_step(rest, beam_, integrator_);
   beam_.commit(step.y1);
   time_ = step.t1;
   state_ = &step.y1;

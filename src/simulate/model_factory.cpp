@@ -18,11 +18,27 @@
 #include "simulate/mesh_checks.h"
 #include "subimpact/simulate/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
+#include "system/contact_resonance.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double default_part_of_critical = 0.9;
+// Steps that the default step makes at least in the time scale of the shortest contacts, to follow
+// them, and where all of the strike's energy goes through them, to keep it to 1e-4.
+constexpr double default_steps_in_contact = 8.0;
+constexpr double default_steps_to_keep_energy = 48.0;
+// Central differences keep no energy where the length of the step changes: after a step cut short
+// at an event the energy of a mode of angle omega h may be off by (omega h/2)^2. Up to this part of
+// the critical step that is 1 % of the fastest mode at an event.
+constexpr double largest_part_if_located = 0.1;
+
+// Energy errors of completed runs by adaptive methods are some rtol; this many times rtol, within
+// bounds, is tolerated by default.
+constexpr double tolerated_energy_per_rtol = 1e3;
+constexpr double least_tolerated_energy = 1e-7;
+constexpr double most_tolerated_energy = 1e-3;
+constexpr double tolerated_momentum = 1e-9;
 constexpr int default_adams_order = 12;
 // Orders above 2 are unstable on undamped oscillations, but only for steps that tolerances of 1e-7
 // and below do not take; there order 5 is 20 times as accurate as order 2 in a quarter of the
@@ -95,6 +111,76 @@ std::optional<std::string> table_used(const Case& input) {
                                   : fmt::format("allowed: {}", fmt::join(names, ", "))));
   }
   return asked;
+}
+
+double default_central_step(const Used& used) {
+  // The scheme's energy is off by some (h/T)^2 of what the contact's own motion holds, m_eff/m of
+  // the whole.
+  const double steps = std::max(default_steps_in_contact,
+                                default_steps_to_keep_energy * std::sqrt(used.contact_mass_share));
+  return std::min(default_part_of_critical * used.critical_step, used.contact_time / steps);
+}
+
+// Numbers that are possible one by one may overflow or vanish together.
+void check_scales(const Case& input, const StruckBeam& beam) {
+  const double energy =
+      0.5 * input.scene.striker.mass * input.scene.striker.velocity * input.scene.striker.velocity;
+  const SecondOrderOde::Scales scales = beam.scales();
+  const double smallest = std::min({energy, scales.position, scales.velocity});
+  const double largest = std::max({energy, scales.position, scales.velocity});
+  if (smallest > 1e-100 && largest < 1e100) return;
+  throw InvalidCase(
+      "striker.velocity",
+      fmt::format("is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: "
+                  "beyond what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; "
+                  "check the units of striker and contact",
+                  input.scene.striker.velocity, energy, scales.position));
+}
+
+void check_central_step(const Case& input, const Used& used) {
+  const double step = *used.step;
+  if (step > used.critical_step && !input.solver.beyond_critical) {
+    throw InvalidCase(
+        "solver.step",
+        fmt::format("is {:.6g} us, above the stability limit of central differences for this beam "
+                    "with the contact at its stiffest, {:.6g} us (2/omega); use a smaller step, "
+                    "leave it out for {:.6g} us, or set solver.beyond_critical = true to see it "
+                    "fail",
+                    1e6 * step, 1e6 * used.critical_step, 1e6 * default_central_step(used)));
+  }
+  if (used.events == EventHandling::located && used.highest_frequency > 0.0 &&
+      step > largest_part_if_located * used.critical_step) {
+    throw InvalidCase(
+        "solver.events",
+        fmt::format("is \"located\" with central differences of {:.6g} us, which gain energy "
+                    "without bound where steps end at events; allowed: \"interpolated\" (the "
+                    "default), or a solver.step up to {:.6g} us; leave it out",
+                    1e6 * step, 1e6 * largest_part_if_located * used.critical_step));
+  }
+}
+
+double energy_tolerance(const Case& input, const Used& used) {
+  if (input.accuracy.energy) return *input.accuracy.energy;
+  if (used.step || used.events == EventHandling::interpolated) return most_tolerated_energy;
+  return std::clamp(tolerated_energy_per_rtol * input.solver.rtol, least_tolerated_energy,
+                    most_tolerated_energy);
+}
+
+// A full check costs about one evaluation of the forces and is to take at most some hundredths of
+// the steps between two.
+long audit_interval(Method method) {
+  switch (method) {
+    case Method::central_difference:
+      return 256;
+    case Method::adams:
+    case Method::bdf:
+      return 64;
+    case Method::dirk:
+    case Method::imex:
+      return 4;
+    default:
+      return 32;
+  }
 }
 
 std::unique_ptr<BeamMesh> make_rigid_mesh(const Case& input) {
@@ -214,13 +300,19 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.n_sections = beam.mesh().n_sections();
   used.mesh = beam.mesh().description();
   used.highest_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
-  used.critical_step = 2.0 / used.highest_frequency;
+  const ContactResonance resonance = contact_resonance(beam, scene.beam.thickness);
+  used.largest_contact_slope = resonance.largest_slope;
+  used.joined_frequency = resonance.highest_frequency;
+  used.contact_time = resonance.contact_time;
+  used.contact_mass_share = resonance.effective_mass / scene.striker.mass;
+  used.critical_step = 2.0 / used.joined_frequency;
   used.contact_stiffness = beam.contact_law().stiffness();
   used.contact_exponent = beam.contact_law().exponent();
   used.yield_indentation = beam.contact_law().yield_indentation();
   used.yield_curvature = scene.beam.yield_curvature();
   used.first_period = 2.0 * M_PI / flexural_frequencies(scene.beam, 1).front();
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
+  check_scales(input, beam);
   used.table = table_used(input);
   const bool central = input.solver.method == Method::central_difference;
   used.events =
@@ -240,22 +332,8 @@ Used describe(const Case& input, const StruckBeam& beam) {
                     *input.solver.step, to_string(input.solver.method)));
   }
   if (central) {
-    if (!input.solver.step && !std::isfinite(used.critical_step)) {
-      throw InvalidCase("solver.step",
-                        "is missing: a rigid beam has no critical step to derive it from; give a "
-                        "step in s, or use another method");
-    }
-    used.step = input.solver.step.value_or(default_part_of_critical * used.critical_step);
-    if (*used.step > used.critical_step && !input.solver.beyond_critical) {
-      throw InvalidCase(
-          "solver.step",
-          fmt::format(
-              "is {:.6g} us, above the stability limit of central differences on this mesh, "
-              "{:.6g} us (2/omega_max); use a smaller step, leave it out for {:.6g} us, or set "
-              "solver.beyond_critical = true to see it fail",
-              1e6 * *used.step, 1e6 * used.critical_step,
-              1e6 * default_part_of_critical * used.critical_step));
-    }
+    used.step = input.solver.step.value_or(default_central_step(used));
+    check_central_step(input, used);
   } else {
     used.step = input.solver.step;
     if (!used.step) {
@@ -264,8 +342,11 @@ Used describe(const Case& input, const StruckBeam& beam) {
       used.velocity_tolerance = input.solver.rtol * scales.velocity;
     }
   }
+  used.energy_tolerance = energy_tolerance(input, used);
   return used;
 }
+
+AuditLimits audit_limits(const Used& used) { return {used.energy_tolerance, tolerated_momentum}; }
 
 LoopOptions loop_options(const Case& input, const Used& used) {
   LoopOptions options;
@@ -275,6 +356,8 @@ LoopOptions loop_options(const Case& input, const Used& used) {
     options.kink_tolerance = kink_share * input.solver.rtol * input.scene.striker.velocity;
   }
   options.largest_indentation = input.scene.beam.thickness;
+  options.audit_interval = audit_interval(input.solver.method);
+  options.shortest_contact = M_PI / used.joined_frequency;
   return options;
 }
 

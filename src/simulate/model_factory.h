@@ -26,11 +26,15 @@ StruckBeam make_struck_beam(const Case& input,
                             SectionField::Storage storage = SectionField::Storage::when_yielded,
                             Coordinates coordinates = Coordinates::chosen);
 
-/// What is derived from the case. Throws InvalidCase for a step beyond the stability limit.
+/// What is derived from the case. Throws InvalidCase for settings that do not go together and
+/// for a step beyond the stability limit.
 Used describe(const Case& input, const StruckBeam& beam);
 
 /// How the event loop is to treat the case.
 LoopOptions loop_options(const Case& input, const Used& used);
+
+/// What the run's accounts must come up to.
+AuditLimits audit_limits(const Used& used);
 
 /// The integrator the case asks for.
 std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used, StruckBeam& beam);

@@ -7,15 +7,29 @@
 #include "events/root.h"
 
 namespace subimpact {
+namespace {
 
-Recorder::Recorder(StruckBeam& beam, const State& initial, double interval, EventHandling events,
+// Gauss' rule of three points on [0, 1].
+constexpr double gauss_points[] = {0.1127016653792583, 0.5, 0.8872983346207417};
+constexpr double gauss_weights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+}  // namespace
+
+Recorder::Recorder(StruckBeam& beam, double interval, EventHandling events, Audit& audit,
                    Result& result)
     : result_(result),
       interval_(interval),
       events_(events),
-      striker_mass_(beam.striker_mass()),
-      initial_energy_(beam.energies(initial).total()),
-      initial_momentum_(beam.momentum(initial)) {}
+      audit_(audit),
+      striker_mass_(beam.striker_mass()) {}
+
+void Recorder::state_within(const StepEnds& step, double t, Integrator& integrator) {
+  if (step.from_end) {
+    integrator.state_before_end(t, state_);
+  } else {
+    integrator.state_at(t, state_);
+  }
+}
 
 void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
   if (interval_ > 0.0) {
@@ -25,7 +39,7 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
       if (t <= step.t0) {
         add_row(t, step.y0, beam);
       } else {
-        integrator.state_at(t, state_);
+        state_within(step, t, integrator);
         beam.look_within(step, t, state_, [&](const State& y) { add_row(t, y, beam); });
       }
       ++next_row_;
@@ -35,10 +49,23 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
     result_.first_section_yield = beam.first_flow(step);
   }
   if (in_contact_) {
+    ++steps_in_contact_.back();
+    integrate_force(step, beam);
     const double indentation = beam.indentation(step.y1);
     follow_peak(indentation, beam.contact_force_at(indentation));
     look_for_peak(step, beam, integrator);
   }
+}
+
+void Recorder::integrate_force(const StepEnds& step, StruckBeam& beam) {
+  const double h = step.length();
+  const HermiteCubic indentation(beam.indentation(step.y0), beam.indentation_rate(step.y0),
+                                 beam.indentation(step.y1), beam.indentation_rate(step.y1), h);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum += gauss_weights[i] * beam.contact_force_at(indentation(gauss_points[i]));
+  }
+  result_.sub_impacts.back().force_integral += h * sum;
 }
 
 void Recorder::follow_peak(double indentation, double force) {
@@ -59,7 +86,7 @@ void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator&
   const double guess = path.peak();
   if (path(guess) < result_.sub_impacts.back().max_indentation * (1.0 - 1e-3)) return;
   if (events_ == EventHandling::interpolated) {
-    integrator.state_at(step.t0 + guess * h, state_);
+    state_within(step, step.t0 + guess * h, integrator);
   } else {
     RootOptions options;
     options.tolerance = 1e-2 * h;
@@ -74,12 +101,13 @@ void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator&
 }
 
 void Recorder::before_event(const Transition& event, const State& y, StruckBeam& beam) {
-  if (interval_ > 0.0) add_row(event.time, y, beam);
+  add_event_row(event, y, beam);
   result_.transitions.push_back(event);
   if (event.kind == EventKind::contact_begins) {
     in_contact_ = true;
     velocity_at_start_ = y.back();
     result_.sub_impacts.push_back({});
+    steps_in_contact_.push_back(0);
     result_.sub_impacts.back().start = event.time;
   } else if (event.kind == EventKind::contact_yields && !result_.first_contact_yield) {
     result_.first_contact_yield = event.time;
@@ -90,29 +118,41 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
 
 void Recorder::after_event(const Transition& event, const State& y, StruckBeam& beam) {
   if (event.kind == EventKind::contact_ends) {
-    in_contact_ = false;
     SubImpact& ended = result_.sub_impacts.back();
     ended.end = event.time;
-    ended.impulse = striker_mass_ * (velocity_at_start_ - y.back());
-    ended.residual_indentation = beam.residual_indentation();
-    ended.striker_velocity = y.back();
+    close_sub_impact(y, beam);
+    in_contact_ = false;
+    audit_.check_impulse(event.time, ended.impulse, ended.force_integral);
+    if (!(ended.peak_force > 0.0)) {
+      audit_.fail(event.time, OutcomeKind::inaccurate,
+                  "a contact began and ended without a force between the bodies");
+    }
   }
-  if (interval_ > 0.0) add_row(event.time, y, beam);
+  add_event_row(event, y, beam);
 }
 
-void Recorder::finish(double time, const State& y, StruckBeam& beam) {
-  const HistoryRow last = make_row(time, y, beam);
-  keep_errors(last);
-  if (interval_ > 0.0 && (result_.history.empty() || result_.history.back().time < time)) {
-    result_.history.push_back(last);
-    add_section_rows(time, y, beam);
+void Recorder::add_event_row(const Transition& event, const State& y, StruckBeam& beam) {
+  if (!(interval_ > 0.0)) return;
+  add_row(event.time, y, beam);
+  // What the force differs from zero there is the rounding of the event's time.
+  const bool of_zero_force =
+      event.kind == EventKind::contact_begins || event.kind == EventKind::contact_ends;
+  if (of_zero_force) result_.history.back().force = 0.0;
+}
+
+void Recorder::close_sub_impact(const State& y, StruckBeam& beam) {
+  SubImpact& closed = result_.sub_impacts.back();
+  closed.impulse = striker_mass_ * (velocity_at_start_ - y.back());
+  closed.residual_indentation = beam.residual_indentation();
+  closed.striker_velocity = y.back();
+}
+
+void Recorder::finish(double time, const State& y, StruckBeam& beam, bool is_good) {
+  if (is_good && interval_ > 0.0 &&
+      (result_.history.empty() || result_.history.back().time < time)) {
+    add_row(time, y, beam);
   }
-  if (in_contact_) {
-    SubImpact& open = result_.sub_impacts.back();
-    open.impulse = striker_mass_ * (velocity_at_start_ - y.back());
-    open.residual_indentation = beam.residual_indentation();
-    open.striker_velocity = y.back();
-  }
+  if (in_contact_) close_sub_impact(y, beam);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
     result_.max_force = std::max(result_.max_force, sub_impact.peak_force);
     result_.max_indentation = std::max(result_.max_indentation, sub_impact.max_indentation);
@@ -120,11 +160,13 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam) {
   result_.n_yielded_sections = beam.sections().n_yielded();
   result_.striker_velocity = y.back();
   result_.beam_mean_velocity = beam.beam_momentum(y) / beam.mesh().beam_mass();
+  result_.max_energy_error = audit_.max_energy_error();
+  result_.max_momentum_error = audit_.max_momentum_error();
+  result_.max_impulse_error = audit_.max_impulse_error();
 }
 
 void Recorder::add_row(double time, const State& y, StruckBeam& beam) {
   result_.history.push_back(make_row(time, y, beam));
-  keep_errors(result_.history.back());
   add_section_rows(time, y, beam);
 }
 
@@ -139,16 +181,9 @@ void Recorder::add_section_rows(double time, const State& y, StruckBeam& beam) {
   }
 }
 
-void Recorder::keep_errors(const HistoryRow& row) {
-  result_.max_energy_error = std::max(result_.max_energy_error, std::abs(row.energy_error));
-  if (row.momentum_error) {
-    result_.max_momentum_error =
-        std::max(result_.max_momentum_error.value_or(0.0), std::abs(*row.momentum_error));
-  }
-}
-
-HistoryRow Recorder::make_row(double time, const State& y, StruckBeam& beam) const {
+HistoryRow Recorder::make_row(double time, const State& y, StruckBeam& beam) {
   const Energies energies = beam.energies(y);
+  audit_.check(time, y, energies);
   const StruckBeam::Displacements at = beam.displacements(y);
   HistoryRow row{};
   row.time = time;
@@ -167,10 +202,8 @@ HistoryRow Recorder::make_row(double time, const State& y, StruckBeam& beam) con
   row.bending_plastic = energies.bending_plastic;
   row.contact_elastic = energies.contact_elastic;
   row.contact_plastic = energies.contact_plastic;
-  row.energy_error = (energies.total() - initial_energy_) / initial_energy_;
-  if (beam.conserves_momentum()) {
-    row.momentum_error = (beam.momentum(y) - initial_momentum_) / initial_momentum_;
-  }
+  row.energy_error = audit_.energy_error(energies);
+  row.momentum_error = audit_.momentum_error(y);
   return row;
 }
 

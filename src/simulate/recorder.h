@@ -8,9 +8,9 @@ namespace subimpact {
 /// Makes sub-impacts, transitions and history rows out of a run.
 class Recorder final : public RunObserver {
  public:
-  /// `interval` in s between history rows, 0 for none.
-  Recorder(StruckBeam& beam, const State& initial, double interval, EventHandling events,
-           Result& result);
+  /// `interval` in s between history rows, 0 for none. Rows and impulses are judged by `audit`
+  /// before they are kept.
+  Recorder(StruckBeam& beam, double interval, EventHandling events, Audit& audit, Result& result);
 
   /// Keeps the bending of these sections (indices) too, at every history row.
   void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
@@ -20,28 +20,34 @@ class Recorder final : public RunObserver {
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
 
-  /// Closes the accounts at the last state.
-  void finish(double time, const State& y, StruckBeam& beam);
+  /// Closes the accounts at the last state, which `is_good` if every check passed.
+  void finish(double time, const State& y, StruckBeam& beam, bool is_good);
+
+  /// Steps of the shortest contacts, for methods of fixed step: a sub-impact's number of steps.
+  const std::vector<long>& steps_in_contact() const { return steps_in_contact_; }
 
  private:
+  void close_sub_impact(const State& y, StruckBeam& beam);
+  void integrate_force(const StepEnds& step, StruckBeam& beam);
+  void state_within(const StepEnds& step, double t, Integrator& integrator);
   void follow_peak(double indentation, double force);
   void look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
+  void add_event_row(const Transition& event, const State& y, StruckBeam& beam);
   void add_row(double time, const State& y, StruckBeam& beam);
-  HistoryRow make_row(double time, const State& y, StruckBeam& beam) const;
-  void keep_errors(const HistoryRow& row);
+  HistoryRow make_row(double time, const State& y, StruckBeam& beam);
   void add_section_rows(double time, const State& y, StruckBeam& beam);
 
   Result& result_;
   double interval_;
   EventHandling events_;
+  Audit& audit_;
   double striker_mass_;
-  double initial_energy_;
-  double initial_momentum_;
   long next_row_ = 0;
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
   State state_;
   std::vector<std::size_t> sections_;
+  std::vector<long> steps_in_contact_;
 };
 
 }  // namespace subimpact

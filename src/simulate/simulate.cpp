@@ -1,5 +1,7 @@
 #include "subimpact/simulate/simulate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,6 +18,11 @@ namespace {
 
 constexpr long progress_interval = 512;  // steps
 constexpr long proof_interval = 32;
+
+// A contact of fewer steps is not resolved.
+constexpr long fewest_steps_in_contact = 8;
+
+constexpr double us = 1e6;  // per second
 
 // The sections nearest to the positions asked for; in a half model their mirror images stand for
 // those of the other half.
@@ -43,6 +50,52 @@ std::string remedy(const Case& input) {
                            : "use a larger solver.rtol or another solver.method";
 }
 
+// What helps when a check failed.
+std::string remedy_of_error(const Case& input, const Used& used) {
+  return used.step ? fmt::format("use a solver.step below {:.3g} us, or another solver.method",
+                                 us * *used.step)
+                   : fmt::format("use a solver.rtol below {:.0e}, or another solver.method",
+                                 input.solver.rtol);
+}
+
+Outcome outcome_of(const RunStopped& stop, const Case& input, const Used& used) {
+  Outcome outcome;
+  outcome.kind = stop.kind;
+  outcome.message = stop.what();
+  outcome.first_failure = stop.first_failure;
+  if (stop.first_failure) outcome.message += "; " + remedy_of_error(input, used);
+  return outcome;
+}
+
+// With a fixed step contacts may be too short for it although the accounts close.
+void warn_of_short_contacts(const Recorder& recorder, const Used& used, Result& result) {
+  if (!used.step) return;
+  const auto& steps = recorder.steps_in_contact();
+  const auto n_short =
+      std::count_if(steps.begin(), steps.end(), [](long n) { return n < fewest_steps_in_contact; });
+  if (n_short == 0) return;
+  result.warnings.push_back(
+      fmt::format("{} of {} contacts last fewer than {} steps of {:.4g} us, the shortest {}: their "
+                  "times, forces and even their number are uncertain; use a smaller solver.step",
+                  n_short, steps.size(), fewest_steps_in_contact, us * *used.step,
+                  *std::min_element(steps.begin(), steps.end())));
+}
+
+void count_work(const Integrator& integrator, const StruckBeam& beam, Work& work) {
+  const WorkCounts counts = integrator.work();
+  work.steps = counts.steps;
+  work.rejected_steps = counts.rejected_steps;
+  work.partial_steps = counts.partial_steps;
+  work.right_hand_sides = beam.n_accelerations() + beam.n_forces();
+  const bool in_modes = !beam.mesh().modal_stiffness().empty();  // where mass is diagonal
+  work.mass_solves =
+      in_modes ? 0 : beam.n_accelerations() + beam.n_further_solves() + counts.mass_solves;
+  work.jacobians = counts.jacobians;
+  work.factorisations = (in_modes ? 0 : 1) + counts.factorisations;
+  work.nonlinear_iterations = counts.nonlinear_iterations;
+  work.nonlinear_failures = counts.nonlinear_failures;
+}
+
 }  // namespace
 
 Used explain(const Case& input) {
@@ -58,9 +111,10 @@ Result simulate(const Case& input, const Progress& progress) {
   result.used = describe(input, beam);
   beam.set_pair_detection(input.solver.pair_detection);
   const auto integrator = make_integrator(input, result.used, beam);
-  Recorder recorder(beam, beam.initial_state(), input.output.interval, result.used.events, result);
+  Audit audit(beam, beam.initial_state(), audit_limits(result.used));
+  Recorder recorder(beam, input.output.interval, result.used.events, audit, result);
   recorder.keep_sections(sections_at(input, beam.mesh()));
-  EventLoop loop(beam, *integrator, recorder, loop_options(input, result.used));
+  EventLoop loop(beam, *integrator, recorder, audit, loop_options(input, result.used));
   std::optional<NoMoreContact> no_more_contact;
   if (input.stop == StopRule::no_more_contact) no_more_contact.emplace(beam, input.scene.beam);
   result.work.setup_seconds = seconds_since(start);
@@ -82,31 +136,24 @@ Result simulate(const Case& input, const Progress& progress) {
       }
     }
   } catch (const RunStopped& stop) {
-    result.outcome.kind = stop.reason == RunStopped::Reason::unstable ? OutcomeKind::unstable
-                                                                      : OutcomeKind::left_validity;
-    result.outcome.message = stop.what();
+    result.outcome = outcome_of(stop, input, result.used);
   } catch (const IntegrationFailure& failure) {
     result.outcome.kind = OutcomeKind::solver_failed;
     result.outcome.message = failure.what() + ("; " + remedy(input));
   }
   result.outcome.time = loop.time();
-  recorder.finish(loop.time(), loop.state(), beam);
+  recorder.finish(loop.time(), loop.state(), beam, !result.outcome.first_failure);
   assign_zones(result.sub_impacts, input.output.zone_gap * result.used.first_period,
                input.output.subzone_gap * result.used.first_period);
 
-  const WorkCounts counts = integrator->work();
-  result.work.steps = counts.steps;
-  result.work.rejected_steps = counts.rejected_steps;
-  result.work.partial_steps = counts.partial_steps;
-  result.work.right_hand_sides = beam.n_accelerations() + beam.n_forces();
-  const bool in_modes = !beam.mesh().modal_stiffness().empty();  // where mass is diagonal
-  result.work.mass_solves =
-      in_modes ? 0 : beam.n_accelerations() + beam.n_further_solves() + counts.mass_solves;
-  result.work.jacobians = counts.jacobians;
-  result.work.factorisations = (in_modes ? 0 : 1) + counts.factorisations;
-  result.work.nonlinear_iterations = counts.nonlinear_iterations;
-  result.work.nonlinear_failures = counts.nonlinear_failures;
+  warn_of_short_contacts(recorder, result.used, result);
+  count_work(*integrator, beam, result.work);
   result.work.roots = loop.n_events();
+  if (result.outcome.kind == OutcomeKind::inaccurate && audit.gained_energy() &&
+      loop.energy_keeps_growing()) {
+    result.outcome.kind = OutcomeKind::unstable;
+    result.outcome.message = "the solution grows without bound: " + result.outcome.message;
+  }
   result.work.wall_seconds = seconds_since(start);
   return result;
 }

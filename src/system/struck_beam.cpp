@@ -197,9 +197,10 @@ Energies StruckBeam::energies(const State& y) {
     sum.bending_plastic = bending.plastic;
   }
   const double lambda = indentation(y);
-  const ContactHistory reached = contact_branch_ == ContactBranch::plastic
-                                     ? contact_law_.commit(contact_history_, lambda)
-                                     : contact_history_;
+  const bool advances =
+      contact_branch_ == ContactBranch::plastic || contact_evaluation_ == Evaluation::switching;
+  const ContactHistory reached =
+      advances ? contact_law_.commit(contact_history_, lambda) : contact_history_;
   sum.contact_plastic = contact_law_.dissipated_energy(reached);
   if (in_contact()) sum.contact_elastic = contact_law_.recoverable_energy(reached, lambda);
   return sum;

@@ -60,6 +60,9 @@ struct StepEnds {
   const State& y0;
   const State& y1;
   bool eventless = false;  ///< nothing happened in it, whatever its ends may suggest
+  /// States within it are those of the step's end followed backwards, see
+  /// Integrator::state_before_end.
+  bool from_end = false;
   double length() const { return t1 - t0; }
 };
 
@@ -160,8 +163,9 @@ class StruckBeam final : public MechanicalSystem {
   double find_section_kinks(const StepEnds& step);
   /// What the last search found.
   const std::vector<SectionKink>& section_kinks() const { return kinks_.kinks(); }
-  /// Adds to y, the end of the step searched last, what the kinks found would have done, and takes
-  /// the sections that turned as having done so.
+  /// Adds to y, the end of the step searched last, what the kinks found would have done.
+  void add_kinks(State& y) const;
+  /// The same, and takes the sections that turned as having done so.
   void put_right(State& y);
 
   /// Looks at a state y that the method gives for a time t within the step: calls look(y) with y

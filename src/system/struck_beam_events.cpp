@@ -118,15 +118,22 @@ bool StruckBeam::find_crossing(const StepEnds& step, const GuardList& without, C
 std::optional<double> StruckBeam::first_flow(const StepEnds& step) {
   if (step.eventless) return std::nullopt;
   read_motion(step.y1, end_);
+  const auto flows = [&](std::size_t i) {
+    return !(end_.curvatures[i] >= sections_.window_low()[i] &&
+             end_.curvatures[i] <= sections_.window_high()[i]);
+  };
+  std::size_t i = 0;
+  while (i < sections_.size() && !flows(i)) ++i;
+  if (i == sections_.size()) return std::nullopt;
+  SectionMotion start(sections_.size());
+  read_motion(step.y0, start);
   std::optional<double> first;
-  for (std::size_t i = 0; i < sections_.size(); ++i) {
-    const double high = sections_.window_high()[i];
-    const double low = sections_.window_low()[i];
+  for (; i < sections_.size(); ++i) {
+    if (!flows(i)) continue;
     const double k1 = end_.curvatures[i];
-    if (k1 >= low && k1 <= high) continue;
-    const double sense = k1 > high ? 1.0 : -1.0;
-    const double edge = sense > 0.0 ? high : -low;
-    const HermiteCubic path(sense * start_.curvatures[i] - edge, sense * start_.rates[i],
+    const double sense = k1 > sections_.window_high()[i] ? 1.0 : -1.0;
+    const double edge = sense > 0.0 ? sections_.window_high()[i] : -sections_.window_low()[i];
+    const HermiteCubic path(sense * start.curvatures[i] - edge, sense * start.rates[i],
                             sense * k1 - edge, sense * end_.rates[i], step.length());
     const double time = step.t0 + path.rise(0.0, 1.0) * step.length();
     if (!first || time < *first) first = time;

@@ -54,12 +54,16 @@ double StruckBeam::find_section_kinks(const StepEnds& step) {
   return std::max(start, step.t0) + cut_safety * tolerable;
 }
 
-void StruckBeam::put_right(State& y) {
+void StruckBeam::add_kinks(State& y) const {
   if (kinks_.kinks().empty()) return;
   for (std::size_t i = 0; i < n_; ++i) {
     y[i] += position_change_[i];
     y[n_ + 1 + i] += velocity_change_[i];
   }
+}
+
+void StruckBeam::put_right(State& y) {
+  add_kinks(y);
   for (const SectionKink& kink : kinks_.kinks()) {
     if (kink.turn) sections_.commit_turn(kink.section, kink.turn->curvature);
   }

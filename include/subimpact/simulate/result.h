@@ -76,9 +76,13 @@ struct Used {
   bool half_model = false;
   std::size_t n_unknowns = 0;  ///< of the beam
   std::size_t n_sections = 0;
-  std::string mesh;                  ///< in words
-  double highest_frequency = 0.0;    ///< rad/s, bound
-  double critical_step = 0.0;        ///< s, of central differences
+  std::string mesh;                    ///< in words
+  double highest_frequency = 0.0;      ///< rad/s, bound
+  double largest_contact_slope = 0.0;  ///< N/m, dF/dlambda that the strike's energy allows
+  /// rad/s, of beam and striker joined by a spring of that slope; at least highest_frequency.
+  double joined_frequency = 0.0;
+  double contact_time = 0.0;         ///< s, scale of the shortest contacts
+  double critical_step = 0.0;        ///< s, of central differences: 2/joined_frequency
   std::optional<double> step;        ///< s, of fixed-step methods
   std::optional<std::string> table;  ///< coefficients, of Runge-Kutta methods
   EventHandling events = EventHandling::located;

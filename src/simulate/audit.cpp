@@ -1,0 +1,85 @@
+#include "simulate/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace subimpact {
+namespace {
+
+// An energy above the initial one by this part is a blow-up, not an error.
+constexpr double blow_up = 0.5;
+
+constexpr double us = 1e6;  // per second
+
+// The larger of the two, or NaN if `error` is not a number.
+double larger(double largest, double error) { return error <= largest ? largest : error; }
+
+}  // namespace
+
+Audit::Audit(StruckBeam& beam, const State& initial, AuditLimits limits)
+    : beam_(beam),
+      limits_(limits),
+      initial_energy_(beam.energies(initial).total()),
+      initial_momentum_(beam.momentum(initial)),
+      largest_speed_(std::sqrt(2.0 * (1.0 + blow_up) * initial_energy_ / beam.striker_mass())) {}
+
+void Audit::fail(double t, OutcomeKind kind, const std::string& what) const {
+  throw RunStopped(kind, what, Interval{std::min(last_good_, t), t});
+}
+
+std::optional<double> Audit::momentum_error(const State& y) const {
+  if (!beam_.conserves_momentum()) return std::nullopt;
+  return (beam_.momentum(y) - initial_momentum_) / initial_momentum_;
+}
+
+void Audit::check(double t, const State& y, const Energies& energies) {
+  const double error = energy_error(energies);
+  latest_energy_error_ = error;
+  max_energy_error_ = larger(max_energy_error_, std::abs(error));
+  if (!std::isfinite(error)) {
+    fail(t, OutcomeKind::unstable, "the energy is no longer a finite number");
+  }
+  if (error > blow_up) {
+    fail(t, OutcomeKind::unstable,
+         fmt::format("the solution grows without bound: the energy is {:.3g} times the initial one",
+                     1.0 + error));
+  }
+  if (!(std::abs(error) <= limits_.energy)) {
+    fail(t, OutcomeKind::inaccurate,
+         fmt::format("the energy is off by {:+.2e} of the initial energy, tolerated are {:.1e}",
+                     error, limits_.energy));
+  }
+  if (const auto momentum = momentum_error(y)) {
+    max_momentum_error_ = larger(max_momentum_error_.value_or(0.0), std::abs(*momentum));
+    if (!(std::abs(*momentum) <= limits_.momentum)) {
+      fail(t, OutcomeKind::inaccurate,
+           fmt::format("the momentum is off by {:+.2e} of m v0, tolerated are {:.1e}", *momentum,
+                       limits_.momentum));
+    }
+  }
+  last_good_ = std::max(last_good_, t);
+}
+
+bool Audit::is_suspicious(double t, const State& y) const {
+  const double indentation = beam_.indentation(y);
+  const double rate = beam_.indentation_rate(y);
+  if (!std::isfinite(indentation) || !std::isfinite(rate)) {
+    fail(t, OutcomeKind::unstable, "the motion of the struck point is no longer finite");
+  }
+  return std::abs(y.back()) > largest_speed_;
+}
+
+void Audit::check_impulse(double t, double impulse, double force_integral) {
+  const double error = (impulse - force_integral) / initial_momentum_;
+  max_impulse_error_ = larger(max_impulse_error_, std::abs(error));
+  if (!(std::abs(error) <= limits_.energy)) {
+    fail(t, OutcomeKind::inaccurate,
+         fmt::format("the impulse of the sub-impact that ends at {:.6g} us differs from its "
+                     "integrated force by {:+.2e} of m v0, tolerated are {:.1e}",
+                     us * t, error, limits_.energy));
+  }
+}
+
+}  // namespace subimpact

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "subimpact/simulate/result.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// The run ends here: what follows cannot be trusted.
+class RunStopped : public std::runtime_error {
+ public:
+  RunStopped(OutcomeKind kind, const std::string& message,
+             std::optional<Interval> first_failure = {})
+      : std::runtime_error(message), kind(kind), first_failure(first_failure) {}
+  OutcomeKind kind;
+  std::optional<Interval> first_failure;
+};
+
+/// Largest errors that a run may make and still count as completed.
+struct AuditLimits {
+  double energy = std::numeric_limits<double>::infinity();    ///< relative to the initial energy
+  double momentum = std::numeric_limits<double>::infinity();  ///< relative to m v0
+};
+
+/// The accounts of a run. Energy and (where no support takes it up) momentum are conserved exactly
+/// by the equations of motion, so whatever they are off by is the integration's error. Every check
+/// either passes and is remembered as the last time at which all was well, or throws RunStopped
+/// with the interval in which the run went wrong: `unstable` for a value that is not finite or an
+/// energy far above the initial one, else `inaccurate`.
+class Audit {
+ public:
+  Audit(StruckBeam& beam, const State& initial, AuditLimits limits = {});
+
+  /// Judges the accepted state y at time t (s).
+  void check(double t, const State& y) { check(t, y, beam_.energies(y)); }
+  /// The same with the energies already at hand.
+  void check(double t, const State& y, const Energies& energies);
+  /// A cheap look at the struck point, for every step: throws if its motion is not finite; returns
+  /// whether its speed is suspicious enough for a full check.
+  bool is_suspicious(double t, const State& y) const;
+  /// Judges the impulse of a sub-impact (N s) that ended at t against the integrated force.
+  void check_impulse(double t, double impulse, double force_integral);
+  /// Throws RunStopped for a failed check at t.
+  [[noreturn]] void fail(double t, OutcomeKind kind, const std::string& what) const;
+
+  /// Whether the last check found the energy above what is tolerated.
+  bool gained_energy() const { return latest_energy_error_ > limits_.energy; }
+
+  /// The same accounts, in which only a blow-up is an error.
+  Audit without_limits() const {
+    Audit copy = *this;
+    copy.limits_ = {};
+    return copy;
+  }
+
+  double energy_error(const Energies& energies) const {
+    return (energies.total() - initial_energy_) / initial_energy_;
+  }
+  std::optional<double> momentum_error(const State& y) const;
+
+  /// Largest errors that a check has seen, those that failed included.
+  double max_energy_error() const { return max_energy_error_; }
+  std::optional<double> max_momentum_error() const { return max_momentum_error_; }
+  double max_impulse_error() const { return max_impulse_error_; }
+
+ private:
+  StruckBeam& beam_;
+  AuditLimits limits_;
+  double initial_energy_;
+  double initial_momentum_;
+  double largest_speed_;  // of the striker, m/s, that the energy allows
+  double last_good_ = 0.0;
+  double latest_energy_error_ = 0.0;
+  double max_energy_error_ = 0.0;
+  std::optional<double> max_momentum_error_;
+  double max_impulse_error_ = 0.0;
+};
+
+}  // namespace subimpact
