@@ -210,6 +210,20 @@ TEST_P(Implicit, PatternIsAnalysedOnce) {
   EXPECT_GT(work.nonlinear_iterations, 0);
 }
 
+TEST_P(Implicit, AFailedStepIsRetakenWithTheMatrixOfItsNewLength) {
+  long rejected = 0;
+  for (double rtol = 1e-3; rtol > 5e-10; rtol *= 0.1) {
+    CurvedSystem system;
+    const auto integrator = GetParam().with_tolerance(system, rtol);
+    integrator->restart(0.0, system.initial());
+    while (integrator->time() < 10.0) integrator->step();
+    const WorkCounts work = integrator->work();
+    EXPECT_GE(work.factorisations, work.steps + work.rejected_steps) << rtol;
+    rejected += work.rejected_steps;
+  }
+  EXPECT_GT(rejected, 0);
+}
+
 TEST_P(Implicit, RestartKeepsTheStepSize) {
   ElasticBar bar(5);
   const auto integrator = GetParam().with_tolerance(bar, 1e-8);

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "paper_scene.h"
+#include "subimpact/simulate/method_tables.h"
 #include "subimpact/simulate/simulate.h"
 
 namespace subimpact {
@@ -85,6 +87,46 @@ TEST(RigidBodies, ComeOutTheSameByEveryMethod) {
     ASSERT_EQ(result.sub_impacts.size(), 1u);
     EXPECT_NEAR(result.sub_impacts[0].end.value(), reference.sub_impacts[0].end.value(), 1e-11);
     EXPECT_LT(result.max_momentum_error, 1e-12);
+  }
+}
+
+// A light beam struck at its end, with nothing that yields.
+Case elastic_end_strike() {
+  Case input = rigid_case(ContactKind::foundation, 0.118);
+  Beam& beam = input.scene.beam;
+  beam.length = 0.1057;
+  beam.width = 0.0426;
+  beam.thickness = 0.00747;
+  beam.density = 1115.0;
+  beam.youngs_modulus = 2.176e11;
+  beam.yield_stress = std::numeric_limits<double>::infinity();
+  input.scene.striker = {0.00064, 0.1904, 0.118, 1.0};
+  input.end_time = 7.8e-6;
+  return input;
+}
+
+TEST(RigidBodies, KeepTheirEnergyTo1000TolerancesWithEveryTableOfImexAndDirk) {
+  Case input = elastic_end_strike();
+  for (const MethodTable& table : method_tables()) {
+    if (table.method != Method::imex && table.method != Method::dirk) continue;
+    for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10}) {
+      input.solver.method = table.method;
+      input.solver.table = table.name;
+      input.solver.rtol = rtol;
+      EXPECT_LT(simulate(input).max_energy_error, 1e3 * rtol) << table.name;
+    }
+  }
+}
+
+TEST(RigidBodies, LoseAtLeast30TimesLessEnergyWithAHundredthOfImexsTolerance) {
+  Case input = elastic_end_strike();
+  input.solver.method = Method::imex;
+  double last = 1.0;
+  for (const double rtol : {1e-6, 1e-8, 1e-10}) {
+    input.solver.rtol = rtol;
+    const double error = simulate(input).max_energy_error;
+    EXPECT_LT(error, last / 30.0) << rtol;
+    last = error;
   }
 }
 

@@ -22,6 +22,13 @@ constexpr int steps_per_matrix = 1;
 constexpr int max_iterations = 10;
 constexpr double fastest_fall_of_rate = 1e-3;
 
+// A step that failed is retaken with another gamma, and needs the matrix of that gamma. ARKStep
+// means to make it, but before SUNDIALS 6.7 the mass solve of an explicit first stage wipes out the
+// note of the failure, and the matrix is made only if gamma changed by more than a fifth. With the
+// old matrix and the old, small estimate of the rate of convergence one iteration is taken for
+// enough, and stages are wrong by far more than the tolerance. So any change asks for the matrix.
+constexpr double largest_change_of_gamma = 1e-12;
+
 using Part = MechanicalSystem::Part;
 
 struct DirkOptions : ArkOptions {};
@@ -105,6 +112,7 @@ class ArkSolver : private SolverFrame {
     check(ARKStepSetMaxNumSteps(memory, -1), "ARKStepSetMaxNumSteps");
     check(ARKStepSetLSetupFrequency(memory, steps_per_matrix), "ARKStepSetLSetupFrequency");
     check(ARKStepSetJacEvalFrequency(memory, steps_per_matrix), "ARKStepSetJacEvalFrequency");
+    check(ARKStepSetDeltaGammaMax(memory, largest_change_of_gamma), "ARKStepSetDeltaGammaMax");
     check(ARKStepSetMaxNonlinIters(memory, max_iterations), "ARKStepSetMaxNonlinIters");
     check(ARKStepSetNonlinCRDown(memory, fastest_fall_of_rate), "ARKStepSetNonlinCRDown");
     if (options.max_step) {
