@@ -131,10 +131,11 @@ void check_scales(const Case& input, const StruckBeam& beam) {
   if (smallest > 1e-100 && largest < 1e100) return;
   throw InvalidCase(
       "striker.velocity",
-      fmt::format("is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: "
-                  "beyond what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; "
-                  "check the units of striker and contact",
-                  input.scene.striker.velocity, energy, scales.position));
+      fmt::format(
+          "is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: "
+          "beyond what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; "
+          "check the units of striker and contact",
+          input.scene.striker.velocity, energy, scales.position));
 }
 
 void check_central_step(const Case& input, const Used& used) {

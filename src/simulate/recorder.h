@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simulate/event_loop.h"
+#include "simulate/force_quadrature.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
@@ -28,7 +29,7 @@ class Recorder final : public RunObserver {
 
  private:
   void close_sub_impact(const State& y, StruckBeam& beam);
-  void integrate_force(const StepEnds& step, StruckBeam& beam);
+  void integrate_force(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
   void state_within(const StepEnds& step, double t, Integrator& integrator);
   void follow_peak(double indentation, double force);
   void look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
@@ -41,6 +42,7 @@ class Recorder final : public RunObserver {
   double interval_;
   EventHandling events_;
   Audit& audit_;
+  ForceQuadrature force_;
   double striker_mass_;
   long next_row_ = 0;
   bool in_contact_ = false;

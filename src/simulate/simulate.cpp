@@ -131,7 +131,7 @@ Result simulate(const Case& input, const Progress& progress) {
         break;
       }
       if (n % progress_interval == 0 && progress && !progress(loop.time())) {
-        result.outcome = {OutcomeKind::stopped, loop.time(), "stopped on request"};
+        result.outcome = {OutcomeKind::stopped, loop.time(), "stopped on request", {}};
         break;
       }
     }
@@ -141,7 +141,8 @@ Result simulate(const Case& input, const Progress& progress) {
     result.outcome.kind = OutcomeKind::solver_failed;
     result.outcome.message = failure.what() + ("; " + remedy(input));
   }
-  result.outcome.time = loop.time();
+  result.outcome.time =
+      result.outcome.first_failure ? result.outcome.first_failure->to : loop.time();
   recorder.finish(loop.time(), loop.state(), beam, !result.outcome.first_failure);
   assign_zones(result.sub_impacts, input.output.zone_gap * result.used.first_period,
                input.output.subzone_gap * result.used.first_period);

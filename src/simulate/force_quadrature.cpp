@@ -1,0 +1,67 @@
+#include "simulate/force_quadrature.h"
+
+#include <cmath>
+
+#include "events/hermite.h"
+
+namespace subimpact {
+namespace {
+
+// Gauss' rule of three points on [0, 1].
+constexpr double gauss_points[] = {0.1127016653792583, 0.5, 0.8872983346207417};
+constexpr double gauss_weights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+// Halvings of a step: each takes the error down 16 times.
+constexpr int most_halvings = 8;
+
+double fifth_power(double h) { return h * h * h * h * h; }
+
+}  // namespace
+
+double ForceQuadrature::between(const Node& a, const Node& b, const StruckBeam& beam) {
+  const double h = b.time - a.time;
+  const HermiteCubic indentation(a.indentation, a.rate, b.indentation, b.rate, h);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum += gauss_weights[i] * beam.contact_force_at(indentation(gauss_points[i]));
+  }
+  return h * sum;
+}
+
+double ForceQuadrature::halved(const Node& a, const Node& b, double whole, StruckBeam& beam,
+                               Integrator& integrator, int depth) {
+  const double middle_time = 0.5 * (a.time + b.time);
+  integrator.state_at(middle_time, state_);
+  const Node middle = node(middle_time, state_, beam);
+  const double first = between(a, middle, beam);
+  const double second = between(middle, b, beam);
+  const double correction = (first + second - whole) / 15.0;
+  if (!(std::abs(correction) > tolerance_) || depth == most_halvings) {
+    return first + second + correction;
+  }
+  return halved(a, middle, first, beam, integrator, depth + 1) +
+         halved(middle, b, second, beam, integrator, depth + 1);
+}
+
+double ForceQuadrature::over(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
+  const Node a = node(step.t0, step.y0, beam);
+  const Node b = node(step.t1, step.y1, beam);
+  const double h = step.length();
+  const double whole = between(a, b, beam);
+  double constant = 0.0;
+  if (previous_) {
+    const double both = h + previous_->length;
+    const double change = previous_->integral + whole - between(previous_->start, b, beam);
+    constant = change / (fifth_power(both) - fifth_power(h) - fifth_power(previous_->length));
+  }
+  const bool trusted = previous_ && std::abs(constant) * fifth_power(h) <= tolerance_;
+  previous_ = Step{a, h, whole};
+  if (trusted || !(std::abs(whole) > tolerance_)) return whole + constant * fifth_power(h);
+  return halved(a, b, whole, beam, integrator, 1);
+}
+
+double ForceQuadrature::roughly_over(const StepEnds& step, const StruckBeam& beam) const {
+  return between(node(step.t0, step.y0, beam), node(step.t1, step.y1, beam), beam);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+
+#include "integrate/integrator.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// Integral of the contact force over time, from the indentation alone: independent of the
+/// striker's velocity, whose change it must equal.
+///
+/// Over a step the indentation is taken as the cubic through its values and rates at both ends and
+/// the force of it integrated by Gauss' rule, with an error c h^5. The constant c follows from two
+/// neighbouring steps taken as one; it corrects the step's integral. Where no neighbour is known
+/// yet, or where c h^5 is above the tolerance, the step is halved, with states that the integrator
+/// gives for times within it.
+class ForceQuadrature {
+ public:
+  /// `tolerance` of a step's integral, N s.
+  explicit ForceQuadrature(double tolerance) : tolerance_(tolerance) {}
+
+  /// Call where the force or one of its derivatives may jump: at events.
+  void forget_neighbour() { previous_.reset(); }
+
+  /// Integral over a step, N s.
+  double over(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
+  /// The same without correction or halving, for steps in pieces.
+  double roughly_over(const StepEnds& step, const StruckBeam& beam) const;
+
+ private:
+  struct Node {
+    double time, indentation, rate;
+  };
+  static Node node(double time, const State& y, const StruckBeam& beam) {
+    return {time, beam.indentation(y), beam.indentation_rate(y)};
+  }
+  static double between(const Node& a, const Node& b, const StruckBeam& beam);
+  double halved(const Node& a, const Node& b, double whole, StruckBeam& beam,
+                Integrator& integrator, int depth);
+
+  struct Step {
+    Node start;
+    double length, integral;
+  };
+  double tolerance_;
+  std::optional<Step> previous_;
+  State state_;
+};
+
+}  // namespace subimpact
