@@ -34,6 +34,15 @@ class HermiteCubic {
     return std::clamp(c1_ / (root - c2_), 0.0, 1.0);
   }
 
+  /// Where the value has a local maximum inside (0, 1), if anywhere.
+  std::optional<double> maximum() const {
+    const double discriminant = c2_ * c2_ - 3.0 * c1_ * c3_;
+    if (!(discriminant > 0.0)) return std::nullopt;
+    const double s = c1_ / (std::sqrt(discriminant) - c2_);
+    if (s > 0.0 && s < 1.0) return s;
+    return std::nullopt;
+  }
+
   /// Where, between equal senses at both ends, the slope is farthest in the other sense; nothing if
   /// it never is.
   std::optional<double> reversed_at() const {

@@ -25,6 +25,10 @@ constexpr long most_events_in_place = 64;
 // its guard.
 constexpr double tolerated_rounding = 64.0;
 
+// Rounding of the velocity at which the contact closes, as part of the striker's: it is the
+// difference of two velocities, each a sum over the stages of a step.
+constexpr double velocity_rounding = 1e-12;
+
 // How far a run whose energy is off is followed to see whether it blows up.
 constexpr long most_steps_ahead = 2000;
 
@@ -223,7 +227,7 @@ double EventLoop::rounding_of(const Guard& guard, const State& y, double time,
                               const GuardValue& at) const {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double of_value = guard.kind == EventKind::contact_unloads
-                              ? epsilon * beam_.scales().velocity
+                              ? velocity_rounding * beam_.scales().velocity
                               : beam_.negligible_excursion(y);
   return of_value + epsilon * time * std::abs(at.rate);
 }

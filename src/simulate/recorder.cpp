@@ -73,13 +73,12 @@ void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator&
   // In the plastic branch the peak is an event; in the elastic one it lies inside some step.
   if (beam.contact_branch() != ContactBranch::elastic) return;
   const double rate0 = beam.indentation_rate(step.y0);
-  if (!(rate0 > 0.0)) return;
   const double rate1 = beam.indentation_rate(step.y1);
-  if (!(rate1 < 0.0)) return;
   const double h = step.length();
   const HermiteCubic path(beam.indentation(step.y0), rate0, beam.indentation(step.y1), rate1, h);
-  const double guess = path.peak();
-  if (path(guess) < result_.sub_impacts.back().max_indentation * (1.0 - 1e-3)) return;
+  const std::optional<double> peak = path.maximum();
+  if (!peak || path(*peak) < result_.sub_impacts.back().max_indentation * (1.0 - 1e-3)) return;
+  const double guess = *peak;
   if (events_ == EventHandling::interpolated) {
     state_within(step, step.t0 + guess * h, integrator);
   } else {
@@ -90,7 +89,8 @@ void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator&
           integrator.state_at(t, state_);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
-        step.t0, step.t1, step.t0 + guess * h, options);
+        rate0 > 0.0 ? step.t0 : step.t0 + path.first_turn() * h,
+        rate1 < 0.0 ? step.t1 : step.t0 + path.second_turn() * h, step.t0 + guess * h, options);
   }
   follow_peak(beam.indentation(state_), beam.contact_force(state_));
 }

@@ -10,10 +10,10 @@
 namespace subimpact {
 namespace {
 
-// Audits every accepted state: the start of every step, and both sides of every event.
-class Audit final : public RunObserver {
+// Looks at every accepted state: the start of every step, and both sides of every event.
+class Conserved final : public RunObserver {
  public:
-  Audit(StruckBeam& beam, const State& initial)
+  Conserved(StruckBeam& beam, const State& initial)
       : energy_(beam.energies(initial).total()), momentum_(beam.momentum(initial)) {}
 
   void on_step(const StepEnds& step, StruckBeam& beam, Integrator&) override {
@@ -46,63 +46,64 @@ class Audit final : public RunObserver {
   Energies dissipated_;
 };
 
-Audit audited(const Case& input) {
+Conserved followed(const Case& input) {
   StruckBeam beam = make_struck_beam(input);
   const Used used = describe(input, beam);
   const auto integrator = make_integrator(input, used, beam);
-  Audit audit(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, audit, loop_options(input, used));
+  Conserved conserved(beam, beam.initial_state());
+  Audit accounts(beam, beam.initial_state());
+  EventLoop loop(beam, *integrator, conserved, accounts, loop_options(input, used));
   loop.start();
   while (!loop.finished()) loop.advance();
   printf("%ld steps: energy %.1e, momentum %.1e, dissipation falls by %.1e J at most\n",
-         audit.steps, audit.energy_error, audit.momentum_error, audit.plastic_loss);
-  return audit;
+         conserved.steps, conserved.energy_error, conserved.momentum_error, conserved.plastic_loss);
+  return conserved;
 }
 
 class Conservation : public testing::TestWithParam<SectionKind> {};
 
 TEST_P(Conservation, HoldsAtEveryStepOfErkAtOneInABillion) {
-  const Audit audit = audited(paper_case(GetParam(), 8e-3));
-  EXPECT_GT(audit.steps, 1000);
-  EXPECT_LT(audit.energy_error, 1e-8);
-  EXPECT_LT(audit.momentum_error, 1e-12);
-  EXPECT_LT(audit.plastic_loss, 1e-12);
+  const Conserved conserved = followed(paper_case(GetParam(), 8e-3));
+  EXPECT_GT(conserved.steps, 1000);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
+  EXPECT_LT(conserved.plastic_loss, 1e-12);
 }
 
 TEST_P(Conservation, HoldsAtEveryStepOfTheExponentialMethod) {
   Case input = paper_case(GetParam(), 8e-3);
   input.solver.method = Method::exponential;
-  const Audit audit = audited(input);
-  EXPECT_LT(audit.energy_error, 1e-8);
-  EXPECT_LT(audit.momentum_error, 1e-11);
-  EXPECT_LT(audit.plastic_loss, 1e-11);
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-11);
+  EXPECT_LT(conserved.plastic_loss, 1e-11);
 }
 
 TEST_P(Conservation, OfMomentumHoldsAtEveryCentralDifference) {
   Case input = paper_case(GetParam(), 2e-3);
   input.solver.method = Method::central_difference;
-  const Audit audit = audited(input);
-  EXPECT_LT(audit.momentum_error, 1e-12);
-  EXPECT_LT(audit.energy_error, 0.05);  // of second order in the step
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
+  EXPECT_LT(conserved.energy_error, 0.05);  // of second order in the step
 }
 
 TEST_P(Conservation, HoldsForAStrikeAwayFromMidSpanBetweenTwoCells) {
   Case input = paper_case(GetParam(), 0.5e-3);
   input.scene.striker.position = 0.31;
   input.model.segments = 200;
-  const Audit audit = audited(input);
-  EXPECT_LT(audit.energy_error, 1e-8);
-  EXPECT_LT(audit.momentum_error, 1e-12);
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
 }
 
 TEST_P(Conservation, HoldsOnHermiteElements) {
   Case input = paper_case(GetParam(), 2e-3);
   input.model.mesh = MeshKind::hermite;
   input.model.elements = 100;
-  const Audit audit = audited(input);
-  EXPECT_LT(audit.energy_error, 1e-8);
-  EXPECT_LT(audit.momentum_error, 1e-12);
-  EXPECT_LT(audit.plastic_loss, 1e-12);
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
+  EXPECT_LT(conserved.plastic_loss, 1e-12);
 }
 
 TEST_P(Conservation, IsReportedInTheHistoryRows) {

@@ -35,9 +35,11 @@ struct SmoothImpact {
       }
       void after_event(const Transition&, const State&, StruckBeam&) override {}
     } observer;
-    EventLoop loop(beam, *integrator, observer,
+    const State from = in_unknowns_of(beam, {0.0, residual, -0.05, bodies().velocity});
+    Audit audit(beam, from);
+    EventLoop loop(beam, *integrator, observer, audit,
                    {1.0, way.events, std::numeric_limits<double>::infinity(), 1e30});
-    loop.start_from(in_unknowns_of(beam, {0.0, residual, -0.05, bodies().velocity}));
+    loop.start_from(from);
     while (observer.time == 0.0) loop.advance();
     return observer.time;
   }

@@ -118,8 +118,9 @@ inline Result run_two_bodies(StruckBeam& beam, const Way& way, double end_time,
   const auto integrator = way.make(beam);
   Result result;
   const State initial = from.empty() ? beam.initial_state() : in_unknowns_of(beam, from);
-  Recorder recorder(beam, initial, 0.0, way.events, result);
-  EventLoop loop(beam, *integrator, recorder,
+  Audit audit(beam, initial);
+  Recorder recorder(beam, 0.0, way.events, audit, result);
+  EventLoop loop(beam, *integrator, recorder, audit,
                  {end_time, way.events, std::numeric_limits<double>::infinity(), 1e30});
   if (from.empty()) {
     loop.start();
@@ -127,7 +128,7 @@ inline Result run_two_bodies(StruckBeam& beam, const Way& way, double end_time,
     loop.start_from(initial);
   }
   while (!loop.finished()) loop.advance();
-  recorder.finish(loop.time(), loop.state(), beam);
+  recorder.finish(loop.time(), loop.state(), beam, true);
   return result;
 }
 

@@ -57,8 +57,9 @@ State final_state(const Case& input, SectionField::Storage storage) {
   const Used used = describe(input, beam);
   const auto integrator = make_integrator(input, used, beam);
   Result result;
-  Recorder recorder(beam, beam.initial_state(), 0.0, used.events, result);
-  EventLoop loop(beam, *integrator, recorder, {input.end_time, used.events, 1e-10, 1.0});
+  Audit audit(beam, beam.initial_state());
+  Recorder recorder(beam, 0.0, used.events, audit, result);
+  EventLoop loop(beam, *integrator, recorder, audit, {input.end_time, used.events, 1e-10, 1.0});
   loop.start();
   while (!loop.finished()) loop.advance();
   return loop.state();

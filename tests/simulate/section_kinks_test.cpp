@@ -25,7 +25,8 @@ State state_after(double step, double kink_tolerance) {
   Used used = describe(input, beam);
   RunObserver nobody;
   const auto first = make_integrator(input, used, beam);
-  EventLoop beginning(beam, *first, nobody, loop_options(input, used));
+  Audit audit(beam, beam.initial_state());
+  EventLoop beginning(beam, *first, nobody, audit, loop_options(input, used));
   beginning.start();
   while (!beginning.finished()) beginning.advance();
   EXPECT_EQ(beam.sections().n_yielded(), 0u);
@@ -36,7 +37,7 @@ State state_after(double step, double kink_tolerance) {
   LoopOptions options = loop_options(input, used);
   options.end_time = 52e-6;
   options.kink_tolerance = kink_tolerance;
-  EventLoop loop(beam, *fixed, nobody, options);
+  EventLoop loop(beam, *fixed, nobody, audit, options);
   loop.start_from(beginning.state());
   while (!loop.finished()) loop.advance();
   EXPECT_GT(beam.sections().n_yielded(), 20u);
@@ -90,7 +91,8 @@ TEST(SectionKinks, HardlyEverCutAStep) {
   StruckBeam beam = make_struck_beam(input);
   const Used used = describe(input, beam);
   const auto integrator = make_integrator(input, used, beam);
-  EventLoop loop(beam, *integrator, counter, loop_options(input, used));
+  Audit audit(beam, beam.initial_state());
+  EventLoop loop(beam, *integrator, counter, audit, loop_options(input, used));
   loop.start();
   while (!loop.finished()) loop.advance();
   const WorkCounts work = integrator->work();
@@ -108,7 +110,8 @@ State state_late(double rtol) {
   const Used used = describe(input, beam);
   RunObserver nobody;
   const auto integrator = make_integrator(input, used, beam);
-  EventLoop loop(beam, *integrator, nobody, loop_options(input, used));
+  Audit audit(beam, beam.initial_state());
+  EventLoop loop(beam, *integrator, nobody, audit, loop_options(input, used));
   loop.start();
   while (!loop.finished()) loop.advance();
   return loop.state();
