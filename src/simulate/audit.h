@@ -44,7 +44,9 @@ class Audit {
   bool is_suspicious(double t, const State& y) const;
   /// Judges the impulse of a sub-impact (N s) that ended at t against the integrated force.
   void check_impulse(double t, double impulse, double force_integral);
-  /// By how much these two may differ, N s.
+  /// Relative to the initial energy.
+  double tolerated_energy() const { return limits_.energy; }
+  /// By how much impulse and integrated force may differ, N s.
   double tolerated_impulse() const { return limits_.energy * initial_momentum_; }
   /// Throws RunStopped for a failed check at t.
   [[noreturn]] void fail(double t, OutcomeKind kind, const std::string& what) const;

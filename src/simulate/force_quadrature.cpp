@@ -1,5 +1,6 @@
 #include "simulate/force_quadrature.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "events/hermite.h"
@@ -33,6 +34,7 @@ double ForceQuadrature::halved(const Node& a, const Node& b, double whole, Struc
   const double middle_time = 0.5 * (a.time + b.time);
   integrator.state_at(middle_time, state_);
   const Node middle = node(middle_time, state_, beam);
+  largest_indentation_ = std::max(largest_indentation_, middle.indentation);
   const double first = between(a, middle, beam);
   const double second = between(middle, b, beam);
   const double correction = (first + second - whole) / 15.0;
@@ -46,6 +48,7 @@ double ForceQuadrature::halved(const Node& a, const Node& b, double whole, Struc
 double ForceQuadrature::over(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
   const Node a = node(step.t0, step.y0, beam);
   const Node b = node(step.t1, step.y1, beam);
+  largest_indentation_ = 0.0;
   const double h = step.length();
   const double whole = between(a, b, beam);
   double constant = 0.0;

@@ -25,7 +25,9 @@ class ForceQuadrature {
 
   /// Integral over a step, N s.
   double over(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
-  /// The same without correction or halving, for steps in pieces.
+  /// The largest indentation (m) that over() has seen within the step, its ends left out.
+  double largest_indentation() const { return largest_indentation_; }
+  /// The integral without correction or halving, for steps in pieces.
   double roughly_over(const StepEnds& step, const StruckBeam& beam) const;
 
  private:
@@ -45,6 +47,7 @@ class ForceQuadrature {
   };
   double tolerance_;
   std::optional<Step> previous_;
+  double largest_indentation_ = 0.0;
   State state_;
 };
 

@@ -36,7 +36,7 @@ constexpr double largest_part_if_located = 0.15;
 // Energy errors of adaptive methods are some 1 to 1000 rtol, with Cash and Karp's table, which
 // grows slowly where it should be neutral, 1000. What is tolerated by default, within bounds:
 constexpr double tolerated_energy_per_rtol = 1e4;
-constexpr double least_tolerated_energy = 1e-7;
+constexpr double least_tolerated_energy = 1e-6;
 constexpr double most_tolerated_energy = 1e-3;
 constexpr double tolerated_momentum = 1e-9;
 constexpr int default_adams_order = 12;

@@ -1,5 +1,7 @@
 #include "simulate/recorder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -51,22 +53,26 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
   if (in_contact_) {
     ++steps_in_contact_.back();
     integrate_force(step, beam, integrator);
-    const double indentation = beam.indentation(step.y1);
-    follow_peak(indentation, beam.contact_force_at(indentation));
+    follow_peak(beam.indentation(step.y1), beam);
     look_for_peak(step, beam, integrator);
   }
 }
 
 void Recorder::integrate_force(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
-  result_.sub_impacts.back().force_integral += events_ == EventHandling::located
-                                                   ? force_.over(step, beam, integrator)
-                                                   : force_.roughly_over(step, beam);
+  double& integral = result_.sub_impacts.back().force_integral;
+  if (events_ == EventHandling::interpolated) {
+    integral += force_.roughly_over(step, beam);
+    return;
+  }
+  integral += force_.over(step, beam, integrator);
+  follow_peak(force_.largest_indentation(), beam);
 }
 
-void Recorder::follow_peak(double indentation, double force) {
+void Recorder::follow_peak(double indentation, const StruckBeam& beam) {
   SubImpact& now = result_.sub_impacts.back();
-  now.max_indentation = std::max(now.max_indentation, indentation);
-  now.peak_force = std::max(now.peak_force, force);
+  if (!(indentation > now.max_indentation)) return;
+  now.max_indentation = indentation;
+  now.peak_force = std::max(now.peak_force, beam.contact_force_at(indentation));
 }
 
 void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
@@ -92,7 +98,7 @@ void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator&
         rate0 > 0.0 ? step.t0 : step.t0 + path.first_turn() * h,
         rate1 < 0.0 ? step.t1 : step.t0 + path.second_turn() * h, step.t0 + guess * h, options);
   }
-  follow_peak(beam.indentation(state_), beam.contact_force(state_));
+  follow_peak(beam.indentation(state_), beam);
 }
 
 void Recorder::before_event(const Transition& event, const State& y, StruckBeam& beam) {
@@ -108,7 +114,7 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
   } else if (event.kind == EventKind::contact_yields && !result_.first_contact_yield) {
     result_.first_contact_yield = event.time;
   } else if (event.kind == EventKind::contact_unloads) {
-    follow_peak(beam.indentation(y), beam.contact_force(y));
+    follow_peak(beam.indentation(y), beam);
   }
 }
 
@@ -162,8 +168,25 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam, bool is_goo
 }
 
 void Recorder::add_row(double time, const State& y, StruckBeam& beam) {
-  result_.history.push_back(make_row(time, y, beam));
+  HistoryRow row = make_row(time, y, beam);
+  if (in_contact_) {
+    follow_peak(row.indentation, beam);
+    check_push(row);
+  }
+  result_.history.push_back(row);
   add_section_rows(time, y, beam);
+}
+
+void Recorder::check_push(HistoryRow& row) const {
+  if (row.force >= 0.0) return;
+  const double tolerated = audit_.tolerated_energy() * result_.sub_impacts.back().peak_force;
+  if (!(row.force >= -tolerated)) {
+    audit_.fail(row.time, OutcomeKind::inaccurate,
+                fmt::format("within a contact the force is {:.3g} N: the bodies would pull at each "
+                            "other",
+                            row.force));
+  }
+  row.force = 0.0;  // the law's own force there
 }
 
 void Recorder::add_section_rows(double time, const State& y, StruckBeam& beam) {

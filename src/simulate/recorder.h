@@ -31,8 +31,10 @@ class Recorder final : public RunObserver {
   void close_sub_impact(const State& y, StruckBeam& beam);
   void integrate_force(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
   void state_within(const StepEnds& step, double t, Integrator& integrator);
-  void follow_peak(double indentation, double force);
+  void follow_peak(double indentation, const StruckBeam& beam);
   void look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
+  // Contact only pushes: a force below zero by no more than the tolerance is none.
+  void check_push(HistoryRow& row) const;
   void add_event_row(const Transition& event, const State& y, StruckBeam& beam);
   void add_row(double time, const State& y, StruckBeam& beam);
   HistoryRow make_row(double time, const State& y, StruckBeam& beam);

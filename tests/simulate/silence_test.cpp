@@ -89,7 +89,7 @@ TEST(TheTolerance, OfEnergyFollowsFromRtolAndIsNeverLooserThanAThousandth) {
   input.solver.rtol = 1e-9;
   EXPECT_NEAR(explain(input).energy_tolerance, 1e-5, 1e-18);
   input.solver.rtol = 1e-14;
-  EXPECT_EQ(explain(input).energy_tolerance, 1e-7);
+  EXPECT_EQ(explain(input).energy_tolerance, 1e-6);
   input.accuracy.energy = 0.02;
   EXPECT_EQ(explain(input).energy_tolerance, 0.02);
 }

@@ -24,7 +24,7 @@ const std::vector<Entry>& entries_of_tables() {
       {{"dormand-prince", 5, 4, 6, "Dormand and Prince 1980, 5(4): sound at every accuracy"}, ARKODE_DORMAND_PRINCE_7_4_5},
       {{"bogacki-shampine", 3, 2, 3, "Bogacki and Shampine 1989, 3(2): low accuracy"}, ARKODE_BOGACKI_SHAMPINE_4_2_3},
       {{"zonneveld", 4, 3, 5, "Zonneveld 1963, 4(3)"}, ARKODE_ZONNEVELD_5_3_4},
-      {{"cash-karp", 5, 4, 6, "Cash and Karp 1990, 5(4)"}, ARKODE_CASH_KARP_6_4_5},
+      {{"cash-karp", 5, 4, 6, "Cash and Karp 1990, 5(4): the energy grows at every step, however short; for studies of that"}, ARKODE_CASH_KARP_6_4_5},
       {{"verner", 6, 5, 8, "Verner 1978, 6(5)"}, ARKODE_VERNER_8_5_6},
       {{"fehlberg-78", 8, 7, 13, "Fehlberg 1968, 8(7)"}, ARKODE_FEHLBERG_13_7_8},
   };
