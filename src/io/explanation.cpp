@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "simulate/case_choices.h"
+#include "simulate/counted.h"
 #include "subimpact/io/report.h"
 #include "subimpact/simulate/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
@@ -121,8 +122,8 @@ std::string explanation(const Case& input, const Used& used,
   head("Model");
   line("mesh", mesh_text(input, used));
   line("symmetry", symmetry_text(input, used));
-  line("unknowns", fmt::format("{} of the beam and 1 of the striker; {} sections", used.n_unknowns,
-                               used.n_sections));
+  line("unknowns", fmt::format("{} of the beam and 1 of the striker; {}", used.n_unknowns,
+                               counted(used.n_sections, "section")));
   line("section law", section_text(input, used));
   line("highest frequency", fmt::format("{:.4g} rad/s", used.highest_frequency));
   line("critical step", std::isfinite(used.critical_step)

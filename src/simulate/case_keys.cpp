@@ -210,7 +210,7 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_poisson)),
     row("contact.beam_poisson", "", poisson, "Poisson's ratio of the beam, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.beam_poisson)),
 
-    row("model.mesh", "", any_value, "discretisation of the beam", as_in_case, AT(model.mesh)),
+    row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\", or \"hermite\" if model.elements is given", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
     row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
     row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points of an element, at which the bending law is asked", as_in_case, AT(model.sections_per_element)),

@@ -86,7 +86,7 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
                 sample_result());
   EXPECT_EQ(refusal_of(directory.path), "(accepted)");
   std::ofstream(directory.path / "events.csv") << "index,zone\n1\n";
-  expect_in(refusal_of(directory.path), "events.csv:2: has 1 cells where the header has 2");
+  expect_in(refusal_of(directory.path), "events.csv:2: has 1 cell where the header has 2");
   std::ofstream(directory.path / "events.csv") << "index,zone\n1,2\n";
   expect_in(refusal_of(directory.path), "events.csv: has no column subzone");
   std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n";

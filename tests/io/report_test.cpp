@@ -40,7 +40,7 @@ TEST(SubImpactTable, SetsZonesAndSubZonesApartAndMarksAnOpenEnd) {
 
 TEST(FailureMessage, NamesTimeModeMethodLastEventAndCause) {
   Result result = sample_result();
-  result.outcome = {OutcomeKind::solver_failed, 12.5e-6, "the library gave up"};
+  result.outcome = {OutcomeKind::solver_failed, 12.5e-6, "the library gave up", {}};
   const std::string message = failure_message(paper_case(), result);
   expect_in(message, "solver-failed at 12.5 us");
   expect_in(message, "in contact, sub-impact 3");
