@@ -12,6 +12,7 @@
 #include "simulate/case_choices.h"
 #include "simulate/contact_checks.h"
 #include "simulate/mesh_checks.h"
+#include "subimpact/simulate/doubtful_units.h"
 #include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
@@ -253,6 +254,14 @@ std::vector<CaseKey> make_case_keys() {
 // A row takes 144 bytes in memory and some 400 in the file.
 constexpr double most_history_rows = 5e6;
 
+// "; time.end is 8 s, ...", if its unit is doubtful.
+std::string doubt_of_end_time(const Case& input) {
+  for (const std::string& doubt : doubtful_units(input)) {
+    if (doubt.starts_with("time.end ")) return "; " + doubt;
+  }
+  return {};
+}
+
 void check_history_size(const Case& input) {
   const double rows = input.end_time / input.output.interval;
   if (input.output.interval == 0.0 || rows <= most_history_rows) return;
@@ -262,7 +271,8 @@ void check_history_size(const Case& input) {
           "is {} s, which asks for {:.2g} history rows up to time.end = {} s; allowed: at most "
           "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
           input.output.interval, rows, input.end_time, most_history_rows,
-          input.end_time / most_history_rows));
+          input.end_time / most_history_rows) +
+          doubt_of_end_time(input));
 }
 
 void check_sections(const Case& input) {

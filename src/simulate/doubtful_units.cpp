@@ -15,7 +15,7 @@ namespace {
 // are like, so that no plausible scene is doubted.
 constexpr double softest = 1e6;            // Pa: soft rubber
 constexpr double stiffest = 2e12;          // Pa: diamond has 1.2e12
-constexpr double weakest = 1e5;            // Pa: lead yields at some 1e7
+constexpr double weakest = 1e4;            // Pa: lead yields at some 1e7
 constexpr double smallest_yield = 1e-6;    // strain at yield: soft metals have 1e-5
 constexpr double lightest = 25.0;          // kg/m3: packing foam
 constexpr double heaviest = 3e4;           // kg/m3: osmium has 22600
