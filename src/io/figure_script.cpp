@@ -11,7 +11,7 @@ namespace subimpact {
 namespace {
 
 constexpr double line_tolerance = 0.15;  // pixels
-constexpr int mark_height = 34;          // pixels
+constexpr int mark_height = 26;          // pixels
 
 double distance_from_segment(Point p, Point a, Point b) {
   const double dx = b.x - a.x;
@@ -110,7 +110,7 @@ std::string FigureScript::text() const {
   return "# " + caption_ + "\n" + figure_style() + data_ +
          fmt::format("panels = {:.6g}\n", 1.0 * size_.height / size().height) +
          (title.empty() ? "set multiplot\n"
-                        : fmt::format("set multiplot title \"{}\" font ',15'\n", title)) +
+                        : fmt::format("set multiplot title \"{}\" font ',12'\n", title)) +
          commands_ + "unset multiplot\n";
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/figure_script.h"
 #include "subimpact/io/report.h"
 
@@ -18,6 +20,16 @@ std::string sections_left_out(const std::vector<double>& sections) {
       "bending: sections {} to {} of output.sections ({}): the figure has room for {}; run the "
       "case again with fewer, or draw them from sections.csv",
       most_bending_panels + 1, sections.size(), positions, most_bending_panels);
+}
+
+// A line each, because figures are narrow.
+void mark_clauses(FigureScript& figure, const std::string& text) {
+  const std::string separator = "; ";
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(separator, start), text.size());
+    figure.mark(text.substr(start, end - start));
+    start = end + separator.size();
+  }
 }
 
 }  // namespace
@@ -45,7 +57,7 @@ DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& in
   figures.left_out = figures_left_out(input, result);
   const std::string caveat = outcome_caveat(result);
   const auto draw = [&](FigureScript figure) {
-    if (!caveat.empty()) figure.mark(caveat);
+    mark_clauses(figure, caveat);
     draw_figure(directory, figure.name(), figure.text(), figure.size());
     figures.drawn.push_back({figure.name(), figure.caption()});
   };

@@ -167,8 +167,7 @@ std::string recovery_words(const StrikeAccount& account) {
 std::vector<std::string> strike_words(const Case& input, const Result& result) {
   std::vector<std::string> paragraphs{sub_impact_words(result), yield_words(input, result)};
   if (!result.outcome.completed()) {
-    paragraphs.insert(paragraphs.begin(),
-                      "The run did not complete: " + failure_message(input, result) + ".");
+    paragraphs.insert(paragraphs.begin(), "Outcome: " + failure_message(input, result) + ".");
   }
   if (const auto account = account_of(result)) {
     paragraphs.push_back(striker_words(result, *account));

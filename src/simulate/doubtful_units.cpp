@@ -84,7 +84,18 @@ class Doubts {
   void add(std::string sentence) { sentences_.push_back(std::move(sentence)); }
 
   void add_length(const char* key, double value, const std::string& reason) {
-    add(given(key, value, "m") + ", " + reason + proposal(value, {{"mm", 1e-3}}, {}));
+    add(given(key, value, "m") + reason + proposal(value, {{"mm", 1e-3}}, {}));
+  }
+
+  // A length that is out of proportion to another one of the beam, or doubtful because of all.
+  void length(const char* key, double value, bool out_of_proportion, double other,
+              const char* other_name, bool because_of_all) {
+    if (out_of_proportion) {
+      add_length(key, value,
+                 fmt::format(", {:.3g} times the beam's {}", value / other, other_name));
+    } else if (because_of_all) {
+      add_length(key, value, ": " + size_and_mass());
+    }
   }
 
   std::string size_and_mass() const {
@@ -92,41 +103,33 @@ class Doubts {
     return fmt::format(
         "a beam of {:.4g} m x {:.4g} m x {:.4g} m weighs {}", beam_.length, beam_.width,
         beam_.thickness,
-        mass >= 1e3 ? fmt::format("{:.3g} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
+        mass >= 1e4 ? fmt::format("{:.0f} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
+  }
+
+  // A density that is wrong itself says nothing about lengths.
+  bool is_too_large() const {
+    const double volume = beam_.length * beam_.width * beam_.thickness;
+    return volume * std::clamp(beam_.density, 1e3, heaviest) > heaviest_beam;
   }
 
   void lengths() {
     const double l = beam_.length, b = beam_.width, h = beam_.thickness;
-    const double nose = striker_.nose_radius.value_or(0.0);
-    // A density that is wrong itself says nothing about lengths.
-    const bool heavy = l * b * h * std::clamp(beam_.density, 1e3, heaviest) > heaviest_beam;
+    const bool large = is_too_large();
     const bool slender = l > most_slender * h;
     const bool deep = h > l;
     const bool wide = b > widest * l;
-    const bool round = nose > largest_nose * l && nose > one_metre;
-    const bool any = heavy || l > longest || slender || deep || wide;
+    const bool any = large || l > longest || slender || deep || wide;
     // Beside one length in mm, another one above a metre is probably in mm too.
-    const auto beside = [&](double length) { return any && length > one_metre; };
-    const std::string as_well = size_and_mass();
-    if (slender) {
-      add_length("beam.length", l, fmt::format("{:.3g} times its thickness", l / h));
-    } else if (heavy || l > longest) {
-      add_length("beam.length", l, as_well);
-    }
-    if (wide) {
-      add_length("beam.width", b, fmt::format("{:.3g} times the beam's length", b / l));
-    } else if (heavy || beside(b)) {
-      add_length("beam.width", b, as_well);
-    }
-    if (deep) {
-      add_length("beam.thickness", h, fmt::format("{:.3g} times the beam's length", h / l));
-    } else if (heavy || beside(h)) {
-      add_length("beam.thickness", h, as_well);
-    }
-    if (round || beside(nose)) {
-      add_length("striker.nose_radius", nose,
-                 round ? fmt::format("{:.3g} times the beam's length", nose / l)
-                       : std::string("beside other lengths that are doubtful"));
+    const auto doubtful_beside = [&](double value) { return any && value > one_metre; };
+    length("beam.length", l, slender, h, "thickness", large || l > longest);
+    length("beam.width", b, wide, l, "length", large || doubtful_beside(b));
+    length("beam.thickness", h, deep, l, "length", large || doubtful_beside(h));
+    const double nose = striker_.nose_radius.value_or(0.0);
+    const bool blunt = nose > largest_nose * l && nose > one_metre;
+    if (blunt || !doubtful_beside(nose)) {
+      length("striker.nose_radius", nose, blunt, l, "length", false);
+    } else {
+      add_length("striker.nose_radius", nose, ", beside lengths of the beam that are doubtful");
     }
   }
 

@@ -55,7 +55,7 @@ const std::vector<std::string> length_in_mm = {"beam.length is 711.2 m", "if mm 
 const std::vector<std::string> width_in_mm = {"beam.width is 16.3 m", "write 0.0163"};
 const std::vector<std::string> thickness_in_mm = {"beam.thickness is 7.5 m", "write 0.0075"};
 const std::vector<std::string> nose_in_mm = {"striker.nose_radius is 10 m", "write 0.01"};
-const std::vector<std::string> mass_of_226000_t = {"beam.length is 711.2 m", "weighs 2.26e+05 t"};
+const std::vector<std::string> mass_of_226000_t = {"beam.length is 711.2 m", "weighs 226055 t"};
 
 const Slip slips[] = {
     {"LengthsOfTheBeamInMm",
