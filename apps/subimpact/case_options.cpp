@@ -1,5 +1,12 @@
 #include "commands.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "subimpact/io/figures.h"
+#include "subimpact/io/report.h"
+
 namespace subimpact::app {
 
 void CaseOptions::add_to(CLI::App& command) {
@@ -18,6 +25,24 @@ LoadedCase CaseOptions::load() const {
   for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
   if (!method.empty()) overrides.push_back({"solver.method", method, "--method " + method});
   return read_case_file(file, overrides);
+}
+
+void print_notes(const LoadedCase& loaded) {
+  for (const std::string& note : loaded.notes()) fmt::print(stderr, "subimpact: note: {}\n", note);
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    fmt::print(stderr, "subimpact: warning: {}\n", warning);
+  }
+}
+
+void print_figure_notes(const FinishedRun& run) {
+  for (const std::string& reason : figures_left_out(run.input, run.result)) {
+    fmt::print(stderr, "subimpact: note: not drawn: {}\n", reason);
+  }
+  const std::string caveat = outcome_caveat(run.result);
+  if (!caveat.empty()) print_warnings({caveat});
 }
 
 }  // namespace subimpact::app

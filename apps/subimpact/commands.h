@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "subimpact/io/case_file.h"
+#include "subimpact/io/read_results.h"
 
 namespace subimpact::app {
 
@@ -28,11 +29,20 @@ struct CaseOptions {
   LoadedCase load() const;
 };
 
+/// Says on stderr which of the keys given have no effect.
+void print_notes(const LoadedCase& loaded);
+/// Prints warnings on stderr, a line each.
+void print_warnings(const std::vector<std::string>& warnings);
+
+/// Says on stderr what the figures of a run leave out, and how a run ended that did not complete.
+void print_figure_notes(const FinishedRun& run);
+
 /// A check of an option that is a time in seconds.
 std::string positive_seconds(const std::string& text);
 
-/// Refuses methods that do not exist or cannot run the case, naming the option. Throws
-/// CaseFileError.
+/// Refuses methods and tables that do not exist, naming the option --methods. Throws CaseFileError.
+void check_method_names(const std::vector<std::string>& methods);
+/// The same, and throws InvalidCase for a method that cannot run the case.
 void check_methods(const Case& input, const std::vector<std::string>& methods);
 
 // Each adds its command, which leaves the exit status in `status` when it has run.

@@ -22,6 +22,7 @@ struct CompareOptions {
 
 int run_comparison(const CompareOptions& options) {
   const LoadedCase loaded = options.input.load();
+  check_method_names(options.methods);
   if (!options.directory.empty()) prepare_output_directory(options.directory);
   const bool shown = isatty(STDERR_FILENO) != 0;
   Comparison comparison;

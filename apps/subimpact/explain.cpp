@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "subimpact/io/report.h"
+#include "subimpact/simulate/doubtful_units.h"
 
 namespace subimpact::app {
 
@@ -20,6 +21,8 @@ void add_explain(CLI::App& program, int& status) {
     const LoadedCase loaded = options->load();
     try {
       const Used used = explain(loaded.value);
+      print_notes(loaded);
+      print_warnings(doubtful_units(loaded.value));
       fmt::print("{}", explanation(loaded.value, used, estimate_cost(loaded.value)));
     } catch (const InvalidCase& error) {
       throw CaseFileError(loaded.message(error));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -24,8 +25,9 @@ int plot(const PlotOptions& options) {
   for (const DrawnFigure& figure : figures.drawn) {
     fmt::print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
   }
-  for (const std::string& reason : figures.left_out) fmt::print("not drawn: {}\n", reason);
   fmt::print("\nfigures in {}\n", directory);
+  std::fflush(stdout);
+  print_figure_notes(run);
   return done;
 }
 

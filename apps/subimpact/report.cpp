@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -20,6 +21,8 @@ int report(const ReportOptions& options) {
   const std::string& directory = options.directory.empty() ? options.run : options.directory;
   prepare_output_directory(directory);
   fmt::print("{}\n", write_html_report(directory, run).string());
+  std::fflush(stdout);
+  print_figure_notes(run);
   return done;
 }
 

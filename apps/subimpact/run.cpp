@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "progress.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/simulate/doubtful_units.h"
 #include "subimpact/study/error_bars.h"
 #include "subimpact/study/mesh_error_bars.h"
 
@@ -60,6 +63,15 @@ Result simulate_with_progress(const LoadedCase& loaded, const RunOptions& option
   }
 }
 
+// Those that are not printed yet.
+std::vector<std::string> others(std::vector<std::string> warnings,
+                                const std::vector<std::string>& printed) {
+  std::erase_if(warnings, [&](const std::string& warning) {
+    return std::find(printed.begin(), printed.end(), warning) != printed.end();
+  });
+  return warnings;
+}
+
 int run(const RunOptions& options) {
   const LoadedCase loaded = options.input.load();
   try {
@@ -69,6 +81,9 @@ int run(const RunOptions& options) {
   }
   const std::filesystem::path directory = output_directory(options);
   prepare_output_directory(directory);
+  const std::vector<std::string> doubts = doubtful_units(loaded.value);
+  if (!options.quiet) print_notes(loaded);
+  print_warnings(doubts);
   const Result result = simulate_with_progress(loaded, options);
   int status = exit_status(result.outcome.kind);
   std::string unwritten;
@@ -84,6 +99,7 @@ int run(const RunOptions& options) {
     if (unwritten.empty()) fmt::print("\nfiles in {}\n", directory.string());
     std::fflush(stdout);
   }
+  print_warnings(others(result.warnings, doubts));
   if (!result.outcome.completed()) {
     fmt::print(stderr, "subimpact: {}\n", failure_message(loaded.value, result));
   }
@@ -108,7 +124,7 @@ void add_run(CLI::App& program, int& status) {
                  "in time, of the mesh, of layers in place of the exact section; takes some five "
                  "times as long. --error-bars=time: in time alone, about twice as long")
       ->check(CLI::IsMember({"all", "time"}));
-  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
   command->footer(
       "Examples:\n"
       "  subimpact run case.toml\n"

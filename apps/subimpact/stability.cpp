@@ -128,8 +128,8 @@ int run_stability(StabilityCommand command) {
   if (command.directory.empty()) {
     command.directory = std::filesystem::path(command.input.file).stem().string() + "-stability";
   }
-  check_methods(loaded.value, command.methods);
   try {
+    check_methods(loaded.value, command.methods);
     Session session(loaded.value, command);
     const auto names = session.names();
     for (const std::string& part : command.parts) {

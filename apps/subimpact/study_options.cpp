@@ -1,9 +1,14 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "commands.h"
+#include "simulate/other_names.h"
+#include "subimpact/simulate/case_keys.h"
+#include "subimpact/simulate/method_tables.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {
@@ -14,16 +19,71 @@ std::string positive_seconds(const std::string& text) {
   return fmt::format("is {}; allowed: seconds, finite and above 0", text);
 }
 
-void check_methods(const Case& input, const std::vector<std::string>& methods) {
-  for (const std::string& method : methods) {
-    try {
-      settings_of(input, method);
-    } catch (const InvalidCase& error) {
-      const bool of_method = error.key == "solver.method" || error.key == "solver.table";
-      if (!of_method) throw;
-      throw CaseFileError(fmt::format("--methods {}: {} {}", method, error.key, error.what()));
+namespace {
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const Choice& method : find_case_key("solver.method")->choices) names.push_back(method.name);
+  return names;
+}
+
+std::vector<std::string> table_names(const std::string& method) {
+  std::vector<std::string> names;
+  for (const MethodTable& table : method_tables()) {
+    if (to_string(table.method) == method) names.push_back(table.name);
+  }
+  return names;
+}
+
+std::string did_you_mean(const std::string& name) {
+  return name.empty() ? "see `subimpact methods`" : fmt::format("did you mean \"{}\"?", name);
+}
+
+std::string unknown_method(const std::string& option, const std::string& method) {
+  const std::vector<std::string> names = method_names();
+  const std::string own = own_name("solver.method", method);
+  return fmt::format("--methods {}: unknown method \"{}\"; allowed: {}; {}", option, method,
+                     fmt::join(names, ", "),
+                     did_you_mean(own.empty() ? nearest_name(method, names) : own));
+}
+
+std::string unknown_table(const std::string& option, const std::string& method,
+                          const std::string& table) {
+  const std::vector<std::string> names = table_names(method);
+  if (names.empty()) {
+    return fmt::format("--methods {}: {} has no tables; write --methods {}", option, method,
+                       method);
+  }
+  const std::string near = nearest_name(table, names);
+  return fmt::format("--methods {}: unknown table \"{}\"; allowed for {}: {}; {}", option, table,
+                     method, fmt::join(names, ", "),
+                     did_you_mean(near.empty() ? near : method + ":" + near));
+}
+
+template <class List>
+bool contains(const List& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+}  // namespace
+
+void check_method_names(const std::vector<std::string>& methods) {
+  for (const std::string& option : methods) {
+    const std::size_t colon = option.find(':');
+    const std::string method = option.substr(0, colon);
+    if (!contains(method_names(), method)) throw CaseFileError(unknown_method(option, method));
+    if (colon != std::string::npos) {
+      const std::string table = option.substr(colon + 1);
+      if (!contains(table_names(method), table)) {
+        throw CaseFileError(unknown_table(option, method, table));
+      }
     }
   }
+}
+
+void check_methods(const Case& input, const std::vector<std::string>& methods) {
+  check_method_names(methods);
+  for (const std::string& method : methods) settings_of(input, method);
 }
 
 }  // namespace subimpact::app

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "simulate/counted.h"
 #include "status_line.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/case_keys.h"
@@ -57,8 +58,8 @@ class Session {
   Session(const WorkPrecisionCommand& command, const std::vector<LabelledCase>& cases)
       : command_(command), cases_(cases), log_(command.directory, ids(cases)) {
     if (log_.n_known() > 0) {
-      fmt::print("{} points of an earlier study in {} are kept\n\n", log_.n_known(),
-                 command.directory);
+      fmt::print("{} of an earlier study in {} {} kept\n\n", counted(log_.n_known(), "point"),
+                 command.directory, log_.n_known() == 1 ? "is" : "are");
     }
   }
 

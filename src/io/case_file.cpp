@@ -7,10 +7,12 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <utility>
 
 #include "io/toml_value.h"
+#include "simulate/other_names.h"
 #include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
@@ -54,6 +56,11 @@ std::string suggestion(const std::string& table, const std::string& leaf) {
 }
 
 std::string unknown_key(const std::string& table, const std::string& leaf) {
+  if (const char* name = moved_to(full_name(table, leaf))) {
+    const CaseKey& key = *find_case_key(name);
+    return fmt::format("unknown key \"{}\"; it has moved to \"{}\": the {}; write {} under [{}]",
+                       full_name(table, leaf), name, key.meaning, key.leaf(), key.table());
+  }
   const std::string where = table.empty() ? "outside all tables" : "in [" + table + "]";
   return fmt::format("unknown key \"{}\"; allowed {}: {}{}", full_name(table, leaf), where,
                      fmt::join(leaves_of(table), ", "), suggestion(table, leaf));
@@ -79,6 +86,7 @@ class Reader {
   struct Given {
     KeyValue value;
     std::string place;
+    bool in_file;
   };
 
   std::string place(const toml::source_position& at) const {
@@ -90,6 +98,9 @@ class Reader {
   void read_table(const std::string& table, const toml::table& content);
   void read_value(const CaseKey& key, const toml::node& node, const std::string& where);
   void complain_of_missing_keys();
+  bool is_given(const char* key, bool in_file) const;
+  void choose_mesh(Case& read);
+  GivenKeys given_keys() const;
 
   std::string name_;
   std::map<std::string, Given> given_;
@@ -137,7 +148,7 @@ void Reader::read_table(const std::string& table, const toml::table& content) {
 void Reader::read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
   std::optional<KeyValue> value = to_key_value(node);
   if (value) {
-    given_[key.name] = {std::move(*value), where};
+    given_[key.name] = {std::move(*value), where, true};
   } else {
     refused_.push_back(key.name);
     complain(where, key.name + " " + refusal(key, describe_type(node)));
@@ -178,12 +189,14 @@ void Reader::apply(const Override& setting) {
     }
     return;
   }
+  const bool wants_number = key->type == KeyType::number;
   std::erase(refused_, key->name);
   if (std::optional<KeyValue> value = parse_setting(*key, setting.value)) {
-    given_[key->name] = {std::move(*value), setting.origin};
+    given_[key->name] = {std::move(*value), setting.origin, false};
   } else {
     refused_.push_back(key->name);
-    complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'"));
+    complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'") +
+                                 (wants_number ? decimal_comma_hint(setting.value) : ""));
   }
 }
 
@@ -210,6 +223,41 @@ void Reader::complain_of_missing_keys() {
   }
 }
 
+bool Reader::is_given(const char* key, bool in_file) const {
+  const auto given = given_.find(key);
+  return given != given_.end() && given->second.in_file == in_file;
+}
+
+// A case that names the size of a mesh and no mesh means that mesh. A setting goes before the file.
+void Reader::choose_mesh(Case& read) {
+  if (given_.contains("model.mesh")) return;
+  for (const bool in_file : {false, true}) {
+    const bool cells = is_given("model.segments", in_file);
+    const bool elements = is_given("model.elements", in_file);
+    if (cells && elements) {
+      complain(given_.at("model.elements").place,
+               "model.elements is given, and model.segments too, but each is the size of another "
+               "mesh; allowed without model.mesh: one of them; leave one out, or say which is "
+               "meant with model.mesh = \"hermite\" (elements) or \"cells\" (segments)");
+    }
+    if (cells || elements) {
+      read.model.mesh = elements ? MeshKind::hermite : MeshKind::cells;
+      return;
+    }
+  }
+}
+
+GivenKeys Reader::given_keys() const {
+  GivenKeys keys;
+  for (const auto& [name, given] : given_) {
+    (given.in_file ? keys.in_file : keys.in_settings).insert(name);
+  }
+  // The size that a setting names chooses the mesh.
+  const bool by_size = is_given("model.segments", false) || is_given("model.elements", false);
+  if (by_size && !given_.contains("model.mesh")) keys.in_settings.insert("model.mesh");
+  return keys;
+}
+
 LoadedCase Reader::finish() {
   std::map<std::string, std::string> places;
   Case read;
@@ -223,9 +271,11 @@ LoadedCase Reader::finish() {
       key.set(read, given->second.value);
     }
   }
+  choose_mesh(read);
   complain_of_missing_keys();
   LoadedCase loaded(name_, std::move(places));
   loaded.value = std::move(read);
+  loaded.given = given_keys();
   if (problems_.empty()) {
     try {
       check(loaded.value);
@@ -274,6 +324,38 @@ Override parse_override(const std::string& setting) {
           "--set " + setting};
 }
 
+namespace {
+
+// The number with a decimal comma in a line such as "mass = 0,201"; empty if there is none. Lists
+// are left alone: in [0,5] there are two numbers.
+std::string decimal_comma_in(const std::string& line) {
+  static const std::regex pattern(R"(=\s*([-+]?[0-9]+,[0-9]+(?:[eE][-+]?[0-9]+)?))");
+  std::smatch found;
+  return std::regex_search(line, found, pattern) ? found[1].str() : std::string();
+}
+
+std::string line_of(const std::string& text, std::size_t number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t i = 0; i < number && std::getline(lines, line); ++i) {
+  }
+  return line;
+}
+
+std::string malformed(const std::string& text, const std::string& name,
+                      const toml::parse_error& error) {
+  const toml::source_position at = error.source().begin;
+  const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
+  const std::string number = decimal_comma_in(line_of(text, at.line));
+  if (!number.empty()) {
+    return fmt::format("{}{} has a decimal comma{}", place, number, decimal_comma_hint(number));
+  }
+  return fmt::format("{}{}; correct this line (a setting is written key = value, a table [name])",
+                     place, error.description());
+}
+
+}  // namespace
+
 std::string LoadedCase::message(const InvalidCase& error) const {
   const auto at = places_.find(error.key);
   const std::string place = at == places_.end() ? path_ : at->second;
@@ -289,11 +371,7 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
   try {
     reader.read(toml::parse(text));
   } catch (const toml::parse_error& error) {
-    const toml::source_position at = error.source().begin;
-    throw CaseFileError(
-        fmt::format("{}:{}:{}: not valid TOML: {}; correct this line (a setting is "
-                    "written key = value, a table [name])",
-                    name, at.line, at.column, error.description()));
+    throw CaseFileError(malformed(text, name, error));
   }
   for (const Override& setting : overrides) reader.apply(setting);
   return reader.finish();

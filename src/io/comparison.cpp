@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "io/csv_text.h"
+#include "simulate/counted.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/case_keys.h"
@@ -46,10 +47,10 @@ std::string comparison_table(const Comparison& comparison) {
         run.max_impulse_difference, run.result.work.right_hand_sides,
         duration_text(run.result.work.wall_seconds));
   }
-  fmt::format_to(out, "\nreference: {} at rtol {:.0e}, {} sub-impacts, times to {:.1e} us",
-                 to_string(comparison.reference_input.solver.method),
-                 comparison.reference_input.solver.rtol, reference.sub_impacts.size(),
-                 reference.trust->largest_error * us);
+  fmt::format_to(
+      out, "\nreference: {} at rtol {:.0e}, {}, times to {:.1e} us",
+      to_string(comparison.reference_input.solver.method), comparison.reference_input.solver.rtol,
+      counted(reference.sub_impacts.size(), "sub-impact"), reference.trust->largest_error * us);
   if (reference.trust->first_undecided) {
     fmt::format_to(out, " before sub-impact {}, from where on it is not certain itself",
                    *reference.trust->first_undecided + 1);

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "simulate/counted.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
@@ -45,10 +46,9 @@ CsvTable::CsvTable(const std::filesystem::path& path)
       starts_.clear();
       bounds_.clear();
     } else if (n_cells != header_.size()) {
-      throw ResultsError(
-          fmt::format("{}:{}: has {} cells where the header has {}; run the case "
-                      "again",
-                      path_, starts_.size() + 1, n_cells, header_.size()));
+      throw ResultsError(fmt::format("{}:{}: has {} where the header has {}; run the case again",
+                                     path_, starts_.size() + 1, counted(n_cells, "cell"),
+                                     header_.size()));
     }
     line_start = line_end + 1;
   }

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "simulate/case_choices.h"
+#include "simulate/counted.h"
 #include "subimpact/io/report.h"
 #include "subimpact/simulate/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
@@ -115,18 +116,22 @@ std::string explanation(const Case& input, const Used& used,
   head("Contact");
   line("law", key_text(input, "contact.law"));
   line("stiffness", contact_stiffness_text(input, used));
+  line("stiffest", fmt::format("{:.4g} N/m, as deep as the strike's energy can press; contacts "
+                               "then last some {} or more",
+                               used.largest_contact_slope, duration_text(used.contact_time)));
   line("yield indentation", std::isinf(used.yield_indentation)
                                 ? "infinite: the contact never yields"
                                 : fmt::format("{:.6g} mm", used.yield_indentation * 1e3));
   head("Model");
   line("mesh", mesh_text(input, used));
   line("symmetry", symmetry_text(input, used));
-  line("unknowns", fmt::format("{} of the beam and 1 of the striker; {} sections", used.n_unknowns,
-                               used.n_sections));
+  line("unknowns", fmt::format("{} of the beam and 1 of the striker; {}", used.n_unknowns,
+                               counted(used.n_sections, "section")));
   line("section law", section_text(input, used));
   line("highest frequency", fmt::format("{:.4g} rad/s", used.highest_frequency));
   line("critical step", std::isfinite(used.critical_step)
-                            ? duration_text(used.critical_step) + " (of central differences)"
+                            ? duration_text(used.critical_step) +
+                                  " (of central differences, with the contact at its stiffest)"
                             : "none: nothing oscillates");
   head("Integration");
   line("method", method_text(input, used));
@@ -138,6 +143,9 @@ std::string explanation(const Case& input, const Used& used,
   }
   line("events", std::string(to_string(used.events)));
   line("section reversals", name_of(used.reversals));
+  line("accuracy", fmt::format("a run completes if its energy stays within {:.1e} of the initial "
+                               "energy",
+                               used.energy_tolerance));
   line("end", duration_text(input.end_time));
   head("Expected cost (rough: yielding and repeated contact cannot be foreseen)");
   if (cost) {

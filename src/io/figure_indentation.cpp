@@ -43,23 +43,41 @@ double end_of(const SubImpact& s, const Result& result) {
   return s.end.value_or(result.outcome.time);
 }
 
-// Those after the first in which the contact yielded, the deepest first, in order of time.
+double growth_of_residual(std::size_t i, const Result& result) {
+  return result.sub_impacts[i].residual_indentation -
+         result.sub_impacts[i - 1].residual_indentation;
+}
+
+// Those after the first in which the contact yielded.
 std::vector<std::size_t> yielding_again(const Result& result) {
   std::vector<std::size_t> found;
-  const auto& all = result.sub_impacts;
-  const auto growth = [&](std::size_t i) {
-    return all[i].residual_indentation - all[i - 1].residual_indentation;
-  };
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    if (growth(i) > 0.0) found.push_back(i);
-  }
-  if (found.size() > most_insets) {
-    std::stable_sort(found.begin(), found.end(),
-                     [&](std::size_t a, std::size_t b) { return growth(a) > growth(b); });
-    found.resize(most_insets);
-    std::sort(found.begin(), found.end());
+  for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
+    if (growth_of_residual(i, result) > 0.0) found.push_back(i);
   }
   return found;
+}
+
+// As many as insets can show, the deepest ones, in order of time.
+std::vector<std::size_t> deepest(std::vector<std::size_t> sub_impacts, const Result& result) {
+  if (sub_impacts.size() <= most_insets) return sub_impacts;
+  std::stable_sort(sub_impacts.begin(), sub_impacts.end(), [&](std::size_t a, std::size_t b) {
+    return growth_of_residual(a, result) > growth_of_residual(b, result);
+  });
+  sub_impacts.resize(most_insets);
+  std::sort(sub_impacts.begin(), sub_impacts.end());
+  return sub_impacts;
+}
+
+std::string caption_text(std::size_t n_drawn, std::size_t n_yielding_again) {
+  if (n_drawn == 0) return "Contact force against indentation over the whole strike.";
+  const std::string which = n_drawn < n_yielding_again
+                                ? fmt::format("the {} deepest of {}", n_drawn, n_yielding_again)
+                                : std::string("the");
+  return fmt::format(
+      "Contact force against indentation: the whole strike, with the first yield of the contact "
+      "(A) and the beginning of unloading (B) in the first sub-impact, and {} later sub-impacts "
+      "that yield again.",
+      which);
 }
 
 // Where, within the first sub-impact, the contact first does something.
@@ -93,32 +111,29 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
   const ContactLaw law = ContactLaw::of(input.scene);
   const Units units{length_unit(result.max_indentation), force_unit(result.max_force)};
   const double length = units.length.factor, force = units.force.factor;
-  const std::vector<std::size_t> again = yielding_again(result);
-  FigureScript figure(
-      "indentation",
-      again.empty()
-          ? "Contact force against indentation over the whole strike."
-          : "Contact force against indentation: the whole strike, with the first yield of "
-            "the contact (A) and the beginning of unloading (B) in the first sub-impact, "
-            "and later sub-impacts that yield again.",
-      {800, 520});
+  const std::vector<std::size_t> yielding = yielding_again(result);
+  const std::vector<std::size_t> again = deepest(yielding, result);
+  FigureScript figure("indentation", caption_text(again.size(), yielding.size()), {800, 520});
   const Box main{0.10, again.empty() ? 0.97 : 0.61, 0.14, 0.95};
+  const AxisRange shown{0.0, 1.06 * result.max_indentation * length};
   std::string rest;
   if (result.sub_impacts.size() > 1) {
     rest = figure.line(loop(law, units, result, result.sub_impacts[1].start, result.outcome.time),
-                       main);
+                       main, shown);
   }
   const double first_end =
       result.sub_impacts.empty() ? 0.0 : end_of(result.sub_impacts.front(), result);
-  const std::string first_loop = figure.line(loop(law, units, result, 0.0, first_end), main);
+  const std::string first_loop = figure.line(loop(law, units, result, 0.0, first_end), main, shown);
 
   figure.place(main);
   figure << fmt::format("set xlabel 'indentation, {}'\nset ylabel 'contact force, {}' offset 0.5\n",
                         units.length.name, units.force.name)
          << "set yrange [0:*]\nset offsets 0, 0, graph 0.06, 0\n"
-            "set key bottom left Left reverse at graph 0.13, graph 0.05 samplen 2.5\n";
-  figure << fmt::format("set xrange [0:{:.7g}]\nset xtics {}\n",
-                        1.06 * result.max_indentation * length,
+         // Under the yielding branch; an elastic contact leaves no room there.
+         << (result.first_contact_yield
+                 ? "set key bottom left Left reverse at graph 0.13, graph 0.05 samplen 2.5\n"
+                 : "set key bottom right samplen 2.5\n");
+  figure << fmt::format("set xrange [0:{:.7g}]\nset xtics {}\n", shown.to,
                         tic_spacing(result.max_indentation * length, 4));
   mark_point(figure, units, first(EventKind::contact_yields, result), result, "A: contact yields",
              "left offset 1, -0.4");
@@ -137,10 +152,11 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
     const double top = 0.95 - height * static_cast<double>(k);
     const bool last = k + 1 == again.size();
     const Box inset{0.71, 0.97, top - height + (last ? 0.01 : 0.08), top - 0.045};
-    const std::string data =
-        figure.line(loop(law, units, result, s.start, end_of(s, result)), inset);
     const double lowest = result.sub_impacts[again[k] - 1].residual_indentation;
     const double margin = 0.1 * (s.max_indentation - lowest) * length;
+    const AxisRange range{lowest * length - margin, s.max_indentation * length + margin};
+    const std::string data =
+        figure.line(loop(law, units, result, s.start, end_of(s, result)), inset, range);
     figure.place(inset);
     figure << fmt::format("set title 'no. {}, at {:.4g} ms' offset 0, -0.7 font ',13'\n",
                           again[k] + 1, s.start * 1e3)
@@ -149,7 +165,7 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
            << fmt::format(
                   "set ylabel '{}' offset 1.5\nset xrange [{:.7g}:{:.7g}]\nset xtics {}\nset ytics "
                   "{}\nunset key\n",
-                  units.force.name, lowest * length - margin, s.max_indentation * length + margin,
+                  units.force.name, range.from, range.to,
                   tic_spacing((s.max_indentation - lowest) * length, 3),
                   tic_spacing(s.peak_force * force, 3))
            << fmt::format("plot {} with lines lc {} lw 1.2 notitle\n", data, k + 2);

@@ -11,13 +11,43 @@ namespace subimpact {
 namespace {
 
 constexpr double line_tolerance = 0.15;  // pixels
+constexpr int mark_height = 26;          // pixels
 
-double distance_from_line(Point p, Point a, Point b) {
+double distance_from_segment(Point p, Point a, Point b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
-  const double length = std::hypot(dx, dy);
-  if (length == 0.0) return std::hypot(p.x - a.x, p.y - a.y);
-  return std::abs(dx * (p.y - a.y) - dy * (p.x - a.x)) / length;
+  const double length_squared = dx * dx + dy * dy;
+  double share = 0.0;  // of the segment, up to the point nearest to p
+  if (length_squared > 0.0) {
+    share = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length_squared, 0.0, 1.0);
+  }
+  return std::hypot(p.x - (a.x + share * dx), p.y - (a.y + share * dy));
+}
+
+// Indices of the first and last point and of the smallest and largest coordinates, in order.
+std::vector<std::size_t> extremes(const std::vector<Point>& line) {
+  std::vector<std::size_t> found{0, line.size() - 1};
+  for (double Point::*coordinate : {&Point::x, &Point::y}) {
+    const auto [low, high] = std::minmax_element(
+        line.begin(), line.end(),
+        [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+    found.push_back(static_cast<std::size_t>(low - line.begin()));
+    found.push_back(static_cast<std::size_t>(high - line.begin()));
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+// The points that a panel shows; all of them if it would show none.
+std::vector<Point> shown_points(const std::vector<Point>& points,
+                                const std::optional<AxisRange>& x_range) {
+  if (!x_range) return points;
+  std::vector<Point> shown;
+  for (const Point& p : points) {
+    if (p.x >= x_range->from && p.x <= x_range->to) shown.push_back(p);
+  }
+  return shown.empty() ? points : shown;
 }
 
 double extent(const std::vector<Point>& points, double Point::*coordinate) {
@@ -33,18 +63,22 @@ std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, doub
                             double tolerance) {
   if (line.size() < 3) return line;
   std::vector<bool> kept(line.size(), false);
-  kept.front() = kept.back() = true;
   const auto scaled = [&](std::size_t i) {
     return Point{line[i].x / x_scale, line[i].y / y_scale};
   };
-  std::vector<std::pair<std::size_t, std::size_t>> spans{{0, line.size() - 1}};
+  std::vector<std::pair<std::size_t, std::size_t>> spans;
+  const std::vector<std::size_t> fixed = extremes(line);
+  for (std::size_t k = 0; k < fixed.size(); ++k) {
+    kept[fixed[k]] = true;
+    if (k > 0) spans.push_back({fixed[k - 1], fixed[k]});
+  }
   while (!spans.empty()) {
     const auto [first, last] = spans.back();
     spans.pop_back();
     double largest = tolerance;
     std::size_t furthest = first;
     for (std::size_t i = first + 1; i < last; ++i) {
-      const double distance = distance_from_line(scaled(i), scaled(first), scaled(last));
+      const double distance = distance_from_segment(scaled(i), scaled(first), scaled(last));
       if (distance <= largest) continue;
       largest = distance;
       furthest = i;
@@ -64,17 +98,31 @@ std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, doub
 FigureScript::FigureScript(std::string name, std::string caption, FigureSize size)
     : name_(std::move(name)), caption_(std::move(caption)), size_(size) {}
 
-std::string FigureScript::text() const {
-  return "# " + caption_ + "\n" + figure_style() + data_ + "set multiplot\n" + commands_ +
-         "unset multiplot\n";
+FigureSize FigureScript::size() const {
+  return {size_.width, size_.height + mark_height * static_cast<int>(marks_.size())};
 }
 
-std::string FigureScript::line(const std::vector<Point>& points, const Box& box) {
+std::string FigureScript::text() const {
+  std::string title;  // a newline between marks, as gnuplot writes it within double quotes
+  for (const std::string& text : marks_) {
+    title += fmt::format("{}{{/:Bold {}}}", title.empty() ? "" : "\\n", text);
+  }
+  return "# " + caption_ + "\n" + figure_style() + data_ +
+         fmt::format("panels = {:.6g}\n", 1.0 * size_.height / size().height) +
+         (title.empty() ? "set multiplot\n"
+                        : fmt::format("set multiplot title \"{}\" font ',12'\n", title)) +
+         commands_ + "unset multiplot\n";
+}
+
+std::string FigureScript::line(const std::vector<Point>& points, const Box& box,
+                               const std::optional<AxisRange>& x_range) {
   if (points.empty()) return this->points(points);
   const double x_pixels = size_.width * (box.right - box.left);
   const double y_pixels = size_.height * (box.top - box.bottom);
-  const double x_scale = extent(points, &Point::x) / x_pixels;
-  const double y_scale = extent(points, &Point::y) / y_pixels;
+  const std::vector<Point> shown = shown_points(points, x_range);
+  const double x_extent = x_range ? x_range->to - x_range->from : extent(shown, &Point::x);
+  const double x_scale = x_extent / x_pixels;
+  const double y_scale = extent(shown, &Point::y) / y_pixels;
   return this->points(thin_out(points, x_scale > 0.0 ? x_scale : 1.0, y_scale > 0.0 ? y_scale : 1.0,
                                line_tolerance));
 }
@@ -95,7 +143,7 @@ std::string FigureScript::points(const std::vector<Point>& points) {
 void FigureScript::place(const Box& box) {
   *this << fmt::format(
       "set lmargin at screen {}; set rmargin at screen {}\n"
-      "set bmargin at screen {}; set tmargin at screen {}\n",
+      "set bmargin at screen {}*panels; set tmargin at screen {}*panels\n",
       box.left, box.right, box.bottom, box.top);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,15 +16,20 @@ struct Point {
   double x, y;
 };
 
-/// The polyline with as few points as show the same: none of those left out is further than
-/// `tolerance` from the line, coordinates measured in units of `x_scale` and `y_scale` (Ramer,
-/// Douglas and Peucker).
+/// The polyline with few of its points: no point of either line is further than `tolerance` from
+/// the other, coordinates measured in units of `x_scale` and `y_scale` (Ramer, Douglas and
+/// Peucker), and the smallest and largest coordinates are kept as they are.
 std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, double y_scale,
                             double tolerance);
 
 /// Part of a figure that a panel's axes enclose, in fractions of its width and height.
 struct Box {
   double left, right, bottom, top;
+};
+
+/// The part of an axis that a figure shows.
+struct AxisRange {
+  double from, to;
 };
 
 /// A gnuplot script in the making, data included.
@@ -32,13 +39,17 @@ class FigureScript {
 
   const std::string& name() const { return name_; }
   const std::string& caption() const { return caption_; }
-  FigureSize size() const { return size_; }
+  /// With the room that marks take.
+  FigureSize size() const;
+  /// Writes a line across the top, above the panels: what to know before looking at it.
+  void mark(const std::string& text) { marks_.push_back(text); }
   /// The script as gnuplot wants it: data first, then the panels as one multiplot.
   std::string text() const;
 
   /// Adds a line of data, thinned to what the figure can show over the given part of it; returns
-  /// its gnuplot name.
-  std::string line(const std::vector<Point>& points, const Box& box);
+  /// its gnuplot name. `x_range`: what the panel shows of the x axis, if not all of the line.
+  std::string line(const std::vector<Point>& points, const Box& box,
+                   const std::optional<AxisRange>& x_range = {});
   /// Adds points as they are.
   std::string points(const std::vector<Point>& points);
 
@@ -58,6 +69,7 @@ class FigureScript {
  private:
   std::string name_, caption_;
   FigureSize size_;
+  std::vector<std::string> marks_;
   std::string data_;
   std::string commands_;
   int n_data_ = 0;
@@ -103,5 +115,8 @@ FigureScript indentation_figure(const Case& input, const Result& result);
 FigureScript energies_figure(const Case& input, const Result& result);
 FigureScript timeline_figure(const Case& input, const Result& result);
 FigureScript bending_figure(const Case& input, const Result& result);
+
+/// Sections that `bending` has room for: the first ones of output.sections.
+inline constexpr std::size_t most_bending_panels = 24;
 
 }  // namespace subimpact

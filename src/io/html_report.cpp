@@ -9,6 +9,7 @@
 #include "io/html_text.h"
 #include "io/strike_words.h"
 #include "io/write_file.h"
+#include "simulate/counted.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/case_keys.h"
@@ -26,7 +27,9 @@ h2 { font-size: 1.2rem; margin: 2.2rem 0 0.6rem; border-bottom: 1px solid #d0d0d
 .tiles div { border: 1px solid #d8d8d8; border-radius: 6px; padding: 0.5rem 0.8rem; }
 .tiles b { display: block; font-size: 1.35rem; font-weight: 600; }
 .tiles span { color: #555; font-size: 0.85rem; }
-.failed { border-left: 4px solid #D55E00; padding-left: 0.8rem; }
+.failed, .warning { border-left: 4px solid #D55E00; padding: 0.4rem 0.8rem; }
+.failed { background: #fbe9df; font-weight: 600; }
+.warning { border-color: #E69F00; }
 figure { margin: 1.6rem 0; break-inside: avoid; }
 figure svg { width: 100%; height: auto; }
 figcaption { color: #333; font-size: 0.92rem; max-width: 48rem; }
@@ -59,18 +62,28 @@ class Page {
 };
 
 void add_tiles(Page& page, const Result& result) {
-  const auto tile = [&](const std::string& value, const char* label) {
+  const auto tile = [&](const std::string& value, const std::string& label) {
     page.add("<div><b>{}</b><span>{}</span></div>", escaped(value), label);
   };
   const auto zones = summarise_zones(result.sub_impacts);
   page.add("<div class=\"tiles\">");
-  tile(fmt::format("{}", result.sub_impacts.size()), "sub-impacts");
-  tile(fmt::format("{}", zones.size()), "zones");
+  tile(fmt::format("{}", result.sub_impacts.size()),
+       noun_after(result.sub_impacts.size(), "sub-impact"));
+  tile(fmt::format("{}", zones.size()), noun_after(zones.size(), "zone"));
   tile(fmt::format("{:.4g} kN", 1e-3 * result.max_force), "largest force");
   tile(fmt::format("{:.4g} mm", 1e3 * result.max_indentation), "largest indentation");
   tile(fmt::format("{:.4g} m/s", result.striker_velocity), "striker, at the end");
   tile(fmt::format("{:.4g} m/s", result.beam_mean_velocity), "beam (mean), at the end");
   page.add("</div>");
+}
+
+// What a reader must know before the numbers.
+void add_banner(Page& page, const Result& result) {
+  const std::string caveat = outcome_caveat(result);
+  if (!caveat.empty()) page.add("<p class=\"failed\">{}.</p>", escaped(caveat));
+  for (const std::string& warning : result.warnings) {
+    page.add("<p class=\"warning\">Warning: {}.</p>", escaped(warning));
+  }
 }
 
 void add_figures(Page& page, const DrawnFigures& figures,
@@ -89,6 +102,8 @@ void add_figures(Page& page, const DrawnFigures& figures,
 
 void add_table(Page& page, const Result& result) {
   page.heading("Sub-impacts");
+  const std::string caveat = outcome_caveat(result);
+  if (!caveat.empty()) page.add("<p class=\"failed\">{}.</p>", escaped(caveat));
   const bool with_errors = result.trust.has_value();
   page.add(
       "<div class=\"wide\"><table><thead><tr><th>no.</th><th>start<small>µs</small></th>"
@@ -97,7 +112,7 @@ void add_table(Page& page, const Result& result) {
       "<th>indentation<small>max, mm</small></th><th>residual<small>mm</small></th>"
       "<th>striker<small>m/s</small></th>{}</tr></thead><tbody>",
       with_errors ? "<th>± start<small>µs, all</small></th><th>± end<small>µs, all</small></th>"
-                    "<th>± time<small>µs, of it</small></th>"
+                    "<th>± time<small>µs, alone</small></th>"
                   : "");
   const auto error = [](const std::optional<double>& e) {
     return e ? fmt::format("<td>{:.1e}</td>", 1e6 * *e) : std::string("<td>?</td>");
@@ -140,8 +155,9 @@ void add_method(Page& page, const FinishedRun& run) {
   const Work& work = result.work;
   page.heading("Method");
   page.add("<table class=\"keys\"><tbody>");
-  page.row("mesh", fmt::format("{}; {} unknowns of the beam, {} sections", used.mesh,
-                               used.n_unknowns, used.n_sections));
+  page.row("mesh",
+           fmt::format("{}; {} of the beam, {}", used.mesh, counted(used.n_unknowns, "unknown"),
+                       counted(used.n_sections, "section")));
   page.row("method", fmt::format("{}{}", to_string(run.input.solver.method),
                                  used.table ? ", table " + *used.table : ""));
   page.row("step", used.step ? duration_text(*used.step) + ", fixed"
@@ -149,9 +165,10 @@ void add_method(Page& page, const FinishedRun& run) {
                                            used.position_tolerance, used.velocity_tolerance));
   page.row("events", std::string(to_string(used.events)));
   page.row("first bending period", duration_text(used.first_period));
-  page.row("work", fmt::format("{} steps, {} rejected, {} right-hand sides, {} events located; {}",
-                               work.steps, work.rejected_steps, work.right_hand_sides, work.roots,
-                               duration_text(work.wall_seconds)));
+  page.row("work",
+           fmt::format("{}, {} rejected, {}, {} located; {}", counted(work.steps, "step"),
+                       work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
+                       counted(work.roots, "event"), duration_text(work.wall_seconds)));
   page.add("</tbody></table>");
 }
 
@@ -225,6 +242,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       "{}.</p>",
       run.input.scene.beam.mass(), run.input.scene.striker.mass, run.input.scene.striker.velocity,
       to_string(result.outcome.kind), escaped(duration_text(result.outcome.time)));
+  add_banner(page, result);
   add_tiles(page, result);
   page.heading("In words");
   for (const std::string& paragraph : strike_words(run.input, result)) {

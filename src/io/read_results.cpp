@@ -8,6 +8,7 @@
 
 #include "io/csv_table.h"
 #include "simulate/case_choices.h"
+#include "simulate/other_names.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/case_keys.h"
 
@@ -52,13 +53,30 @@ KeyValue key_value(const CaseKey& key, const Json& json) {
   throw std::logic_error("read_results: a key of unknown type");
 }
 
+// The entry of a key by its full name; nullptr if there is none.
+const Json* entry_of(const Json& json, const std::string& name) {
+  const std::size_t dot = name.find('.');
+  if (dot != std::string::npos && !json.contains(name.substr(0, dot))) return nullptr;
+  const Json& place = dot == std::string::npos ? json : json.at(name.substr(0, dot));
+  const auto entry = place.find(dot == std::string::npos ? name : name.substr(dot + 1));
+  return entry == place.end() ? nullptr : &*entry;
+}
+
+// The same under the names a key had before.
+const Json* find_entry(const Json& json, const std::string& name) {
+  if (const Json* entry = entry_of(json, name)) return entry;
+  for (const MovedKey& key : moved_keys()) {
+    if (key.new_name != name) continue;
+    if (const Json* entry = entry_of(json, key.old_name)) return entry;
+  }
+  return nullptr;
+}
+
 Case case_from(const Json& json) {
   Case input;
   for (const CaseKey& key : case_keys()) {
-    const std::string table = key.table();
-    const Json& place = table.empty() ? json : json.at(table);
-    const auto entry = place.find(key.leaf());
-    if (entry == place.end() || entry->is_null()) continue;
+    const Json* entry = find_entry(json, key.name);
+    if (entry == nullptr || entry->is_null()) continue;
     assign(input, key, key_value(key, *entry));
   }
   return input;

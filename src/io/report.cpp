@@ -4,8 +4,10 @@
 
 #include <iterator>
 
+#include "simulate/counted.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/case_keys.h"
+#include "subimpact/simulate/doubtful_units.h"
 
 namespace subimpact {
 namespace {
@@ -20,9 +22,8 @@ std::string time_or_never(const std::optional<double>& time) {
 std::string zone_text(const std::vector<ZoneSummary>& zones) {
   fmt::memory_buffer text;
   for (const ZoneSummary& zone : zones) {
-    fmt::format_to(std::back_inserter(text),
-                   "  zone {:<14} {} sub-impacts in {} sub-zone{}, {:.1f} to {} us\n", zone.zone,
-                   zone.n_sub_impacts, zone.n_subzones, zone.n_subzones == 1 ? "" : "s",
+    fmt::format_to(std::back_inserter(text), "  zone {:<14} {} in {}, {:.1f} to {} us\n", zone.zone,
+                   counted(zone.n_sub_impacts, "sub-impact"), counted(zone.n_subzones, "sub-zone"),
                    zone.start * us, zone.end ? fmt::format("{:.1f}", *zone.end * us) : "(open)");
   }
   return fmt::to_string(text);
@@ -40,6 +41,20 @@ std::string trust_text(const Result& result, double largest_error,
       "times to {:.1e} us before sub-impact {}{}; from there on count and order are "
       "uncertain: {}",
       largest_error * us, i + 1, when, reason);
+}
+
+std::string first_failure_text(const Outcome& outcome) {
+  const Interval& failure = *outcome.first_failure;
+  return fmt::format(
+      "results up to {:.6g} us passed every check; first failure between {:.6g} and {:.6g} us",
+      failure.from * us, failure.from * us, failure.to * us);
+}
+
+// "0.226056 kg", "226.1 t".
+std::string mass_text(double mass) {
+  if (mass >= 1e4) return fmt::format("{:.6g} t", 1e-3 * mass);
+  if (mass < 1e-3) return fmt::format("{:.6g} g", 1e3 * mass);
+  return fmt::format("{:.6g} kg", mass);
 }
 
 // Which sub-impacts the error bars vouch for, part by part and in all.
@@ -66,10 +81,21 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.4g} s", seconds);
 }
 
+std::string outcome_caveat(const Result& result) {
+  const Outcome& outcome = result.outcome;
+  if (outcome.completed()) return {};
+  const std::string kind(to_string(outcome.kind));
+  if (outcome.first_failure) return kind + ": " + first_failure_text(outcome);
+  return fmt::format("{} at {:.6g} us", kind, outcome.time * us);
+}
+
 std::string sub_impact_table(const Result& result) {
   const bool with_errors = result.trust.has_value();
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
+  if (const std::string caveat = outcome_caveat(result); !caveat.empty()) {
+    fmt::format_to(out, "{}\n", caveat);
+  }
   const auto heading = [&](auto... names) {
     fmt::format_to(out, "{:>4} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12} {:>11}", names...);
   };
@@ -118,14 +144,17 @@ std::string run_summary(const Case& input, const Result& result) {
                  input.title.empty() ? "untitled case" : input.title);
   line("outcome", fmt::format("{} at {} of {}", to_string(result.outcome.kind),
                               duration_text(result.outcome.time), duration_text(input.end_time)));
+  if (result.outcome.first_failure) line("checks", first_failure_text(result.outcome));
   if (result.no_more_contact) {
     line("no more contact", "proven: striker and beam never touch again");
   }
-  line("model",
-       fmt::format("{}; section {}; {} unknowns", result.used.mesh,
-                   to_text(*find_case_key("model.section")->get(input)), result.used.n_unknowns));
-  line("sub-impacts", fmt::format("{} in {} zone{}", result.sub_impacts.size(), zones.size(),
-                                  zones.size() == 1 ? "" : "s"));
+  line("model", fmt::format("{}; section {}; {}", result.used.mesh,
+                            to_text(*find_case_key("model.section")->get(input)),
+                            counted(result.used.n_unknowns, "unknown")));
+  line("masses", fmt::format("beam {}, striker {}", mass_text(input.scene.beam.mass()),
+                             mass_text(input.scene.striker.mass)));
+  line("sub-impacts",
+       fmt::format("{} in {}", result.sub_impacts.size(), counted(zones.size(), "zone")));
   text.append(zone_text(zones));
   line("first yield",
        fmt::format("section {}, contact {}", time_or_never(result.first_section_yield),
@@ -145,9 +174,10 @@ std::string run_summary(const Case& input, const Result& result) {
   if (result.trust) add_trust(result, text);
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));
-  line("work", fmt::format("{} steps, {} rejected, {} right-hand sides, {} events; {}", work.steps,
-                           work.rejected_steps, work.right_hand_sides, work.roots,
-                           duration_text(work.wall_seconds)));
+  line("work", fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"),
+                           work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
+                           counted(work.roots, "event"), duration_text(work.wall_seconds)));
+  for (const std::string& warning : result.warnings) line("warning", warning);
   return fmt::to_string(text);
 }
 
@@ -161,9 +191,14 @@ std::string failure_message(const Case& input, const Result& result) {
     const Transition& event = result.transitions.back();
     last = fmt::format("{} at {:.6g} us", to_string(event.kind), event.time * us);
   }
-  return fmt::format("{} at {:.6g} us ({}; method {}; last event {}): {}",
-                     to_string(result.outcome.kind), result.outcome.time * us, mode,
-                     to_string(input.solver.method), last, result.outcome.message);
+  std::string text = fmt::format("{} at {:.6g} us ({}; method {}; last event {}): {}",
+                                 to_string(result.outcome.kind), result.outcome.time * us, mode,
+                                 to_string(input.solver.method), last, result.outcome.message);
+  if (result.outcome.first_failure) text += "; " + first_failure_text(result.outcome);
+  if (result.outcome.kind == OutcomeKind::left_validity) {
+    for (const std::string& doubt : doubtful_units(input)) text += "; check the unit: " + doubt;
+  }
+  return text;
 }
 
 }  // namespace subimpact

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "simulate/case_choices.h"
+#include "simulate/counted.h"
 #include "subimpact/io/stability.h"
 
 namespace subimpact {
@@ -101,8 +102,9 @@ std::string damping_table(const std::vector<Damping>& rows) {
 std::string outcome_table(const OutcomeMap& map) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "reference: {}; {} sub-impacts up to {:.3f} us\n", map.reference.description,
-                 map.reference.sub_impacts.size(), map.reference.horizon * us);
+  fmt::format_to(out, "reference: {}; {} up to {:.3f} us\n", map.reference.description,
+                 counted(map.reference.sub_impacts.size(), "sub-impact"),
+                 map.reference.horizon * us);
   fmt::format_to(out,
                  "+ right   w wrong count   i inaccurate   U unstable   F solver failed   r "
                  "refused   . left out\n");
@@ -131,8 +133,8 @@ std::string missed_pairs_table(const std::vector<MissedPairs>& rows) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   if (rows.empty()) return {};
-  fmt::format_to(out, "{} strikes; shortest sub-impact or separation {:.3g} us\n",
-                 rows.front().n_runs, rows.front().shortest * us);
+  fmt::format_to(out, "{}; shortest sub-impact or separation {:.3g} us\n",
+                 counted(rows.front().n_runs, "strike"), rows.front().shortest * us);
   fmt::format_to(out, "{:>9} {:>28} {:>28}\n", "step, us", "all found, pairs looked for",
                  "all found, ends of steps only");
   for (const MissedPairs& row : rows) {

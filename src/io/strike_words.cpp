@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "simulate/counted.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/strike_account.h"
@@ -14,10 +15,6 @@ namespace {
 // Rises of the striker's energy below this part of its first value are rounding and integration
 // error.
 constexpr double negligible_gain = 1e-6;
-
-std::string counted(std::size_t n, const std::string& noun) {
-  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-}
 
 double end_of(const SubImpact& s, const Result& result) {
   return s.end.value_or(result.outcome.time);
@@ -36,11 +33,10 @@ std::string sub_impact_words(const Result& result) {
   if (hits.size() > 1) {
     for (std::size_t k = 0; k < zones.size(); ++k) {
       const ZoneSummary& zone = zones[k];
-      text +=
-          fmt::format("Zone {}, {} to {}, holds {} in {}. ", zone.zone, duration_text(zone.start),
-                      zone.end ? duration_text(*zone.end) : "the end of the run",
-                      counted(static_cast<std::size_t>(zone.n_sub_impacts), "sub-impact"),
-                      counted(static_cast<std::size_t>(zone.n_subzones), "sub-zone"));
+      text += fmt::format(
+          "Zone {}, {} to {}, holds {} in {}. ", zone.zone, duration_text(zone.start),
+          zone.end ? duration_text(*zone.end) : "the end of the run",
+          counted(zone.n_sub_impacts, "sub-impact"), counted(zone.n_subzones, "sub-zone"));
       if (k + 1 < zones.size() && zone.end) {
         text += fmt::format("Then the bodies are apart for {}. ",
                             duration_text(zones[k + 1].start - *zone.end));
@@ -75,11 +71,12 @@ std::string yield_words(const Case& input, const Result& result) {
     text += "The contact stays elastic. ";
   }
   if (result.first_section_yield) {
-    text += fmt::format(
-        "A fibre of the beam first yields after {}; by the end {} of {} sections "
-        "{}have yielded.",
-        duration_text(*result.first_section_yield), result.n_yielded_sections,
-        result.used.n_sections, result.used.half_model ? "(of the half that is modelled) " : "");
+    text +=
+        fmt::format("A fibre of the beam first yields after {}; by the end {} of {} {}{} yielded.",
+                    duration_text(*result.first_section_yield), result.n_yielded_sections,
+                    counted(result.used.n_sections, "section"),
+                    result.used.half_model ? "(of the half that is modelled) " : "",
+                    result.n_yielded_sections == 1 ? "has" : "have");
   } else {
     text += input.model.section == SectionKind::elastic
                 ? "The beam's sections are modelled as elastic."
@@ -169,7 +166,9 @@ std::string recovery_words(const StrikeAccount& account) {
 
 std::vector<std::string> strike_words(const Case& input, const Result& result) {
   std::vector<std::string> paragraphs{sub_impact_words(result), yield_words(input, result)};
-  if (!result.outcome.completed()) paragraphs.push_back(failure_message(input, result));
+  if (!result.outcome.completed()) {
+    paragraphs.insert(paragraphs.begin(), "Outcome: " + failure_message(input, result) + ".");
+  }
   if (const auto account = account_of(result)) {
     paragraphs.push_back(striker_words(result, *account));
     paragraphs.push_back(recovery_words(*account));

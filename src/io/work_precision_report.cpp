@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "simulate/counted.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/work_precision.h"
 
@@ -41,8 +42,8 @@ std::string work_precision_table(const WorkPrecision& study) {
   const Reference& reference = study.reference;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "reference: {}; {} sub-impacts, times to {:.1e} us\n", reference.description,
-                 reference.sub_impacts.size(), reference.error * us);
+  fmt::format_to(out, "reference: {}; {}, times to {:.1e} us\n", reference.description,
+                 counted(reference.sub_impacts.size(), "sub-impact"), reference.error * us);
   fmt::format_to(out, "horizon: {:.3f} us ({})\n", reference.horizon * us,
                  reference.horizon_reason);
   if (const auto growth = error_growth(study.points)) {

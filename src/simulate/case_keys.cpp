@@ -12,6 +12,7 @@
 #include "simulate/case_choices.h"
 #include "simulate/contact_checks.h"
 #include "simulate/mesh_checks.h"
+#include "subimpact/simulate/doubtful_units.h"
 #include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
@@ -210,7 +211,7 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_poisson)),
     row("contact.beam_poisson", "", poisson, "Poisson's ratio of the beam, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.beam_poisson)),
 
-    row("model.mesh", "", any_value, "discretisation of the beam", as_in_case, AT(model.mesh)),
+    row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\", or \"hermite\" if model.elements is given", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
     row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
     row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points of an element, at which the bending law is asked", as_in_case, AT(model.sections_per_element)),
@@ -253,6 +254,14 @@ std::vector<CaseKey> make_case_keys() {
 // A row takes 144 bytes in memory and some 400 in the file.
 constexpr double most_history_rows = 5e6;
 
+// "; time.end is 8 s, ...", if its unit is doubtful.
+std::string doubt_of_end_time(const Case& input) {
+  for (const std::string& doubt : doubtful_units(input)) {
+    if (doubt.starts_with("time.end ")) return "; " + doubt;
+  }
+  return {};
+}
+
 void check_history_size(const Case& input) {
   const double rows = input.end_time / input.output.interval;
   if (input.output.interval == 0.0 || rows <= most_history_rows) return;
@@ -262,7 +271,8 @@ void check_history_size(const Case& input) {
           "is {} s, which asks for {:.2g} history rows up to time.end = {} s; allowed: at most "
           "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
           input.output.interval, rows, input.end_time, most_history_rows,
-          input.end_time / most_history_rows));
+          input.end_time / most_history_rows) +
+          doubt_of_end_time(input));
 }
 
 void check_sections(const Case& input) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulate/other_names.h"
 #include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
@@ -67,15 +68,67 @@ std::optional<std::string> number_problem(const CaseKey& key, double number,
   return refusal(key, to_text(value));
 }
 
+// The choice meant by a name that is none; empty if there is no telling.
+std::string choice_meant(const CaseKey& key, const std::string& name) {
+  if (is_choice(key, name)) return name;
+  const std::string own = own_name(key.name, name);
+  return own.empty() ? nearest_name(name, choice_names(key)) : own;
+}
+
 std::optional<std::string> choice_problem(const CaseKey& key, const std::string& name) {
   if (is_choice(key, name)) return std::nullopt;
-  const std::string near = nearest_name(name, choice_names(key));
-  return refusal(key, quoted(name)) + (near.empty() ? "" : "; did you mean " + quoted(near) + "?");
+  const std::string meant = choice_meant(key, name);
+  return refusal(key, quoted(name)) +
+         (meant.empty() ? "" : "; did you mean " + quoted(meant) + "?");
 }
+
+// For one name where two are wanted: the pair meant.
+std::string pair_hint(const CaseKey& key, const std::string& name) {
+  if (key.name == "beam.ends" && name == "cantilever") {
+    return R"(; did you mean ["clamped", "free"]?)";
+  }
+  const std::string meant = choice_meant(key, name);
+  return meant.empty() ? "" : fmt::format("; did you mean [{0}, {0}]?", quoted(meant));
+}
+
+std::optional<std::string> pair_problem(const CaseKey& key, const std::vector<std::string>& names,
+                                        const KeyValue& value) {
+  if (names.size() == 1) return refusal(key, to_text(value)) + pair_hint(key, names[0]);
+  if (names.size() != 2) return refusal(key, to_text(value));
+  for (const std::string& name : names) {
+    if (!is_choice(key, name)) return choice_problem(key, name);
+  }
+  return std::nullopt;
+}
+
+// "0.201" for "0,201"; empty for a text without decimal comma.
+std::string with_decimal_point(std::string text) {
+  const std::size_t comma = text.find(',');
+  const bool is_decimal = comma != std::string::npos && comma > 0 && comma + 1 < text.size() &&
+                          text.find(',', comma + 1) == std::string::npos &&
+                          text.find_first_not_of("+-0123456789,.eE") == std::string::npos;
+  if (!is_decimal) return {};
+  text[comma] = '.';
+  return text;
+}
+
+}  // namespace
+
+std::string decimal_comma_hint(const std::string& text) {
+  const std::string number = with_decimal_point(text);
+  return number.empty() ? "" : "; TOML writes a decimal point: " + number;
+}
+
+namespace {
 
 // What to change when the value is right but written as another type.
 std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
   const bool is_text = std::holds_alternative<std::string>(value);
+  if (is_text && key.type == KeyType::pair) return pair_hint(key, std::get<std::string>(value));
+  if (is_text && key.type == KeyType::number) {
+    const std::string hint = decimal_comma_hint(std::get<std::string>(value));
+    if (!hint.empty()) return hint;
+  }
   if (is_text && (key.type == KeyType::number || key.type == KeyType::count)) {
     return "; numbers are written without quotes";
   }
@@ -181,14 +234,8 @@ std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& valu
       return number_problem(key, static_cast<double>(std::get<std::int64_t>(value)), value);
     case KeyType::choice:
       return choice_problem(key, std::get<std::string>(value));
-    case KeyType::pair: {
-      const auto& names = std::get<std::vector<std::string>>(value);
-      if (names.size() != 2) return refusal(key, to_text(value));
-      for (const std::string& name : names) {
-        if (!is_choice(key, name)) return choice_problem(key, name);
-      }
-      return std::nullopt;
-    }
+    case KeyType::pair:
+      return pair_problem(key, std::get<std::vector<std::string>>(value), value);
     case KeyType::numbers:
       if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
         for (const double number : *numbers) {

@@ -11,6 +11,7 @@
 #include "simulate/model_factory.h"
 #include "simulate/recorder.h"
 #include "subimpact/simulate/case_keys.h"
+#include "subimpact/simulate/doubtful_units.h"
 #include "system/no_more_contact.h"
 
 namespace subimpact {
@@ -108,6 +109,7 @@ Result simulate(const Case& input, const Progress& progress) {
   check(input);
   StruckBeam beam = make_struck_beam(input);
   Result result;
+  result.warnings = doubtful_units(input);
   result.used = describe(input, beam);
   beam.set_pair_detection(input.solver.pair_detection);
   const auto integrator = make_integrator(input, result.used, beam);

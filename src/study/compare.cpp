@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/counted.h"
+#include "study/leading_words.h"
 #include "study/method_choice.h"
 #include "subimpact/study/error_bars.h"
 
@@ -18,8 +20,8 @@ std::string remark_on(const ComparedRun& run, const Result& reference) {
   const std::size_t there = reference.sub_impacts.size();
   if (!run.result.outcome.completed()) return run.result.outcome.message;
   if (run.n_corresponding == there && here == there) return "every sub-impact corresponds";
-  std::string text = fmt::format("{} sub-impacts instead of {}; the first {} correspond", here,
-                                 there, run.n_corresponding);
+  std::string text = fmt::format("{} instead of {}; {}", counted(here, "sub-impact"), there,
+                                 leading_words(run.n_corresponding));
   const auto odd = first_odd(run.pairs, reference.sub_impacts, run.result.sub_impacts);
   if (odd) text += "; " + odd->description;
   return text;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "simulate/counted.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
@@ -57,9 +58,8 @@ Trust::Part judge(const std::vector<SubImpact>& all, const ErrorPart& part) {
   if (n < all.size() || n < part.n_companion) {
     trust.first_undecided = n;
     trust.reason = fmt::format(
-        "the companion run has {} sub-impacts in all, this one {}; from here on they do not "
-        "correspond",
-        part.n_companion, all.size());
+        "the companion run has {} in all, this one {}; from here on they do not correspond",
+        counted(part.n_companion, "sub-impact"), all.size());
   } else if (!part.failure.empty()) {
     trust.first_undecided = n;
     trust.reason = "the companion run did not complete: " + part.failure;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <mutex>
 
+#include "simulate/counted.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/study/stability.h"
@@ -119,7 +120,7 @@ void run(Trial& trial, const Reference& reference, double run_seconds) {
       point.message =
           fmt::format("at {:.6g} us {}", 1e6 * result.outcome.time, result.outcome.message);
     } else if (point.errors.odd) {
-      point.message = fmt::format("{} sub-impacts of {}; {}", point.errors.n_found,
+      point.message = fmt::format("{} of {}; {}", counted(point.errors.n_found, "sub-impact"),
                                   point.errors.n_reference, point.errors.odd->description);
     }
   } catch (const InvalidCase& error) {

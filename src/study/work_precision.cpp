@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/counted.h"
+#include "study/leading_words.h"
 #include "study/timed_run.h"
 
 namespace subimpact {
@@ -25,9 +27,9 @@ void conclude(WorkPrecisionPoint& point, const TimedRun& run, const Reference& r
     point.message =
         fmt::format("at {:.6g} us {}", 1e6 * run.result.outcome.time, run.result.outcome.message);
   } else if (point.errors.odd) {
-    point.message = fmt::format("{} sub-impacts of {}, the first {} correspond; {}",
-                                point.errors.n_found, point.errors.n_reference,
-                                point.errors.n_corresponding, point.errors.odd->description);
+    point.message = fmt::format(
+        "{} of {}, {}; {}", counted(point.errors.n_found, "sub-impact"), point.errors.n_reference,
+        leading_words(point.errors.n_corresponding), point.errors.odd->description);
   }
 }
 

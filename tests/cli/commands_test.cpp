@@ -79,8 +79,42 @@ TEST(WorkPrecision, RefusesAMethodItDoesNotKnowBeforeItWritesAnything) {
       {"work-precision", SUBIMPACT_PAPER_CASE, "--methods", "leapfrog", "--out", "chart"},
       directory.path);
   EXPECT_EQ(finished.status, 2);
-  expect_in(finished.errors, "--methods leapfrog: solver.method is \"leapfrog\"");
+  expect_in(finished.errors, "--methods leapfrog: unknown method \"leapfrog\"");
   EXPECT_FALSE(std::filesystem::exists(directory.path / "chart"));
+}
+
+TEST(MethodsOption, IsBlamedForAMethodThatDoesNotExist) {
+  const TemporaryDirectory directory;
+  directory.write("case.toml", read_file(SUBIMPACT_PAPER_CASE));
+  for (const char* command : {"compare", "work-precision", "stability"}) {
+    const Finished finished =
+        run_program({command, "case.toml", "--methods", "erk,rk4"}, directory.path);
+    EXPECT_EQ(finished.status, 2) << command;
+    EXPECT_EQ(finished.errors.find("--methods rk4: unknown method \"rk4\"; allowed: "), 0u)
+        << finished.errors;
+    expect_in(finished.errors, "central-difference, erk, nystrom, exponential");
+    expect_in(finished.errors, "did you mean \"erk\"?");
+    EXPECT_EQ(finished.errors.find("case.toml"), std::string::npos) << finished.errors;
+  }
+}
+
+TEST(MethodsOption, IsBlamedForATableThatTheMethodDoesNotHave) {
+  const Finished finished =
+      run_program({"compare", SUBIMPACT_PAPER_CASE, "--methods", "nystrom:dprkn9"});
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "--methods nystrom:dprkn9: unknown table \"dprkn9\"");
+  expect_in(finished.errors,
+            "allowed for nystrom: dprkn8, dprkn12; did you mean \"nystrom:dprkn8\"?");
+}
+
+TEST(Explain, NotesKeysWithoutEffectAndWarnsOfDoubtfulUnits) {
+  const Finished finished =
+      run_program({"explain", SUBIMPACT_PAPER_CASE, "--set", "model.elements=100", "--set",
+                   "beam.youngs_modulus=71960"});
+  EXPECT_EQ(finished.status, 0);
+  expect_in(finished.errors,
+            "subimpact: note: model.elements = 100 has no effect with model.mesh = \"cells\"\n");
+  expect_in(finished.errors, "subimpact: warning: beam.youngs_modulus is 71960 Pa");
 }
 
 TEST(Stability, WritesThePartsAskedFor) {

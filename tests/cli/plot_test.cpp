@@ -43,6 +43,22 @@ TEST(Plot, DrawsTheFiguresOfARunIntoItsDirectory) {
   }
 }
 
+TEST(Plot, SaysOnStderrWhichSectionsItLeftOut) {
+  const TemporaryDirectory directory;
+  std::string sections = "output.sections=0.5";
+  for (int i = 1; i < 26; ++i) sections += ",0.3";
+  ASSERT_EQ(run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "time.end=1e-5",
+                         "--set", "model.segments=51", "--set", sections},
+                        directory.path)
+                .status,
+            0);
+  for (const char* command : {"plot", "report"}) {
+    const Finished finished = run_program({command, "here"}, directory.path);
+    EXPECT_EQ(finished.status, 0);
+    expect_in(finished.errors, "subimpact: note: not drawn: bending: sections 25 to 26");
+  }
+}
+
 TEST(Plot, DrawsElsewhereIfAsked) {
   const TemporaryDirectory directory;
   make_run(directory);

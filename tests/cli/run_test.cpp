@@ -78,6 +78,43 @@ TEST(Run, MadeQuietSaysNothing) {
   EXPECT_EQ(finished.errors, "");
 }
 
+TEST(Run, NotesKeysWithoutEffectUnlessASettingMadeThemIdle) {
+  const TemporaryDirectory directory;
+  std::string text = read_file(SUBIMPACT_PAPER_CASE);
+  text.replace(text.find("section = \"layers\""), 18, "section = \"exact\"");
+  directory.write("case.toml", text);
+  const Finished finished =
+      run_program({"run", "case.toml", "--set", "time.end=1e-6"}, directory.path);
+  EXPECT_EQ(finished.status, 0);
+  EXPECT_EQ(finished.errors,
+            "subimpact: note: model.layers = 40 has no effect with model.section = \"exact\"\n");
+  EXPECT_EQ(run_program(short_run({"--set", "model.section=exact"}), directory.path).errors, "");
+}
+
+TEST(Run, WarnsOnceOfADoubtfulUnitAndKeepsTheWarning) {
+  const TemporaryDirectory directory;
+  const Finished finished = run_program(
+      short_run({"--out", "here", "--set", "beam.density=2.6", "--set", "time.end=1e-6"}),
+      directory.path);
+  EXPECT_EQ(finished.status, 0);
+  const std::string warning = "beam.density is 2.6 kg/m3";
+  EXPECT_EQ(finished.errors.find("subimpact: warning: " + warning), 0u) << finished.errors;
+  EXPECT_EQ(finished.errors.find(warning, 25), std::string::npos) << finished.errors;
+  expect_in(finished.output, warning);
+  const auto warnings = summary_in(directory.path / "here").at("warnings");
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_in(warnings[0].get<std::string>(), "if g/cm3 was meant, write 2600");
+}
+
+TEST(Run, ThatLeavesTheModelsValidityNamesADoubtfulUnit) {
+  const TemporaryDirectory directory;
+  const Finished finished = run_program(
+      {"run", SUBIMPACT_PAPER_CASE, "--set", "beam.youngs_modulus=71960"}, directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "the indentation reached the beam's thickness");
+  expect_in(finished.errors, "check the unit: beam.youngs_modulus is 71960 Pa");
+}
+
 TEST(Run, ShowsNoProgressWhereNobodyLooks) {
   const TemporaryDirectory directory;
   EXPECT_EQ(run_program(short_run(), directory.path).errors, "");

@@ -2,8 +2,10 @@
 
 #include <vector>
 
+#include "simulate/other_names.h"
 #include "small_case.h"
 #include "subimpact/io/case_file.h"
+#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -185,6 +187,48 @@ const Spoilt spoilt_cases[] = {
      "density = 2600",
      "density = 2600\nends = [\"free\", \"glued\"]",
      {"bad.toml:6:1: ", "beam.ends is \"glued\"", "a list of two out of \"free\""}},
+    {"FixedSupport",
+     "density = 2600",
+     "density = 2600\nends = [\"free\", \"fixed\"]",
+     {"bad.toml:6:1: ", "beam.ends is \"fixed\"", "did you mean \"clamped\"?"}},
+    {"SimplySupported",
+     "density = 2600",
+     "density = 2600\nends = [\"Simply supported\", \"ss\"]",
+     {"bad.toml:6:1: ", "beam.ends is \"Simply supported\"", "did you mean \"pinned\"?"}},
+    {"BuiltInAsOneText",
+     "density = 2600",
+     "density = 2600\nends = \"built-in\"",
+     {"bad.toml:6:1: ", "beam.ends is a text (\"built-in\")",
+      "did you mean [\"clamped\", \"clamped\"]?"}},
+    {"HingedAsAListOfOne",
+     "density = 2600",
+     "density = 2600\nends = [\"hinged\"]",
+     {"bad.toml:6:1: ", "did you mean [\"pinned\", \"pinned\"]?"}},
+    {"Cantilever",
+     "density = 2600",
+     "density = 2600\nends = \"cantilever\"",
+     {"bad.toml:6:1: ", "did you mean [\"clamped\", \"free\"]?"}},
+    {"DecimalComma",
+     "mass = 0.201",
+     "mass = 0,201",
+     {"bad.toml:8:", "0,201 has a decimal comma", "TOML writes a decimal point: 0.201"}},
+    {"DecimalCommaInAText",
+     "mass = 0.201",
+     "mass = \"0,201\"",
+     {"bad.toml:8:1: striker.mass", "TOML writes a decimal point: 0.201"}},
+    {"DecimalCommaWithinBraces",
+     "[time]\nend = 2e-5",
+     "time = { end = 2,5e-5 }",
+     {"bad.toml:11:", "2,5e-5 has a decimal comma", "TOML writes a decimal point: 2.5e-5"}},
+    {"ToleranceByAnotherName",
+     "[time]",
+     "[solver]\ntolerance = 1e-9\n[time]",
+     {"bad.toml:12:1: ", "unknown key \"solver.tolerance\"", "has moved to \"solver.rtol\"",
+      "write rtol under [solver]"}},
+    {"CellsForSegments",
+     "[time]",
+     "[model]\ncells = 501\n[time]",
+     {"bad.toml:12:1: ", "unknown key \"model.cells\"", "has moved to \"model.segments\""}},
     {"OneEndOnly",
      "density = 2600",
      "density = 2600\nends = [\"free\"]",
@@ -254,6 +298,24 @@ TEST(BadOverride, IsNamedAsTheCommandLineGaveIt) {
                 {"--set striler.mass=1: ", "unknown table [striler]", "did you mean [striker]?"});
   expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=")}),
                 {"--set time.end=: ", "time.end is ''", "above 0 (s)"});
+}
+
+TEST(BadOverride, WithADecimalCommaIsToldToWriteAPoint) {
+  expect_all_in(refusal_of(small_case_text(), {parse_override("striker.mass=0,201")}),
+                {"--set striker.mass=0,201: ", "TOML writes a decimal point: 0.201"});
+}
+
+TEST(BadOverride, OfAMovedKeyIsToldItsNewName) {
+  expect_all_in(refusal_of(small_case_text(), {parse_override("solver.tolerance=1e-9")}),
+                {"--set solver.tolerance=1e-9: ", "has moved to \"solver.rtol\""});
+}
+
+TEST(MovedKeys, LeadToKeysThatThereAreFromNamesThatThereAreNot) {
+  ASSERT_FALSE(moved_keys().empty());
+  for (const MovedKey& key : moved_keys()) {
+    EXPECT_NE(find_case_key(key.new_name), nullptr) << key.new_name;
+    EXPECT_EQ(find_case_key(key.old_name), nullptr) << key.old_name;
+  }
 }
 
 TEST(BadOverride, CannotSmuggleInASecondKey) {

@@ -130,6 +130,30 @@ TEST(HtmlReport, HoldsCaseWordsTableFiguresMethodErrorBarsAndConservation) {
   EXPECT_GT(n_rows, run.result.sub_impacts.size() + 20u);
 }
 
+TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
+  FinishedRun run = small_run();
+  EXPECT_EQ(page_of(run).find("class=\"failed\""), std::string::npos);
+  run.result.outcome.kind = OutcomeKind::unstable;
+  run.result.outcome.first_failure = Interval{1e-4, 2e-4};
+  run.result.warnings = {"beam.length is 711 m & long"};
+  const std::string page = page_of(run);
+  EXPECT_EQ(xml_problem(page), "");
+  const auto banner = page.find(
+      "<p class=\"failed\">unstable: results up to 100 us passed every check; first failure "
+      "between "
+      "100 and 200 us.</p>");
+  ASSERT_NE(banner, std::string::npos);
+  EXPECT_LT(banner, page.find("class=\"tiles\""));
+  expect_in(page, "Warning: beam.length is 711 m &amp; long.");
+}
+
+TEST(HtmlReport, CountsOneAsOne) {
+  FinishedRun run = small_run({parse_override("time.end=1e-5")});
+  const std::string page = page_of(run);
+  expect_in(page, "<b>1</b><span>sub-impact</span>");
+  expect_in(page, "<b>1</b><span>zone</span>");
+}
+
 TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   FinishedRun run = small_run();
   for (SubImpact& s : run.result.sub_impacts) s.start_error = s.error_time = 2e-9;
@@ -149,7 +173,7 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
 
 TEST(HtmlReport, OfARunThatFailedSaysSo) {
   FinishedRun run = small_run();
-  run.result.outcome = {OutcomeKind::solver_failed, 5e-4, "the step became too small"};
+  run.result.outcome = {OutcomeKind::solver_failed, 5e-4, "the step became too small", {}};
   const std::string page = page_of(run);
   expect_in(page, "solver-failed");
   expect_in(page, "the step became too small");

@@ -56,6 +56,31 @@ TEST(ReadResults, IsTheInverseOfWritingThem) {
   }
 }
 
+TEST(ReadResults, TakesAKeyUnderTheNameItHadBefore) {
+  const TemporaryDirectory directory;
+  Case input = read_case_text(small_case_text(), "small.toml").value;
+  input.solver.rtol = 3e-7;
+  write_results(directory.path, input, sample_result());
+  std::string text = summary_json(input, sample_result());
+  const std::string key = "\"rtol\"";
+  text.replace(text.find(key), key.size(), "\"tolerance\"");
+  std::ofstream(directory.path / "summary.json") << text;
+  EXPECT_EQ(read_results(directory.path).input.solver.rtol, 3e-7);
+}
+
+TEST(ReadResults, KeepsWarningsAndTheFirstFailure) {
+  const TemporaryDirectory directory;
+  Result result = sample_result();
+  result.warnings = {"beam.length is 711.2 m"};
+  result.outcome.kind = OutcomeKind::inaccurate;
+  result.outcome.first_failure = Interval{1e-3, 2e-3};
+  write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
+  const FinishedRun run = read_results(directory.path);
+  EXPECT_EQ(run.result.warnings, result.warnings);
+  ASSERT_TRUE(run.result.outcome.first_failure);
+  EXPECT_EQ(run.result.outcome.first_failure->to, 2e-3);
+}
+
 TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
   const TemporaryDirectory directory;
   Result result = sample_result();
@@ -86,7 +111,7 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
                 sample_result());
   EXPECT_EQ(refusal_of(directory.path), "(accepted)");
   std::ofstream(directory.path / "events.csv") << "index,zone\n1\n";
-  expect_in(refusal_of(directory.path), "events.csv:2: has 1 cells where the header has 2");
+  expect_in(refusal_of(directory.path), "events.csv:2: has 1 cell where the header has 2");
   std::ofstream(directory.path / "events.csv") << "index,zone\n1,2\n";
   expect_in(refusal_of(directory.path), "events.csv: has no column subzone");
   std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n";

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "io/strike_words.h"
 #include "sample_result.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/simulate/case_keys.h"
@@ -40,7 +41,7 @@ TEST(SubImpactTable, SetsZonesAndSubZonesApartAndMarksAnOpenEnd) {
 
 TEST(FailureMessage, NamesTimeModeMethodLastEventAndCause) {
   Result result = sample_result();
-  result.outcome = {OutcomeKind::solver_failed, 12.5e-6, "the library gave up"};
+  result.outcome = {OutcomeKind::solver_failed, 12.5e-6, "the library gave up", {}};
   const std::string message = failure_message(paper_case(), result);
   expect_in(message, "solver-failed at 12.5 us");
   expect_in(message, "in contact, sub-impact 3");
@@ -54,6 +55,57 @@ TEST(FailureMessage, SaysWhenTheStrikerWasFree) {
   Result result = sample_result();
   result.sub_impacts.pop_back();
   expect_in(failure_message(paper_case(), result), "separated after sub-impact 2");
+}
+
+TEST(RunSummary, WeighsBeamAndStriker) {
+  Case input = paper_case();
+  expect_in(run_summary(input, sample_result()),
+            "masses              beam 0.226055 kg, striker 0.201 kg");
+  input.scene.beam.length *= 1e3;
+  input.scene.beam.width *= 1e3;
+  input.scene.beam.thickness *= 1e3;
+  expect_in(run_summary(input, sample_result()), "beam 226055 t");
+}
+
+TEST(RunSummary, CountsOneAsOne) {
+  Result result = sample_result();
+  result.sub_impacts.resize(1);
+  result.work.steps = 1;
+  result.work.right_hand_sides = 1;
+  result.work.roots = 1;
+  const std::string summary = run_summary(paper_case(), result);
+  expect_in(summary, "1 in 1 zone\n");
+  expect_in(summary, "1 sub-impact in 1 sub-zone,");
+  expect_in(summary, "1 step, 0 rejected, 1 right-hand side, 1 event;");
+}
+
+Result result_with_a_failed_check() {
+  Result result = sample_result();
+  result.outcome = {OutcomeKind::inaccurate, 2e-3, "the energy is off", Interval{1e-3, 1.5e-3}};
+  return result;
+}
+
+constexpr const char* failed_check =
+    "results up to 1000 us passed every check; first failure between 1000 and 1500 us";
+
+TEST(FailedCheck, IsPlacedInTimeBySummaryFailureMessageAndWords) {
+  const Result result = result_with_a_failed_check();
+  expect_in(run_summary(paper_case(), result), failed_check);
+  expect_in(failure_message(paper_case(), result), failed_check);
+  expect_in(strike_words(paper_case(), result).front(), failed_check);
+}
+
+TEST(FailedCheck, MarksTheSubImpactTable) {
+  EXPECT_EQ(sub_impact_table(result_with_a_failed_check())
+                .find(std::string("inaccurate: ") + failed_check),
+            0u);
+  EXPECT_EQ(sub_impact_table(sample_result()).find("  "), 0u);
+}
+
+TEST(Warnings, AreShownInTheSummary) {
+  Result result = sample_result();
+  result.warnings = {"beam.length is 711.2 m"};
+  expect_in(run_summary(paper_case(), result), "warning             beam.length is 711.2 m\n");
 }
 
 TEST(Explanation, TellsUnknownsSymmetrySectionStepTolerancesAndContact) {

@@ -36,7 +36,7 @@ inline Result sample_result() {
   row.force = 1822.9000000000001;
   row.momentum_error = -2.2204460492503131e-16;
   result.history = {row, row};
-  result.outcome = {OutcomeKind::completed, 8e-3, "completed"};
+  result.outcome = {OutcomeKind::completed, 8e-3, "completed", {}};
   result.first_contact_yield = 1e-6 / 3.0;
   result.max_force = first.peak_force;
   result.work.steps = 1234;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "subimpact/simulate/case.h"
+#include "subimpact/simulate/keys_without_effect.h"
 #include "subimpact/simulate/simulate.h"
 
 namespace subimpact {
@@ -34,9 +35,13 @@ class CaseFileError : public std::runtime_error {
 class LoadedCase {
  public:
   Case value;
+  GivenKeys given;
 
   LoadedCase(std::string path, std::map<std::string, std::string> places)
       : path_(std::move(path)), places_(std::move(places)) {}
+
+  /// keys_without_effect() of the case.
+  std::vector<std::string> notes() const { return keys_without_effect(value, given); }
 
   /// The error's message with the place of its key: "case.toml:12:8: solver.step is ...".
   std::string message(const InvalidCase& error) const;

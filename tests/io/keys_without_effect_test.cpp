@@ -1,0 +1,143 @@
+#include "subimpact/simulate/keys_without_effect.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include "small_case.h"
+#include "subimpact/io/case_file.h"
+
+namespace subimpact {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+Notes notes_on(const std::string& more, const std::vector<std::string>& settings = {}) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
+  return read_case_text(small_case_text() + more, "small.toml", overrides).notes();
+}
+
+TEST(KeysWithoutEffect, AreNoneInACaseOfRequiredKeys) { EXPECT_EQ(notes_on(""), Notes{}); }
+
+struct Idle {
+  const char* claim;
+  const char* more;  // after the small case
+  Notes notes;
+};
+
+void PrintTo(const Idle& idle, std::ostream* out) { *out << idle.claim; }
+
+class IdleKeys : public testing::TestWithParam<Idle> {};
+
+TEST_P(IdleKeys, AreNamedWithTheKeyThatMakesThemIdle) {
+  EXPECT_EQ(notes_on(GetParam().more), GetParam().notes);
+}
+
+const Idle idle_cases[] = {
+    {"LayersBesideTheExactSection",
+     "[model]\nsection = \"exact\"\nlayers = 40\n",
+     {"model.section = \"exact\" has no effect with beam.yield_stress = inf",
+      "model.layers = 40 has no effect with model.section = \"exact\""}},
+    {"LayersWhereTheSectionIsLeftOut",
+     "[model]\nlayers = 40\n",
+     {"model.layers = 40 has no effect with model.section = \"exact\""}},
+    {"ElementsBesideCells",
+     "[model]\nmesh = \"cells\"\nelements = 100\nsections_per_element = 3\nhinges = \"off\"\n",
+     {"model.elements = 100 has no effect with model.mesh = \"cells\"",
+      "model.sections_per_element = 3 has no effect with model.mesh = \"cells\"",
+      "model.hinges = \"off\" has no effect with model.mesh = \"cells\""}},
+    {"SegmentsBesideElements",
+     "[model]\nmesh = \"hermite\"\nsegments = 501\n",
+     {"model.segments = 501 has no effect with model.mesh = \"hermite\""}},
+    {"AnyMeshBesideARigidBeam",
+     "[model]\nmesh = \"rigid\"\nsegments = 501\nsection = \"elastic\"\nsymmetry = \"off\"\n",
+     {"model.segments = 501 has no effect with model.mesh = \"rigid\"",
+      "model.section = \"elastic\" has no effect with model.mesh = \"rigid\"",
+      "model.symmetry = \"off\" has no effect with model.mesh = \"rigid\""}},
+    {"ReachOfARefinementThatIsNone",
+     "[model]\nmesh = \"hermite\"\nrefined_length = 0.1\n",
+     {"model.refined_length = 0.1 has no effect with model.strike_refinement = 1"}},
+    {"SectionOfABeamThatNeverYields",
+     "[model]\nsection = \"layers\"\nlayers = 20\n",
+     {"model.section = \"layers\" has no effect with beam.yield_stress = inf",
+      "model.layers = 20 has no effect with beam.yield_stress = inf"}},
+    {"ToleranceOfCentralDifferences",
+     "[solver]\nmethod = \"central-difference\"\nrtol = 1e-9\nmax_step = 1e-7\n",
+     {"solver.rtol = 1e-09 has no effect with solver.method = \"central-difference\"",
+      "solver.max_step = 1e-07 has no effect with solver.method = \"central-difference\""}},
+    {"ToleranceBesideAFixedStep",
+     "[solver]\nmethod = \"nystrom\"\nrtol = 1e-9\nstep = 1e-7\n",
+     {"solver.rtol = 1e-09 has no effect with solver.step = 1e-07"}},
+    {"ReversalsOfElasticSections",
+     "[model]\nsection = \"elastic\"\n[solver]\nreversals = \"located\"\n",
+     {"solver.reversals = \"located\" has no effect with model.section = \"elastic\""}},
+    {"PairsBesideInterpolatedEvents",
+     "[solver]\nevents = \"interpolated\"\npair_detection = true\n",
+     {"solver.pair_detection = true has no effect with solver.events = \"interpolated\""}},
+    {"VectorsOfSundialsUnderNystrom",
+     "[solver]\nmethod = \"nystrom\"\nvector_operations = \"library\"\nbeyond_critical = true\n",
+     {"solver.vector_operations = \"library\" has no effect with solver.method = \"nystrom\"",
+      "solver.beyond_critical = true has no effect with solver.method = \"nystrom\""}},
+    {"NoseRadiusBesideALinearContact",
+     "[contact]\nlaw = \"linear\"\nstiffness = 1e7\n",
+     {"striker.nose_radius = 0.01 has no effect with contact.law = \"linear\""}},
+    {"NoseRadiusBesideAStiffness",
+     "[contact]\nlaw = \"hertz\"\nstiffness = 1e10\n",
+     {"striker.nose_radius = 0.01 has no effect with contact.stiffness = 10000000000"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(OfEveryKind, IdleKeys, testing::ValuesIn(idle_cases),
+                         [](const auto& info) { return std::string(info.param.claim); });
+
+TEST(KeysWithoutEffect, OfTheFileNeedNoNoteIfASettingMadeThemIdle) {
+  const std::string file = "[model]\nsection = \"layers\"\nlayers = 40\n[solver]\nrtol = 1e-9\n";
+  const std::vector<std::string> yields = {"beam.yield_stress=150e6"};
+  EXPECT_EQ(notes_on(file, yields), Notes{});
+  EXPECT_EQ(notes_on(file, {yields[0], "model.section=exact"}), Notes{});
+  EXPECT_EQ(notes_on(file, {yields[0], "solver.method=central-difference"}), Notes{});
+  EXPECT_EQ(notes_on(file, {yields[0], "model.section=exact", "model.layers=20"}),
+            Notes{"model.layers = 20 has no effect with model.section = \"exact\""});
+}
+
+TEST(KeysWithoutEffect, LeaveAloneAToleranceToWhichSectionsAreFollowed) {
+  EXPECT_EQ(notes_on("[solver]\nmethod = \"nystrom\"\nrtol = 1e-9\nstep = 1e-7\n",
+                     {"beam.yield_stress=150e6"}),
+            Notes{});
+}
+
+TEST(MeshSize, ChoosesTheMeshWhereNoneIsNamed) {
+  const auto mesh_of = [](const std::string& more, const std::vector<Override>& settings = {}) {
+    return read_case_text(small_case_text() + more, "small.toml", settings).value.model.mesh;
+  };
+  EXPECT_EQ(mesh_of(""), MeshKind::cells);
+  EXPECT_EQ(mesh_of("[model]\nelements = 100\n"), MeshKind::hermite);
+  EXPECT_EQ(mesh_of("[model]\nsegments = 101\n"), MeshKind::cells);
+  EXPECT_EQ(mesh_of("", {parse_override("model.elements=100")}), MeshKind::hermite);
+  EXPECT_EQ(mesh_of("[model]\nmesh = \"cells\"\nelements = 100\n"), MeshKind::cells);
+}
+
+TEST(MeshSize, OfASettingGoesBeforeThatOfTheFile) {
+  const LoadedCase loaded = read_case_text(small_case_text() + "[model]\nsegments = 101\n",
+                                           "small.toml", {parse_override("model.elements=100")});
+  EXPECT_EQ(loaded.value.model.mesh, MeshKind::hermite);
+  EXPECT_EQ(loaded.notes(), Notes{});
+}
+
+TEST(MeshSize, OfTwoMeshesIsRefusedUnlessOneIsNamed) {
+  const std::string both = "[model]\nsegments = 101\nelements = 100\n";
+  try {
+    read_case_text(small_case_text() + both, "small.toml");
+    FAIL() << "two sizes were accepted";
+  } catch (const CaseFileError& error) {
+    const std::string message = error.what();
+    for (const char* piece : {"small.toml:15:1: model.elements is given, and model.segments too",
+                              "leave one out", "model.mesh = \"hermite\""}) {
+      EXPECT_NE(message.find(piece), std::string::npos) << message;
+    }
+  }
+  EXPECT_NO_THROW(read_case_text(small_case_text() + both + "mesh = \"hermite\"\n", "small.toml"));
+}
+
+}  // namespace
+}  // namespace subimpact
