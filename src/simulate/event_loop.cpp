@@ -30,7 +30,7 @@ constexpr double tolerated_rounding = 64.0;
 constexpr double velocity_rounding = 1e-12;
 
 // How far a run whose energy is off is followed to see whether it blows up.
-constexpr long most_steps_ahead = 2000;
+constexpr long most_steps_ahead = 20000;
 
 constexpr double us = 1e6;  // per second
 

@@ -73,6 +73,7 @@ void Recorder::follow_peak(double indentation, const StruckBeam& beam) {
   if (!(indentation > now.max_indentation)) return;
   now.max_indentation = indentation;
   now.peak_force = std::max(now.peak_force, beam.contact_force_at(indentation));
+  largest_force_ = std::max(largest_force_, now.peak_force);
 }
 
 void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
@@ -135,11 +136,12 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
 
 void Recorder::add_event_row(const Transition& event, const State& y, StruckBeam& beam) {
   if (!(interval_ > 0.0)) return;
-  add_row(event.time, y, beam);
+  HistoryRow row = make_row(event.time, y, beam);
   // What the force differs from zero there is the rounding of the event's time.
   const bool of_zero_force =
       event.kind == EventKind::contact_begins || event.kind == EventKind::contact_ends;
-  if (of_zero_force) result_.history.back().force = 0.0;
+  if (of_zero_force) row.force = 0.0;
+  keep(row, y, beam);
 }
 
 void Recorder::close_sub_impact(const State& y, StruckBeam& beam) {
@@ -169,18 +171,19 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam, bool is_goo
 
 void Recorder::add_row(double time, const State& y, StruckBeam& beam) {
   HistoryRow row = make_row(time, y, beam);
-  if (in_contact_) {
-    follow_peak(row.indentation, beam);
-    check_push(row);
-  }
+  if (in_contact_) follow_peak(row.indentation, beam);
+  check_push(row);
+  keep(row, y, beam);
+}
+
+void Recorder::keep(const HistoryRow& row, const State& y, StruckBeam& beam) {
   result_.history.push_back(row);
-  add_section_rows(time, y, beam);
+  add_section_rows(row.time, y, beam);
 }
 
 void Recorder::check_push(HistoryRow& row) const {
   if (row.force >= 0.0) return;
-  const double tolerated = audit_.tolerated_energy() * result_.sub_impacts.back().peak_force;
-  if (!(row.force >= -tolerated)) {
+  if (!(row.force >= -audit_.tolerated_energy() * largest_force_)) {
     audit_.fail(row.time, OutcomeKind::inaccurate,
                 fmt::format("within a contact the force is {:.3g} N: the bodies would pull at each "
                             "other",

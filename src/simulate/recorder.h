@@ -24,7 +24,7 @@ class Recorder final : public RunObserver {
   /// Closes the accounts at the last state, which `is_good` if every check passed.
   void finish(double time, const State& y, StruckBeam& beam, bool is_good);
 
-  /// Steps of the shortest contacts, for methods of fixed step: a sub-impact's number of steps.
+  /// Steps within each contact.
   const std::vector<long>& steps_in_contact() const { return steps_in_contact_; }
 
  private:
@@ -37,6 +37,7 @@ class Recorder final : public RunObserver {
   void check_push(HistoryRow& row) const;
   void add_event_row(const Transition& event, const State& y, StruckBeam& beam);
   void add_row(double time, const State& y, StruckBeam& beam);
+  void keep(const HistoryRow& row, const State& y, StruckBeam& beam);
   HistoryRow make_row(double time, const State& y, StruckBeam& beam);
   void add_section_rows(double time, const State& y, StruckBeam& beam);
 
@@ -49,6 +50,7 @@ class Recorder final : public RunObserver {
   long next_row_ = 0;
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
+  double largest_force_ = 0.0;  // of all contacts so far, N
   State state_;
   std::vector<std::size_t> sections_;
   std::vector<long> steps_in_contact_;

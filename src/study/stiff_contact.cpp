@@ -1,7 +1,6 @@
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/study/stability.h"
+#include "system/contact_resonance.h"
 
 namespace subimpact {
 namespace {
@@ -31,28 +31,6 @@ StruckBeam held_together(const Case& input, double stiffness) {
       make_struck_beam(trial, SectionField::Storage::when_yielded, Coordinates::of_mesh);
   beam.set_contact(ContactBranch::elastic, {});
   return beam;
-}
-
-double highest_frequency(StruckBeam& beam) {
-  const SparsityPattern& pattern = beam.pattern();
-  const auto n = static_cast<Eigen::Index>(pattern.size());
-  std::vector<double> mass(pattern.n_entries()), stiffness(pattern.n_entries());
-  beam.mass_entries(mass);
-  const std::vector<double> rest(pattern.size(), 0.0);
-  beam.stiffness_entries(rest, MechanicalSystem::Part::all, stiffness);
-  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd k = m;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const auto column = static_cast<std::size_t>(j);
-    for (std::size_t e = pattern.column_starts[column]; e < pattern.column_starts[column + 1];
-         ++e) {
-      m(static_cast<Eigen::Index>(pattern.rows[e]), j) = mass[e];
-      k(static_cast<Eigen::Index>(pattern.rows[e]), j) = stiffness[e];
-    }
-  }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(k, m,
-                                                                         Eigen::EigenvaluesOnly);
-  return std::sqrt(solver.eigenvalues().maxCoeff());
 }
 
 // Whether central differences blow up from a state that holds something of every mode.
@@ -91,7 +69,8 @@ std::vector<StiffContact> stiff_contact(const Case& input) {
     const double cell_mass = trial.scene.beam.mass() / trial.model.segments;
     row.stiffness = std::pow(10.0, row.stiffness) * cell_mass * beam_alone * beam_alone;
     StruckBeam beam = held_together(trial, row.stiffness);
-    row.predicted = 2.0 / highest_frequency(beam);
+    row.predicted =
+        2.0 / contact_resonance(beam, std::numeric_limits<double>::infinity()).highest_frequency;
     double stable = 0.05 * row.predicted;
     double unstable = 1.5 * row.beam_only;
     for (int n = 0; n < n_bisections; ++n) {
