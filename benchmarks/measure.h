@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "subimpact/simulate/case.h"
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/case.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact::benchmarks {
 

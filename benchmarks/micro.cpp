@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "case/model_factory.h"
 #include "integrate/klu_mass_solver.h"
 #include "measure.h"
-#include "simulate/model_factory.h"
 
 namespace subimpact::benchmarks {
 namespace {

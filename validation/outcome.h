@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 
 namespace subimpact::validation {
 

@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "subimpact/io/figures.h"
 #include "subimpact/io/report.h"
+#include "subimpact/report/figures.h"
 
 namespace subimpact::app {
 

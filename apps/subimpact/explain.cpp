@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "commands.h"
+#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
-#include "subimpact/simulate/doubtful_units.h"
 
 namespace subimpact::app {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "commands.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/versions.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "commands.h"
-#include "subimpact/io/figures.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/figures.h"
 
 namespace subimpact::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "commands.h"
-#include "subimpact/io/html_report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/html_report.h"
 
 namespace subimpact::app {
 namespace {

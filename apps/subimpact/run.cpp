@@ -10,9 +10,9 @@
 
 #include "commands.h"
 #include "progress.h"
+#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/doubtful_units.h"
 #include "subimpact/study/error_bars.h"
 #include "subimpact/study/mesh_error_bars.h"
 

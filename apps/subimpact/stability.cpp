@@ -1,4 +1,4 @@
-#include "subimpact/io/stability.h"
+#include "subimpact/report/stability.h"
 
 #include <fmt/format.h>
 

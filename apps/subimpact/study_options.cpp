@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "case/other_names.h"
 #include "commands.h"
-#include "simulate/other_names.h"
-#include "subimpact/simulate/case_keys.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/method_tables.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {

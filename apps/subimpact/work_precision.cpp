@@ -1,4 +1,5 @@
 #include "subimpact/io/work_precision.h"
+#include "subimpact/report/work_precision_chart.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "case/counted.h"
 #include "commands.h"
 #include "interrupt.h"
-#include "simulate/counted.h"
 #include "status_line.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact::app {
 namespace {

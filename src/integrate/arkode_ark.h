@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "integrate/arkode_erk.h"
-#include "integrate/integrator.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "integrate/integrator.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "integrate/integrator.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

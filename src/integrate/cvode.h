@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "integrate/arkode_erk.h"
-#include "integrate/integrator.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "events/hermite.h"
-#include "model/lanes.h"
+#include "numerics/hermite.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 namespace {

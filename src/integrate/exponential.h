@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "integrate/integrator.h"
 #include "integrate/oscillator_step.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "integrate/integrator.h"
 #include "integrate/safe_flight.h"
-#include "system/free_flight.h"
+#include "ode/free_flight.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

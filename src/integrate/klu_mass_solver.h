@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "model/mass_solver.h"
+#include "numerics/mass_solver.h"
 
 namespace subimpact {
 

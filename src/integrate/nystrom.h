@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "integrate/integrator.h"
 #include "integrate/nystrom_tables.h"
-#include "model/lanes.h"
+#include "numerics/lanes.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

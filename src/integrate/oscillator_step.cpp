@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "integrate/stumpff.h"
-#include "model/lanes.h"
+#include "numerics/lanes.h"
+#include "numerics/stumpff.h"
 
 namespace subimpact {
 namespace {

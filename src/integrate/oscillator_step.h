@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "system/forced_oscillators.h"
+#include "ode/forced_oscillators.h"
 
 namespace subimpact {
 

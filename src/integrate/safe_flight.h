@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "system/free_flight.h"
+#include "ode/free_flight.h"
 
 namespace subimpact {
 

@@ -11,9 +11,9 @@
 #include <sstream>
 #include <utility>
 
+#include "case/other_names.h"
 #include "io/toml_value.h"
-#include "simulate/other_names.h"
-#include "subimpact/simulate/case_keys.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <iterator>
 
+#include "case/counted.h"
 #include "io/csv_text.h"
-#include "simulate/counted.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "simulate/counted.h"
+#include "case/counted.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <iterator>
 
-#include "simulate/case_choices.h"
-#include "simulate/counted.h"
+#include "case/case_choices.h"
+#include "case/counted.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/method_tables.h"
 #include "subimpact/io/report.h"
-#include "subimpact/simulate/case_keys.h"
-#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <iterator>
 
+#include "case/case_choices.h"
 #include "io/csv_text.h"
 #include "io/write_file.h"
-#include "simulate/case_choices.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/report.h"
 

@@ -6,11 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "case/case_choices.h"
+#include "case/other_names.h"
 #include "io/csv_table.h"
-#include "simulate/case_choices.h"
-#include "simulate/other_names.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <iterator>
 
-#include "simulate/counted.h"
+#include "case/counted.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/case_keys.h"
-#include "subimpact/simulate/doubtful_units.h"
 
 namespace subimpact {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "simulate/case_choices.h"
+#include "case/case_choices.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/versions.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <toml++/toml.h>
 
-#include "subimpact/simulate/case_keys.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 

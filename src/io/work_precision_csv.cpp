@@ -10,10 +10,10 @@
 
 #include "io/csv_text.h"
 #include "io/write_file.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/versions.h"
 #include "subimpact/io/work_precision.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {

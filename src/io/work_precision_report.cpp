@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "simulate/counted.h"
+#include "case/counted.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/work_precision.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "model/banded_matrix.h"
-#include "model/lanes.h"
 #include "model/natural_modes.h"
+#include "numerics/banded_matrix.h"
+#include "numerics/lanes.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/bracketed_root.h"
+#include "numerics/bracketed_root.h"
 
 namespace subimpact {
 namespace {

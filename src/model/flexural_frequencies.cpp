@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "model/bracketed_root.h"
+#include "numerics/bracketed_root.h"
 
 namespace subimpact {
 namespace {

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
-#include "model/bracketed_root.h"
-#include "model/lanes.h"
-#include "model/sin_cos.h"
+#include "numerics/bracketed_root.h"
+#include "numerics/lanes.h"
+#include "numerics/sin_cos.h"
 
 namespace subimpact {
 namespace {

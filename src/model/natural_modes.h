@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/banded_matrix.h"
+#include "numerics/banded_matrix.h"
 
 namespace subimpact {
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "events/hermite.h"
-#include "events/root.h"
+#include "numerics/hermite.h"
+#include "numerics/trajectory_root.h"
 
 namespace subimpact {
 namespace {

@@ -3,9 +3,9 @@
 #include <limits>
 #include <vector>
 
-#include "integrate/integrator.h"
+#include "ode/integrator.h"
 #include "simulate/audit.h"
-#include "subimpact/simulate/case.h"
+#include "subimpact/simulate/options.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "events/hermite.h"
+#include "numerics/hermite.h"
 
 namespace subimpact {
 namespace {

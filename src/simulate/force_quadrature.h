@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "integrate/integrator.h"
+#include "ode/integrator.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

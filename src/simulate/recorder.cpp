@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "events/hermite.h"
-#include "events/root.h"
+#include "numerics/hermite.h"
+#include "numerics/trajectory_root.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/counted.h"
+#include "case/counted.h"
 #include "study/leading_words.h"
 #include "study/method_choice.h"
 #include "subimpact/study/error_bars.h"

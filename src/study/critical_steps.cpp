@@ -7,8 +7,8 @@
 #include "study/free_vibration.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
-#include "subimpact/simulate/case_keys.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/method_tables.h"
 #include "subimpact/study/stability.h"
 
 namespace subimpact {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "simulate/counted.h"
+#include "case/counted.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {

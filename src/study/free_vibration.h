@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
+#include "case/model_factory.h"
 #include "model/natural_modes.h"
-#include "simulate/model_factory.h"
 
 namespace subimpact {
 

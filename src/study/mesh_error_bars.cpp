@@ -7,9 +7,9 @@
 #include <future>
 #include <vector>
 
+#include "case/model_factory.h"
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
-#include "simulate/model_factory.h"
 #include "study/error_part.h"
 #include "study/method_choice.h"
 #include "subimpact/study/match.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "subimpact/simulate/case_keys.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 
 namespace subimpact {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <mutex>
 
-#include "simulate/counted.h"
+#include "case/counted.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/study/stability.h"

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "case/model_factory.h"
 #include "integrate/central_difference.h"
-#include "simulate/model_factory.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/study/stability.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "study/method_choice.h"
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {

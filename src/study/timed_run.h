@@ -1,6 +1,6 @@
 #pragma once
 
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/natural_modes.h"
-#include "system/free_flight.h"
+#include "ode/free_flight.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/beam_mesh.h"
-#include "system/second_order_ode.h"
+#include "ode/second_order_ode.h"
 
 namespace subimpact {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "model/modal_mesh.h"
-#include "system/forced_oscillators.h"
+#include "ode/forced_oscillators.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

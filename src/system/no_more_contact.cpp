@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/lanes.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 

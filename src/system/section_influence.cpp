@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/lanes.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 namespace {

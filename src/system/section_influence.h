@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/beam_mesh.h"
-#include "model/mass_solver.h"
+#include "numerics/mass_solver.h"
 
 namespace subimpact {
 

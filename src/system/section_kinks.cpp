@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "events/hermite.h"
-#include "model/bracketed_root.h"
-#include "model/lanes.h"
+#include "numerics/bracketed_root.h"
+#include "numerics/hermite.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 namespace {

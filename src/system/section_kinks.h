@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "events/hermite.h"
 #include "model/section_field.h"
+#include "numerics/hermite.h"
 #include "system/section_influence.h"
 
 namespace subimpact {

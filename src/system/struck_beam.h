@@ -6,14 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "events/root.h"
 #include "model/beam_mesh.h"
 #include "model/contact_law.h"
-#include "model/mass_solver.h"
 #include "model/section_field.h"
-#include "subimpact/events/records.h"
+#include "numerics/mass_solver.h"
+#include "numerics/trajectory_root.h"
+#include "ode/second_order_ode.h"
+#include "subimpact/system/events.h"
 #include "system/beam_jacobian.h"
-#include "system/second_order_ode.h"
 #include "system/section_influence.h"
 #include "system/section_kinks.h"
 

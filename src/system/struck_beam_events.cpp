@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "events/hermite.h"
+#include "numerics/hermite.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

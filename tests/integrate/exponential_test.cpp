@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "integrate/exponential.h"
-#include "integrate/stumpff.h"
+#include "numerics/stumpff.h"
 
 namespace subimpact {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "system/second_order_ode.h"
+#include "ode/second_order_ode.h"
 
 namespace subimpact {
 

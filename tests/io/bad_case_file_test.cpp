@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "simulate/other_names.h"
+#include "case/other_names.h"
 #include "small_case.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "small_case.h"
-#include "subimpact/simulate/case_keys.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {

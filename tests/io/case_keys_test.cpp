@@ -1,4 +1,4 @@
-#include "subimpact/simulate/case_keys.h"
+#include "subimpact/case/case_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "subimpact/simulate/doubtful_units.h"
+#include "subimpact/case/doubtful_units.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,10 +6,10 @@
 
 #include <random>
 
+#include "subimpact/case/simulate.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/simulate.h"
 
 namespace subimpact {
 namespace {

@@ -1,4 +1,4 @@
-#include "subimpact/simulate/keys_without_effect.h"
+#include "subimpact/case/keys_without_effect.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -7,9 +7,9 @@
 
 #include "sample_result.h"
 #include "small_case.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/case_keys.h"
 #include "temporary_directory.h"
 
 namespace subimpact {

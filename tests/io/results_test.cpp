@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "sample_result.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/simulate/case_keys.h"
 #include "temporary_directory.h"
 
 namespace subimpact {

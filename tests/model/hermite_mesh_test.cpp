@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dense.h"
-#include "model/mass_solver.h"
+#include "numerics/mass_solver.h"
 #include "paper_scene.h"
 #include "random_walk.h"
 

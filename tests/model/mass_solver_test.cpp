@@ -1,4 +1,4 @@
-#include "model/mass_solver.h"
+#include "numerics/mass_solver.h"
 
 #include <gtest/gtest.h>
 

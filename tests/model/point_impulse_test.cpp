@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/cell_mesh.h"
-#include "model/mass_solver.h"
+#include "numerics/mass_solver.h"
 #include "order_table.h"
 #include "paper_scene.h"
 

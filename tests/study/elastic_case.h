@@ -1,7 +1,7 @@
 #pragma once
 
 #include "paper_scene.h"
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 
 namespace subimpact {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/banded_matrix.h"
+#include "numerics/banded_matrix.h"
 #include "random_walk.h"
 
 namespace subimpact {

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "../model/dense.h"
 #include "beam_under_test.h"
+#include "dense.h"
 
 namespace subimpact {
 namespace {

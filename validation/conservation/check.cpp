@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "outcome.h"
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact::validation {
 

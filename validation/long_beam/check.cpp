@@ -7,7 +7,7 @@
 
 #include "model/cell_mesh.h"
 #include "outcome.h"
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact::validation {
 

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "io/gnuplot.h"
-#include "subimpact/simulate/simulate.h"
+#include "report/gnuplot.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
 #include "subimpact/study/mesh_error_bars.h"
 

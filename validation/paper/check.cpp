@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "outcome.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/simulate.h"
 #include "subimpact/study/strike_account.h"
 
 namespace subimpact::validation {

@@ -7,8 +7,8 @@
 #include <initializer_list>
 
 #include "random_scenes/generator.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/simulate/case_keys.h"
 
 namespace subimpact::scenes {
 namespace {

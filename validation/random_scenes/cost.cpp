@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/case/method_tables.h"
 
 namespace subimpact::scenes {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 
 namespace subimpact::scenes {
 

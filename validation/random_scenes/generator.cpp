@@ -10,8 +10,8 @@
 
 #include "random_scenes/cost.h"
 #include "random_scenes/random.h"
-#include "subimpact/simulate/case_keys.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/method_tables.h"
 
 namespace subimpact::scenes {
 namespace {

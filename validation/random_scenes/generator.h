@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 
 namespace subimpact::scenes {
 

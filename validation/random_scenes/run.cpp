@@ -8,7 +8,7 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 
-#include "subimpact/simulate/case_keys.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/study/error_bars.h"
 #include "subimpact/study/match.h"
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "outcome.h"
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact::validation {
 namespace {

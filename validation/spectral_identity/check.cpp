@@ -5,9 +5,9 @@
 #include <cmath>
 #include <complex>
 
+#include "case/model_factory.h"
 #include "outcome.h"
-#include "simulate/model_factory.h"
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact::validation {
 namespace {

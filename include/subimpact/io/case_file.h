@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/simulate/case.h"
-#include "subimpact/simulate/keys_without_effect.h"
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/case.h"
+#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {

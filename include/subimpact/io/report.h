@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "subimpact/simulate/case.h"
-#include "subimpact/simulate/cost.h"
+#include "subimpact/case/case.h"
+#include "subimpact/case/cost.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A work-precision study as text, file and figure.
+/// A work-precision study as text and file.
 
 #include <filesystem>
 #include <map>
@@ -42,12 +42,5 @@ class PointLog {
 /// Tells cases apart: a fingerprint of the program's version and of all keys of the case but those
 /// a study sets itself (method, table, tolerance, step), the title and the outputs.
 std::string case_id(const Case& input);
-
-/// work_precision.svg and .png (wall time), work_precision_evaluations.svg and .png (right-hand
-/// sides): error on x, cost on y, a panel a study. Runs that found all sub-impacts are filled
-/// marks, those that lost or invented some hollow, those that failed crosses at the right edge.
-/// Throws OutputError.
-void draw_work_precision(const std::filesystem::path& directory,
-                         const std::vector<WorkPrecision>& studies);
 
 }  // namespace subimpact

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/events/records.h"
-#include "subimpact/simulate/case.h"
+#include "subimpact/simulate/options.h"
+#include "subimpact/simulate/records.h"
 
 namespace subimpact {
 

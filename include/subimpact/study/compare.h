@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {

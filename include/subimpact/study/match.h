@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/events/records.h"
+#include "subimpact/simulate/records.h"
 
 namespace subimpact {
 

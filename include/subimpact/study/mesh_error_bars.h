@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/study/error_bars.h"
 
 namespace subimpact {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/simulate/simulate.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
 #include "subimpact/study/reference.h"
 #include "subimpact/study/sweep.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/simulate/case.h"
+#include "subimpact/case/case.h"
 
 namespace subimpact {
 

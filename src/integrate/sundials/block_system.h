@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "integrate/integrator.h"
 #include "integrate/sundials/sparse.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

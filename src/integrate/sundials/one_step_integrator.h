@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "integrate/integrator.h"
 #include "integrate/sundials/vector.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "integrate/integrator.h"
 #include "integrate/sundials/sparse.h"
 #include "integrate/sundials/vector.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

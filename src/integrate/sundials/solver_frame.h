@@ -8,7 +8,7 @@
 #include <exception>
 #include <string>
 
-#include "integrate/integrator.h"
+#include "ode/integrator.h"
 
 namespace subimpact {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <span>
 
-#include "system/second_order_ode.h"
+#include "ode/second_order_ode.h"
 
 namespace subimpact {
 

@@ -1,0 +1,94 @@
+#pragma once
+
+/// The keys of a case, as one table. Whatever reads, checks, echoes or documents a case goes
+/// through it, so that a new key is a new row and nothing else.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "subimpact/case/case.h"
+#include "subimpact/case/simulate.h"
+
+namespace subimpact {
+
+/// What a key can hold, independent of any file format.
+using KeyValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
+                              std::vector<double>>;
+
+enum class KeyType {
+  text,    ///< any text
+  number,  ///< finite, unless the key says that infinity is allowed
+  count,   ///< whole number
+  flag,    ///< true or false
+  choice,  ///< one of the key's choices
+  pair,    ///< two of the key's choices
+  numbers  ///< a list of finite numbers
+};
+
+/// A name a key accepts, with a line on what it stands for.
+struct Choice {
+  std::string name;
+  std::string note;
+};
+
+/// One key of the case file.
+struct CaseKey {
+  std::string name;  ///< with its table: "beam.length"
+  KeyType type;
+  std::string unit;   ///< empty: none
+  std::string range;  ///< in words, for numbers and counts, each of a list: "above 0"
+  std::function<bool(double)> in_range;  ///< empty: every value of the type
+  std::vector<Choice> choices;           ///< for choice and pair
+  bool required;                         ///< has no default
+  std::string default_text;              ///< in words or as it would be written; empty if required
+  std::string meaning;                   ///< a noun phrase
+  /// The case's present value; nothing if it is left open there.
+  std::function<std::optional<KeyValue>(const Case&)> get;
+  /// Stores a value with which problem_with() has no problem.
+  std::function<void(Case&, const KeyValue&)> set;
+
+  std::string table() const;  ///< "beam"; empty for a key outside all tables
+  std::string leaf() const;   ///< "length"
+};
+
+/// All keys, in the order in which they are written and listed.
+const std::vector<CaseKey>& case_keys();
+
+/// The key of that name ("beam.length"), or nullptr.
+const CaseKey* find_case_key(std::string_view name);
+
+/// What the key accepts: "a number, above 0 (m)".
+std::string allowed_values(const CaseKey& key);
+
+/// The message for a value that is refused: what was found, what is allowed, what to do.
+std::string refusal(const CaseKey& key, const std::string& found);
+
+/// Why the key cannot take the value, as a message that begins with "is"; nothing if it can.
+std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& value);
+
+/// The end of a message about a text that is a number with a decimal comma ("0,201"): how to write
+/// it; empty for other texts.
+std::string decimal_comma_hint(const std::string& text);
+
+/// Checks and stores a value. Throws InvalidCase.
+void assign(Case& target, const CaseKey& key, const KeyValue& value);
+
+/// Checks every key of a case, and those that must go together. Throws InvalidCase for the first
+/// one that is not allowed. What depends on the mesh is checked by explain() and simulate().
+void check(const Case& input);
+
+/// A value as a case file writes it.
+std::string to_text(const KeyValue& value);
+
+/// The candidate nearest to a mistyped name, or an empty string if none is near.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+std::string_view to_string(Method method);
+std::string_view to_string(EventHandling events);
+
+}  // namespace subimpact

@@ -1,0 +1,40 @@
+#pragma once
+
+/// The sub-impacts that events amount to.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "subimpact/system/events.h"
+
+namespace subimpact {
+
+/// From the instant contact begins to the instant its force returns to zero.
+struct SubImpact {
+  double start = 0.0;                  ///< s
+  std::optional<double> end;           ///< s; none: still in contact when the simulation ended
+  double peak_force = 0.0;             ///< N
+  double impulse = 0.0;                ///< N s, from the striker's velocities at start and end
+  double force_integral = 0.0;         ///< N s, the contact force integrated over the sub-impact
+  double max_indentation = 0.0;        ///< m, largest within this sub-impact
+  double residual_indentation = 0.0;   ///< m, after it
+  double striker_velocity = 0.0;       ///< m/s, at its end
+  int zone = 0;                        ///< numbered from 1
+  int subzone = 0;                     ///< numbered from 1 within the zone
+  std::optional<double> start_error;   ///< s, estimated error of start, if asked for: sum of parts
+  std::optional<double> end_error;     ///< s, estimated error of end
+  std::optional<double> error_time;    ///< s, their part from the integration in time
+  std::optional<double> error_mesh;    ///< s, from the mesh
+  std::optional<double> error_layers;  ///< s, from layers in place of the exact section
+  /// Times extrapolated to the limit of fine meshes (s) and how far they are trusted, where a
+  /// sequence of meshes shows its order.
+  std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
+};
+
+/// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before
+/// it belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills zone and
+/// subzone.
+void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
+
+}  // namespace subimpact

@@ -1,0 +1,143 @@
+#include "case/case_choices.h"
+
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+
+std::span<const Named<BeamTheory>> names_of(BeamTheory) {
+  static constexpr Named<BeamTheory> names[] = {
+      {BeamTheory::rayleigh, "rayleigh", "with rotary inertia"},
+      {BeamTheory::euler_bernoulli, "euler-bernoulli", "without rotary inertia"},
+  };
+  return names;
+}
+
+std::span<const Named<EndSupport>> names_of(EndSupport) {
+  static constexpr Named<EndSupport> names[] = {
+      {EndSupport::free, "free", "neither moment nor shear"},
+      {EndSupport::pinned, "pinned", "neither displacement nor moment"},
+      {EndSupport::clamped, "clamped", "neither displacement nor rotation"},
+  };
+  return names;
+}
+
+std::span<const Named<ContactKind>> names_of(ContactKind) {
+  static constexpr Named<ContactKind> names[] = {
+      {ContactKind::foundation, "foundation", "elasto-plastic columns under a cylindrical nose"},
+      {ContactKind::hertz, "hertz",
+       "elastic, K lambda^1.5: contact.stiffness, or a sphere of striker.nose_radius with the "
+       "moduli and Poisson's ratios of both bodies"},
+      {ContactKind::linear, "linear", "elastic, K lambda: contact.stiffness"},
+  };
+  return names;
+}
+
+std::span<const Named<MeshKind>> names_of(MeshKind) {
+  static constexpr Named<MeshKind> names[] = {
+      {MeshKind::cells, "cells", "the paper's equal cells, second order"},
+      {MeshKind::hermite, "hermite", "cubic Hermite elements, fourth order"},
+      {MeshKind::rigid, "rigid", "the beam as a rigid body, for impacts of two bodies"},
+  };
+  return names;
+}
+
+std::span<const Named<SectionKind>> names_of(SectionKind) {
+  static constexpr Named<SectionKind> names[] = {
+      {SectionKind::elastic, "elastic", "the beam never yields (the contact still may)"},
+      {SectionKind::layers, "layers", "elastic-perfectly plastic layers, stress at mid-layer"},
+      {SectionKind::exact, "exact", "the limit of infinitely many layers, in closed form"},
+  };
+  return names;
+}
+
+std::span<const Named<SymmetryUse>> names_of(SymmetryUse) {
+  static constexpr Named<SymmetryUse> names[] = {
+      {SymmetryUse::automatic, "auto", "one half is modelled if the scene is symmetric"},
+      {SymmetryUse::off, "off", "the whole beam is modelled"},
+  };
+  return names;
+}
+
+std::span<const Named<HingeUse>> names_of(HingeUse) {
+  static constexpr Named<HingeUse> names[] = {
+      {HingeUse::automatic, "auto", "at the strike and at clamped ends, if the beam may yield"},
+      {HingeUse::off, "off", "none: the slope is continuous"},
+  };
+  return names;
+}
+
+std::span<const Named<StopRule>> names_of(StopRule) {
+  static constexpr Named<StopRule> names[] = {
+      {StopRule::end_time, "end", "at time.end"},
+      {StopRule::no_more_contact, "no-more-contact",
+       "as soon as it is proven that striker and beam never touch again, at time.end at the "
+       "latest"},
+  };
+  return names;
+}
+
+std::span<const Named<Method>> names_of(Method) {
+  static constexpr Named<Method> names[] = {
+      {Method::central_difference, "central-difference",
+       "explicit, second order, fixed step: the scheme to reproduce published runs with"},
+      {Method::erk, "erk",
+       "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event times"},
+      {Method::nystrom, "nystrom",
+       "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of its "
+       "cost"},
+      {Method::exponential, "exponential",
+       "natural modes: an elastic beam under a collocated contact force, free flight in closed "
+       "form "
+       "where it yields; the fastest"},
+      {Method::dirk, "dirk",
+       "diagonally implicit Runge-Kutta with error control (ARKODE): stable at any step, but damps "
+       "what it does not resolve"},
+      {Method::imex, "imex",
+       "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler systems"},
+      {Method::adams, "adams",
+       "Adams-Moulton of variable order (CVODE): two evaluations a step; for tolerances of 1e-7 "
+       "and "
+       "below"},
+      {Method::bdf, "bdf",
+       "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser ones orders "
+       "above 2 (solver.max_order) blow up, as they do on any undamped oscillation"},
+  };
+  return names;
+}
+
+std::span<const Named<MassSolverKind>> names_of(MassSolverKind) {
+  static constexpr Named<MassSolverKind> names[] = {
+      {MassSolverKind::tridiagonal, "tridiagonal", "own banded factorisation"},
+      {MassSolverKind::klu, "klu", "SuiteSparse's general sparse factorisation"},
+  };
+  return names;
+}
+
+std::span<const Named<EventHandling>> names_of(EventHandling) {
+  static constexpr Named<EventHandling> names[] = {
+      {EventHandling::located, "located", "steps end at events"},
+      {EventHandling::interpolated, "interpolated", "event times are interpolated within steps"},
+  };
+  return names;
+}
+
+std::span<const Named<ReversalHandling>> names_of(ReversalHandling) {
+  static constexpr Named<ReversalHandling> names[] = {
+      {ReversalHandling::located, "located", "found within steps, whose ends are put right"},
+      {ReversalHandling::step_end, "step-end", "section memory advances at step ends only"},
+  };
+  return names;
+}
+
+std::span<const Named<VectorOperationsKind>> names_of(VectorOperationsKind) {
+  static constexpr Named<VectorOperationsKind> names[] = {
+      {VectorOperationsKind::project, "project", "SUNDIALS on this project's vector operations"},
+      {VectorOperationsKind::library, "library", "SUNDIALS on its own serial vector"},
+  };
+  return names;
+}
+
+std::string_view to_string(Method method) { return name_of(method); }
+std::string_view to_string(EventHandling events) { return name_of(events); }
+
+}  // namespace subimpact

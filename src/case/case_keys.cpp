@@ -1,0 +1,325 @@
+#include "subimpact/case/case_keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "case/case_choices.h"
+#include "case/contact_checks.h"
+#include "case/mesh_checks.h"
+#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/method_tables.h"
+
+namespace subimpact {
+namespace {
+
+// --- what a member's type implies ---------------------------------------------------------------
+
+template <class T>
+struct Member {  // an enumeration
+  static constexpr KeyType type = KeyType::choice;
+  using Choices = T;
+  static KeyValue to_value(T x) { return std::string(name_of(x)); }
+  static T from_value(const KeyValue& v) { return value_of<T>(std::get<std::string>(v)); }
+};
+template <>
+struct Member<double> {
+  static constexpr KeyType type = KeyType::number;
+  static KeyValue to_value(double x) { return x; }
+  static double from_value(const KeyValue& v) {
+    if (const auto* whole = std::get_if<std::int64_t>(&v)) return static_cast<double>(*whole);
+    return std::get<double>(v);
+  }
+};
+template <>
+struct Member<int> {
+  static constexpr KeyType type = KeyType::count;
+  static KeyValue to_value(int x) { return std::int64_t{x}; }
+  static int from_value(const KeyValue& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
+};
+template <>
+struct Member<bool> {
+  static constexpr KeyType type = KeyType::flag;
+  static KeyValue to_value(bool x) { return x; }
+  static bool from_value(const KeyValue& v) { return std::get<bool>(v); }
+};
+template <>
+struct Member<std::string> {
+  static constexpr KeyType type = KeyType::text;
+  static KeyValue to_value(const std::string& x) { return x; }
+  static std::string from_value(const KeyValue& v) { return std::get<std::string>(v); }
+};
+template <>
+struct Member<std::vector<double>> {
+  static constexpr KeyType type = KeyType::numbers;
+  static KeyValue to_value(const std::vector<double>& x) { return x; }
+  static std::vector<double> from_value(const KeyValue& v) {
+    // An empty list of a case file does not say what it is a list of.
+    const auto* numbers = std::get_if<std::vector<double>>(&v);
+    return numbers != nullptr ? *numbers : std::vector<double>{};
+  }
+};
+template <class T>
+struct Member<std::array<T, 2>> {
+  static constexpr KeyType type = KeyType::pair;
+  using Choices = T;
+  static KeyValue to_value(const std::array<T, 2>& x) {
+    return std::vector<std::string>{name_of(x[0]), name_of(x[1])};
+  }
+  static std::array<T, 2> from_value(const KeyValue& v) {
+    const auto& names = std::get<std::vector<std::string>>(v);
+    return {value_of<T>(names[0]), value_of<T>(names[1])};
+  }
+};
+
+template <class T>
+struct RemoveOptional {
+  using type = T;
+  static constexpr bool is_optional = false;
+};
+template <class T>
+struct RemoveOptional<std::optional<T>> {
+  using type = T;
+  static constexpr bool is_optional = true;
+};
+
+// --- the parts of a row -------------------------------------------------------------------------
+
+struct Range {
+  const char* words = "";
+  std::function<bool(double)> holds;
+};
+
+const Range any_value;
+const Range positive{"finite and above 0", [](double x) { return x > 0.0 && std::isfinite(x); }};
+const Range not_negative{"finite, 0 or above",
+                         [](double x) { return x >= 0.0 && std::isfinite(x); }};
+
+Range between(const char* words, double low, double high) {
+  return {words, [low, high](double x) { return x >= low && x <= high; }};
+}
+
+// A cell's second difference carries a rounding error of some 1e-16 N^2 of the curvature, and a
+// run's cost grows as N^2: at the upper limit 1e-6 is lost and an 8 ms strike takes days.
+const Range segment_range = between(
+    "from 5 to 100001 (beyond that rounding in the second differences outweighs what cells gain)",
+    5, 100001);
+// Rounding of curvatures grows as the inverse square of an element's length.
+const Range refinement_range = between("from 1 (equal elements) to 1000", 1.0, 1000.0);
+const Range reach_range{"above 0, up to 1", [](double x) { return x > 0.0 && x <= 1.0; }};
+const Range element_range = between("from 4 to 20000", 4, 20000);
+// At 10000 layers the stiffness is within 1e-8 of that of the exact section.
+const Range layer_range{"even, from 2 to 10000 (for more, section = \"exact\" is their limit)",
+                        [](double n) { return n >= 2 && n <= 10000 && std::fmod(n, 2.0) == 0.0; }};
+
+constexpr const char* required = nullptr;  // as a default: the key has none
+constexpr const char* as_in_case = "";     // as a default: that of the struct Case
+
+template <class Field>
+CaseKey row(const char* name, const char* unit, const Range& range, const char* meaning,
+            const char* default_text, Field field) {
+  using Stored = std::remove_reference_t<decltype(field(std::declval<Case&>()))>;
+  using Value = typename RemoveOptional<Stored>::type;
+  constexpr bool optional = RemoveOptional<Stored>::is_optional;
+  CaseKey key;
+  key.name = name;
+  key.type = Member<Value>::type;
+  key.unit = unit;
+  key.range = range.words;
+  key.in_range = range.holds;
+  key.meaning = meaning;
+  key.get = [field](const Case& from) -> std::optional<KeyValue> {
+    if constexpr (optional) {
+      if (!field(from)) return std::nullopt;
+      return Member<Value>::to_value(*field(from));
+    } else {
+      return Member<Value>::to_value(field(from));
+    }
+  };
+  key.set = [field](Case& to, const KeyValue& value) {
+    field(to) = Member<Value>::from_value(value);
+  };
+  if constexpr (requires { typename Member<Value>::Choices; }) {
+    for (const auto& entry : names_of(typename Member<Value>::Choices{})) {
+      key.choices.push_back({entry.name, entry.note});
+    }
+  }
+  key.required = default_text == required;
+  if (!key.required) {
+    key.default_text = default_text;
+    if (key.default_text.empty()) key.default_text = to_text(*key.get(Case{}));
+  }
+  return key;
+}
+
+CaseKey with_choices(CaseKey key, std::vector<Choice> choices) {
+  key.type = KeyType::choice;
+  key.choices = std::move(choices);
+  return key;
+}
+
+std::vector<Choice> table_choices() {
+  std::vector<Choice> choices;
+  for (const MethodTable& table : method_tables()) {
+    const auto same = std::find_if(choices.begin(), choices.end(),
+                                   [&](const Choice& c) { return c.name == table.name; });
+    if (same != choices.end()) {
+      same->note = fmt::format("{}, {}", to_string(table.method), same->note);
+      continue;
+    }
+    choices.push_back({table.name, fmt::format("{}: {}", to_string(table.method), table.note)});
+  }
+  return choices;
+}
+
+// Only here: a lambda a row would hide the table behind its own punctuation.
+#define AT(member) \
+  [](auto& c) -> auto& { return c.member; }
+
+// clang-format off
+std::vector<CaseKey> make_case_keys() {
+  const Range yield{"above 0, or inf", [](double x) { return x > 0.0; }};
+  const Range modulus{"above 0, or inf", [](double x) { return x > 0.0; }};
+  const Range poisson = between("from 0 to 0.5", 0.0, 0.5);
+  const Range fraction = between("from 0 to 1", 0.0, 1.0);
+  const Range tolerance = between("from 1e-14 to 0.1", 1e-14, 0.1);
+  return {
+    row("title", "", any_value, "name of the case", "\"\"", AT(title)),
+
+    row("beam.length", "m", positive, "length of the beam", required, AT(scene.beam.length)),
+    row("beam.width", "m", positive, "width, along the striker's axis", required, AT(scene.beam.width)),
+    row("beam.thickness", "m", positive, "thickness, in the direction of the strike", required, AT(scene.beam.thickness)),
+    row("beam.density", "kg/m3", positive, "density", required, AT(scene.beam.density)),
+    row("beam.youngs_modulus", "Pa", positive, "Young's modulus", required, AT(scene.beam.youngs_modulus)),
+    row("beam.yield_stress", "Pa", yield, "yield stress of beam and contact; inf: neither yields", as_in_case, AT(scene.beam.yield_stress)),
+    row("beam.theory", "", any_value, "beam theory", as_in_case, AT(scene.beam.theory)),
+    row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
+
+    row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass)),
+    row("striker.nose_radius", "m", positive, "radius of its nose: of a cylinder for contact.law = \"foundation\", of a sphere for \"hertz\"", "none; \"foundation\" needs it: give it", AT(scene.striker.nose_radius)),
+    row("striker.velocity", "m/s", positive, "velocity at the first touch", required, AT(scene.striker.velocity)),
+    row("striker.position", "", fraction, "struck point, as a fraction of the length", as_in_case, AT(scene.striker.position)),
+
+    row("contact.law", "", any_value, "relation of contact force and indentation", as_in_case, AT(scene.contact.kind)),
+    row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from a sphere's radius and moduli; linear needs it", AT(scene.contact.stiffness)),
+    row("contact.striker_modulus", "Pa", modulus, "Young's modulus of a spherical nose, for \"hertz\" without stiffness; inf: rigid", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_modulus)),
+    row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_poisson)),
+    row("contact.beam_poisson", "", poisson, "Poisson's ratio of the beam, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.beam_poisson)),
+
+    row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\", or \"hermite\" if model.elements is given", AT(model.mesh)),
+    row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
+    row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
+    row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points of an element, at which the bending law is asked", as_in_case, AT(model.sections_per_element)),
+    row("model.hinges", "", any_value, "sections of elements where the slope may jump", as_in_case, AT(model.hinges)),
+    row("model.strike_refinement", "", refinement_range, "how many times shorter elements are at the strike than far from it, with mesh = \"hermite\"", as_in_case, AT(model.strike_refinement)),
+    row("model.refined_length", "", reach_range, "over which, on either side of the strike, elements grow to their full length, as a fraction of the beam's", as_in_case, AT(model.refined_length)),
+    row("model.section", "", any_value, "bending law of the sections", as_in_case, AT(model.section)),
+    row("model.layers", "", layer_range, "number of layers over the thickness, with section = \"layers\"", as_in_case, AT(model.layers)),
+    row("model.symmetry", "", any_value, "use of the scene's symmetry about mid-span", as_in_case, AT(model.symmetry)),
+
+    row("time.end", "s", positive, "time at which the simulation ends", required, AT(end_time)),
+    row("time.stop", "", any_value, "when the run stops", as_in_case, AT(stop)),
+
+    row("solver.method", "", any_value, "time integration method", as_in_case, AT(solver.method)),
+    row("solver.rtol", "", tolerance, "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),
+    row("solver.step", "s", positive, "fixed step", "central-difference: 0.9 of the critical step; others: adaptive", AT(solver.step)),
+    row("solver.max_step", "s", positive, "largest step of adaptive methods", "no limit", AT(solver.max_step)),
+    with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),
+    row("solver.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(solver.mass_solver)),
+    row("solver.events", "", any_value, "treatment of an event inside a step", "central-difference: \"interpolated\"; others: \"located\"", AT(solver.events)),
+    row("solver.reversals", "", any_value, "treatment of sections that begin to flow or turn back", "adams, bdf: \"step-end\"; others: \"located\"", AT(solver.reversals)),
+    row("solver.pair_detection", "", any_value, "search for contacts that open and close within one step", as_in_case, AT(solver.pair_detection)),
+    row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", "adams: 12; bdf: 5", AT(solver.max_order)),
+    row("solver.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(solver.vector_operations)),
+    row("solver.beyond_critical", "", any_value, "lets a fixed step exceed the stability limit, to see it fail", as_in_case, AT(solver.beyond_critical)),
+
+    row("accuracy.energy", "", between("above 0, up to 1", std::numeric_limits<double>::min(), 1.0), "largest error of the energy, relative to the initial energy, of a run that counts as completed", "from method and rtol, 1e-3 at most", AT(accuracy.energy)),
+
+    row("output.interval", "s", not_negative, "time between history rows; 0: none", as_in_case, AT(output.interval)),
+    row("output.zone_gap", "", positive, "separation that ends a zone, in first flexural periods", as_in_case, AT(output.zone_gap)),
+    row("output.subzone_gap", "", positive, "separation that ends a sub-zone, in first flexural periods", as_in_case, AT(output.subzone_gap)),
+    row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),
+  };
+}
+// clang-format on
+#undef AT
+
+// --- checks across keys -------------------------------------------------------------------------
+
+// A row takes 144 bytes in memory and some 400 in the file.
+constexpr double most_history_rows = 5e6;
+
+// "; time.end is 8 s, ...", if its unit is doubtful.
+std::string doubt_of_end_time(const Case& input) {
+  for (const std::string& doubt : doubtful_units(input)) {
+    if (doubt.starts_with("time.end ")) return "; " + doubt;
+  }
+  return {};
+}
+
+void check_history_size(const Case& input) {
+  const double rows = input.end_time / input.output.interval;
+  if (input.output.interval == 0.0 || rows <= most_history_rows) return;
+  throw InvalidCase(
+      "output.interval",
+      fmt::format(
+          "is {} s, which asks for {:.2g} history rows up to time.end = {} s; allowed: at most "
+          "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
+          input.output.interval, rows, input.end_time, most_history_rows,
+          input.end_time / most_history_rows) +
+          doubt_of_end_time(input));
+}
+
+void check_sections(const Case& input) {
+  if (input.output.sections.empty() || input.output.interval > 0.0) return;
+  throw InvalidCase("output.sections",
+                    "is given, but output.interval = 0 keeps no rows of them; leave it out, or "
+                    "set an output.interval above 0");
+}
+
+void check_gaps(const Case& input) {
+  if (input.output.subzone_gap <= input.output.zone_gap) return;
+  throw InvalidCase("output.subzone_gap",
+                    fmt::format("is {}, above output.zone_gap = {}, but sub-zones divide zones; "
+                                "allowed: above 0, up to output.zone_gap; reduce it",
+                                input.output.subzone_gap, input.output.zone_gap));
+}
+
+}  // namespace
+
+const std::vector<CaseKey>& case_keys() {
+  static const std::vector<CaseKey> keys = make_case_keys();
+  return keys;
+}
+
+const CaseKey* find_case_key(std::string_view name) {
+  for (const CaseKey& key : case_keys()) {
+    if (key.name == name) return &key;
+  }
+  return nullptr;
+}
+
+void assign(Case& target, const CaseKey& key, const KeyValue& value) {
+  if (const auto problem = problem_with(key, value)) throw InvalidCase(key.name, *problem);
+  key.set(target, value);
+}
+
+void check(const Case& input) {
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(input);
+    if (!value) continue;
+    if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
+  }
+  check_contact(input);
+  check_mesh(input);
+  check_history_size(input);
+  check_gaps(input);
+  check_sections(input);
+}
+
+}  // namespace subimpact

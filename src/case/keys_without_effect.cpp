@@ -1,0 +1,127 @@
+#include "subimpact/case/keys_without_effect.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+// --- what makes a key idle -----------------------------------------------------------------------
+
+bool is_rigid(const Case& c) { return c.model.mesh == MeshKind::rigid; }
+bool has_no_cells(const Case& c) { return c.model.mesh != MeshKind::cells; }
+bool has_no_elements(const Case& c) { return c.model.mesh != MeshKind::hermite; }
+bool is_not_layered(const Case& c) { return c.model.section != SectionKind::layers; }
+bool has_elastic_sections(const Case& c) { return c.model.section == SectionKind::elastic; }
+bool never_yields(const Case& c) { return std::isinf(c.scene.beam.yield_stress); }
+bool is_equal_mesh(const Case& c) { return c.model.strike_refinement == 1.0; }
+
+bool is_central(const Case& c) { return c.solver.method == Method::central_difference; }
+bool has_fixed_step(const Case& c) { return c.solver.step.has_value(); }
+bool interpolates_events(const Case& c) {
+  return c.solver.events.value_or(is_central(c)
+                                      ? EventHandling::interpolated
+                                      : EventHandling::located) == EventHandling::interpolated;
+}
+bool central_interpolates(const Case& c) { return is_central(c) && !c.solver.events; }
+// What sections do within a step is put right to within the tolerance, with a fixed step too.
+bool locates_reversals(const Case& c) {
+  const bool multistep = c.solver.method == Method::adams || c.solver.method == Method::bdf;
+  const bool may_yield = !is_rigid(c) && !has_elastic_sections(c) && !never_yields(c);
+  return may_yield && !interpolates_events(c) &&
+         c.solver.reversals.value_or(multistep
+                                         ? ReversalHandling::step_end
+                                         : ReversalHandling::located) == ReversalHandling::located;
+}
+bool central_needs_no_tolerance(const Case& c) { return is_central(c) && !locates_reversals(c); }
+// Implicit methods solve their equations to the tolerance, whatever the step.
+bool fixed_step_needs_no_tolerance(const Case& c) {
+  const bool implicit = c.solver.method == Method::dirk || c.solver.method == Method::imex;
+  return has_fixed_step(c) && !implicit && !locates_reversals(c);
+}
+bool is_not_sundials(const Case& c) {
+  return is_central(c) || c.solver.method == Method::nystrom ||
+         c.solver.method == Method::exponential;
+}
+bool is_not_central(const Case& c) { return !is_central(c); }
+bool ignores_the_nose(const Case& c) {
+  return c.scene.contact.kind == ContactKind::linear || c.scene.contact.stiffness.has_value();
+}
+
+/// A key that is idle where `is_idle` holds, because of the value of the key `because_of`.
+struct IdleKey {
+  const char* name;
+  const char* because_of;
+  bool (*is_idle)(const Case&);
+};
+
+// The first row that holds gives the reason.
+constexpr IdleKey idle_keys[] = {
+    {"striker.nose_radius", "contact.law",
+     [](const Case& c) { return c.scene.contact.kind == ContactKind::linear; }},
+    {"striker.nose_radius", "contact.stiffness", ignores_the_nose},
+    {"model.segments", "model.mesh", has_no_cells},
+    {"model.elements", "model.mesh", has_no_elements},
+    {"model.sections_per_element", "model.mesh", has_no_elements},
+    {"model.hinges", "model.mesh", has_no_elements},
+    {"model.hinges", "model.section", has_elastic_sections},
+    {"model.hinges", "beam.yield_stress", never_yields},
+    {"model.strike_refinement", "model.mesh", has_no_elements},
+    {"model.refined_length", "model.mesh", has_no_elements},
+    {"model.refined_length", "model.strike_refinement", is_equal_mesh},
+    {"model.section", "model.mesh", is_rigid},
+    {"model.section", "beam.yield_stress",
+     [](const Case& c) { return never_yields(c) && !has_elastic_sections(c); }},
+    {"model.layers", "model.mesh", is_rigid},
+    {"model.layers", "model.section", is_not_layered},
+    {"model.layers", "beam.yield_stress", never_yields},
+    {"model.symmetry", "model.mesh", is_rigid},
+    {"solver.rtol", "solver.method", central_needs_no_tolerance},
+    {"solver.rtol", "solver.step", fixed_step_needs_no_tolerance},
+    {"solver.max_step", "solver.method", is_central},
+    {"solver.max_step", "solver.step", has_fixed_step},
+    {"solver.reversals", "model.mesh", is_rigid},
+    {"solver.reversals", "model.section", has_elastic_sections},
+    {"solver.reversals", "beam.yield_stress", never_yields},
+    {"solver.reversals", "solver.method", central_interpolates},
+    {"solver.reversals", "solver.events", interpolates_events},
+    {"solver.pair_detection", "solver.method", central_interpolates},
+    {"solver.pair_detection", "solver.events", interpolates_events},
+    {"solver.vector_operations", "solver.method", is_not_sundials},
+    {"solver.beyond_critical", "solver.method", is_not_central},
+};
+
+bool is_given(const GivenKeys& given, const char* name) {
+  return given.in_file.contains(name) || given.in_settings.contains(name);
+}
+
+bool is_overridden(const GivenKeys& given, const IdleKey& key) {
+  return !given.in_settings.contains(key.name) && given.in_settings.contains(key.because_of);
+}
+
+std::string setting_text(const Case& input, const char* name) {
+  const std::optional<KeyValue> value = find_case_key(name)->get(input);
+  return fmt::format("{} = {}", name, value ? to_text(*value) : "(not given)");
+}
+
+}  // namespace
+
+std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given) {
+  std::vector<std::string> notes;
+  std::string_view last;
+  for (const IdleKey& key : idle_keys) {
+    if (key.name == last || !is_given(given, key.name) || !key.is_idle(input)) continue;
+    last = key.name;
+    if (is_overridden(given, key)) continue;
+    notes.push_back(fmt::format("{} has no effect with {}", setting_text(input, key.name),
+                                setting_text(input, key.because_of)));
+  }
+  return notes;
+}
+
+}  // namespace subimpact

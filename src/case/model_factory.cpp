@@ -1,0 +1,374 @@
+#include "case/model_factory.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "case/mesh_checks.h"
+#include "integrate/cvode.h"
+#include "integrate/klu_mass_solver.h"
+#include "model/cell_mesh.h"
+#include "model/flexural_frequencies.h"
+#include "model/hermite_mesh.h"
+#include "model/modal_mesh.h"
+#include "model/rigid_mesh.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/method_tables.h"
+#include "system/contact_resonance.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double default_part_of_critical = 0.9;
+// Steps that the default step makes at least in the time scale of the shortest contacts, to follow
+// them, and where all of the strike's energy goes through them, to keep it to 1e-4.
+constexpr double default_steps_in_contact = 8.0;
+constexpr double default_steps_to_keep_energy = 48.0;
+// Central differences keep no energy where the length of the step changes: after a step cut short
+// at an event the energy of a mode of angle omega h may be off by (omega h/2)^2. Up to this part of
+// the critical step that is 2 % of the fastest mode at an event.
+constexpr double largest_part_if_located = 0.15;
+
+// Energy errors of adaptive methods are some 1 to 1000 rtol, with Cash and Karp's table, which
+// grows slowly where it should be neutral, 1000. What is tolerated by default, within bounds:
+constexpr double tolerated_energy_per_rtol = 1e4;
+constexpr double least_tolerated_energy = 1e-6;
+constexpr double most_tolerated_energy = 1e-3;
+constexpr double tolerated_momentum = 1e-9;
+constexpr int default_adams_order = 12;
+// Orders above 2 are unstable on undamped oscillations, but only for steps that tolerances of 1e-7
+// and below do not take; there order 5 is 20 times as accurate as order 2 in a quarter of the
+// evaluations.
+constexpr int default_bdf_order = 5;
+
+// How far putting right what sections do within a step may be off, in units of the integrator's own
+// tolerance on velocities. At 1 it is off by a third of it, root mean square over the steps of the
+// paper's beam; a tighter one costs more steps than the events gain.
+constexpr double kink_share = 1.0;
+
+bool is_symmetric(const Scene& scene) {
+  return scene.striker.position == 0.5 && scene.beam.ends[0] == scene.beam.ends[1];
+}
+
+std::vector<std::string> tables_of(Method method) {
+  std::vector<std::string> names;
+  for (const MethodTable& table : method_tables()) {
+    if (table.method == method) names.push_back(table.name);
+  }
+  return names;
+}
+
+bool is_multistep(Method method) { return method == Method::adams || method == Method::bdf; }
+
+std::optional<int> max_order_used(const Case& input) {
+  const std::optional<int>& asked = input.solver.max_order;
+  const Method method = input.solver.method;
+  if (!is_multistep(method)) {
+    if (!asked) return std::nullopt;
+    throw InvalidCase(
+        "solver.max_order",
+        fmt::format("is {}, but {} has no order to choose; leave it out, or use adams "
+                    "or bdf",
+                    *asked, to_string(method)));
+  }
+  const int limit = method == Method::adams ? adams_order_limit : bdf_order_limit;
+  const int order =
+      asked.value_or(method == Method::adams ? default_adams_order : default_bdf_order);
+  if (order < 1 || order > limit) {
+    throw InvalidCase("solver.max_order", fmt::format("is {}; allowed for {}: from 1 to {}", order,
+                                                      to_string(method), limit));
+  }
+  return order;
+}
+
+// The method relies on a force that is smooth within a step.
+void check_exponential_events(const Used& used) {
+  if (used.events == EventHandling::located) return;
+  throw InvalidCase(
+      "solver.events",
+      "is \"interpolated\", but the steps of exponential are too long for it; allowed: "
+      "\"located\"; leave it out, or use another solver.method");
+}
+
+// On a beam that may yield it relies on seeing where sections begin to flow, too.
+void check_yielding_exponential(const Case& input, const Used& used) {
+  const auto refuse = [](const char* key, const char* what) {
+    throw InvalidCase(key, fmt::format("is {}, which exponential cannot do where the beam may "
+                                       "yield; leave it out, set model.section = \"elastic\", or "
+                                       "use nystrom",
+                                       what));
+  };
+  if (input.solver.step) refuse("solver.step", "given: a fixed step");
+  if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
+}
+
+// The table asked for, or the method's first; nothing for a method without tables.
+std::optional<std::string> table_used(const Case& input) {
+  const std::vector<std::string> names = tables_of(input.solver.method);
+  const std::optional<std::string>& asked = input.solver.table;
+  if (!asked) return names.empty() ? std::nullopt : std::optional(names.front());
+  if (std::find(names.begin(), names.end(), *asked) == names.end()) {
+    throw InvalidCase(
+        "solver.table",
+        fmt::format("is \"{}\", which {} does not have; {}", *asked, to_string(input.solver.method),
+                    names.empty() ? "leave it out: the method has no tables"
+                                  : fmt::format("allowed: {}", fmt::join(names, ", "))));
+  }
+  return asked;
+}
+
+double default_central_step(const Used& used) {
+  // The scheme's energy is off by some (h/T)^2 of what the contact's own motion holds, m_eff/m of
+  // the whole.
+  const double steps = std::max(default_steps_in_contact,
+                                default_steps_to_keep_energy * std::sqrt(used.contact_mass_share));
+  return std::min(default_part_of_critical * used.critical_step, used.contact_time / steps);
+}
+
+// Numbers that are possible one by one may overflow or vanish together.
+void check_scales(const Case& input, const StruckBeam& beam) {
+  const double energy =
+      0.5 * input.scene.striker.mass * input.scene.striker.velocity * input.scene.striker.velocity;
+  const SecondOrderOde::Scales scales = beam.scales();
+  const double smallest = std::min({energy, scales.position, scales.velocity});
+  const double largest = std::max({energy, scales.position, scales.velocity});
+  if (smallest > 1e-100 && largest < 1e100) return;
+  throw InvalidCase(
+      "striker.velocity",
+      fmt::format(
+          "is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: "
+          "beyond what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; "
+          "check the units of striker and contact",
+          input.scene.striker.velocity, energy, scales.position));
+}
+
+void check_central_step(const Case& input, const Used& used) {
+  const double step = *used.step;
+  if (step > used.critical_step && !input.solver.beyond_critical) {
+    throw InvalidCase(
+        "solver.step",
+        fmt::format("is {:.6g} us, above the stability limit of central differences for this beam "
+                    "with the contact at its stiffest, {:.6g} us (2/omega); use a smaller step, "
+                    "leave it out for {:.6g} us, or set solver.beyond_critical = true to see it "
+                    "fail",
+                    1e6 * step, 1e6 * used.critical_step, 1e6 * default_central_step(used)));
+  }
+  if (used.events == EventHandling::located && used.highest_frequency > 0.0 &&
+      step > largest_part_if_located * used.critical_step) {
+    throw InvalidCase(
+        "solver.events",
+        fmt::format("is \"located\" with central differences of {:.6g} us, which gain energy "
+                    "without bound where steps end at events; allowed: \"interpolated\" (the "
+                    "default), or a solver.step up to {:.6g} us; leave it out",
+                    1e6 * step, 1e6 * largest_part_if_located * used.critical_step));
+  }
+}
+
+double energy_tolerance(const Case& input, const Used& used) {
+  if (input.accuracy.energy) return *input.accuracy.energy;
+  if (used.step || used.events == EventHandling::interpolated) return most_tolerated_energy;
+  return std::clamp(tolerated_energy_per_rtol * input.solver.rtol, least_tolerated_energy,
+                    most_tolerated_energy);
+}
+
+// A full check costs about one evaluation of the forces and is to take at most some hundredths of
+// the steps between two.
+long audit_interval(Method method) {
+  switch (method) {
+    case Method::central_difference:
+      return 256;
+    case Method::adams:
+    case Method::bdf:
+      return 64;
+    case Method::dirk:
+    case Method::imex:
+      return 4;
+    default:
+      return 32;
+  }
+}
+
+std::unique_ptr<BeamMesh> make_rigid_mesh(const Case& input) {
+  for (const EndSupport end : input.scene.beam.ends) {
+    if (end == EndSupport::free) continue;
+    throw InvalidCase("model.mesh",
+                      "is \"rigid\", but a rigid beam moves only with free ends; set beam.ends = "
+                      "[\"free\", \"free\"] (a heavy beam stands for a fixed one), or use another "
+                      "mesh");
+  }
+  return std::make_unique<RigidMesh>(input.scene.beam, input.scene.striker.position);
+}
+
+std::unique_ptr<BeamMesh> make_cell_mesh(const Case& input) {
+  const bool half = uses_symmetry(input);
+  const int segments = input.model.segments;
+  if (half && segments % 2 == 0) {
+    throw InvalidCase(
+        "model.segments",
+        fmt::format(
+            "is {}, but the half model of a scene struck at mid-span needs an odd number, so "
+            "that a cell lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
+            segments, segments - 1, segments + 1));
+  }
+  return std::make_unique<CellMesh>(input.scene.beam, input.scene.striker.position,
+                                    static_cast<std::size_t>(segments),
+                                    half ? CellMesh::Extent::half : CellMesh::Extent::whole);
+}
+
+bool sections_may_yield(const Case& input) {
+  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
+         std::isfinite(input.scene.beam.yield_stress);
+}
+
+std::unique_ptr<BeamMesh> make_hermite_mesh(const Case& input) {
+  const bool half = uses_symmetry(input);
+  const int elements = input.model.elements;
+  if (half && elements % 2 != 0) {
+    throw InvalidCase(
+        "model.elements",
+        fmt::format("is {}, but the half model of a scene struck at mid-span needs an even number, "
+                    "so that a node lies under the striker; use {} or {}, or set model.symmetry = "
+                    "\"off\"",
+                    elements, elements - 1, elements + 1));
+  }
+  return std::make_unique<HermiteMesh>(
+      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
+      static_cast<std::size_t>(input.model.sections_per_element),
+      half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole,
+      HermiteMesh::Options{grading_of(input),
+                           input.model.hinges == HingeUse::automatic && sections_may_yield(input)});
+}
+
+std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
+  switch (input.model.mesh) {
+    case MeshKind::cells:
+      return make_cell_mesh(input);
+    case MeshKind::hermite:
+      return make_hermite_mesh(input);
+    case MeshKind::rigid:
+      return make_rigid_mesh(input);
+  }
+  throw std::logic_error("make_mesh: a mesh of no kind");
+}
+
+// Whether an elastic beam on this mesh is integrated in its natural modes. Explicit methods see the
+// same motion in either unknowns, but a step in modes needs no mass solve.
+bool in_modes(const Case& input, const BeamMesh& mesh) {
+  switch (input.solver.method) {
+    case Method::exponential:
+      return true;
+    case Method::central_difference:
+    case Method::erk:
+    case Method::nystrom:
+      return mesh.prefers_modes() && input.solver.mass_solver == MassSolverKind::tridiagonal;
+    default:
+      return false;
+  }
+}
+
+SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {
+  const Beam& beam = input.scene.beam;
+  if (!sections_may_yield(input)) return SectionField(n, beam.bending_stiffness());
+  const Fibres fibres = input.model.section == SectionKind::layers
+                            ? Fibres::layered(input.model.layers)
+                            : Fibres::continuous();
+  return SectionField(n, SectionLaw(beam, fibres), storage);
+}
+
+}  // namespace
+
+bool uses_symmetry(const Case& input) {
+  return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input.scene);
+}
+
+StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage,
+                            Coordinates coordinates) {
+  std::unique_ptr<BeamMesh> mesh = make_mesh(input);
+  SectionField sections = make_sections(input, mesh->n_sections(), storage);
+  if (coordinates == Coordinates::chosen && !sections.can_yield() && in_modes(input, *mesh)) {
+    mesh = std::make_unique<ModalMesh>(std::move(mesh), input.scene.beam.bending_stiffness());
+  }
+  std::unique_ptr<MassSolver> solver;
+  if (input.solver.mass_solver == MassSolverKind::klu) {
+    solver = make_klu_mass_solver(mesh->mass());
+  } else {
+    solver = std::make_unique<BandedSolver>(mesh->mass());
+  }
+  return StruckBeam(input.scene, std::move(mesh), std::move(sections), std::move(solver));
+}
+
+Used describe(const Case& input, const StruckBeam& beam) {
+  const Scene& scene = input.scene;
+  Used used;
+  used.half_model = beam.mesh().symmetric();
+  used.n_unknowns = beam.mesh().n_unknowns();
+  used.n_sections = beam.mesh().n_sections();
+  used.mesh = beam.mesh().description();
+  used.highest_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
+  const ContactResonance resonance = contact_resonance(beam, scene.beam.thickness);
+  used.largest_contact_slope = resonance.largest_slope;
+  used.joined_frequency = resonance.highest_frequency;
+  used.contact_time = resonance.contact_time;
+  used.contact_mass_share = resonance.effective_mass / scene.striker.mass;
+  used.critical_step = 2.0 / used.joined_frequency;
+  used.contact_stiffness = beam.contact_law().stiffness();
+  used.contact_exponent = beam.contact_law().exponent();
+  used.yield_indentation = beam.contact_law().yield_indentation();
+  used.yield_curvature = scene.beam.yield_curvature();
+  used.first_period = 2.0 * M_PI / flexural_frequencies(scene.beam, 1).front();
+  used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
+  check_scales(input, beam);
+  used.table = table_used(input);
+  const bool central = input.solver.method == Method::central_difference;
+  used.events =
+      input.solver.events.value_or(central ? EventHandling::interpolated : EventHandling::located);
+  // To a multistep method a restart at each turn costs more than the turn's error.
+  used.reversals = input.solver.reversals.value_or(
+      is_multistep(input.solver.method) ? ReversalHandling::step_end : ReversalHandling::located);
+  used.max_order = max_order_used(input);
+  if (input.solver.method == Method::exponential) check_exponential_events(used);
+  if (input.solver.method == Method::exponential && beam.sections().can_yield()) {
+    check_yielding_exponential(input, used);
+  }
+  if (is_multistep(input.solver.method) && input.solver.step) {
+    throw InvalidCase(
+        "solver.step",
+        fmt::format("is {} s, but {} chooses step and order together and has no fixed step; leave "
+                    "it out (solver.max_step bounds the step), or use another method",
+                    *input.solver.step, to_string(input.solver.method)));
+  }
+  if (central) {
+    used.step = input.solver.step.value_or(default_central_step(used));
+    check_central_step(input, used);
+  } else {
+    used.step = input.solver.step;
+    if (!used.step) {
+      const SecondOrderOde::Scales scales = beam.scales();
+      used.position_tolerance = input.solver.rtol * scales.position;
+      used.velocity_tolerance = input.solver.rtol * scales.velocity;
+    }
+  }
+  used.energy_tolerance = energy_tolerance(input, used);
+  return used;
+}
+
+AuditLimits audit_limits(const Used& used) { return {used.energy_tolerance, tolerated_momentum}; }
+
+LoopOptions loop_options(const Case& input, const Used& used) {
+  LoopOptions options;
+  options.end_time = input.end_time;
+  options.events = used.events;
+  if (used.reversals == ReversalHandling::located) {
+    options.kink_tolerance = kink_share * input.solver.rtol * input.scene.striker.velocity;
+  }
+  options.largest_indentation = input.scene.beam.thickness;
+  options.audit_interval = audit_interval(input.solver.method);
+  options.shortest_contact = M_PI / used.joined_frequency;
+  return options;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,65 @@
+#include "numerics/banded_matrix.h"
+
+#include <algorithm>
+
+#include "numerics/lanes.h"
+
+namespace subimpact {
+
+void BandedMatrix::multiply(std::span<const double> x, std::span<double> result) const {
+  for (std::size_t i = 0; i < size_; ++i) result[i] = values_[i] * x[i];
+  for (std::size_t k = 1; k <= half_bandwidth_; ++k) {
+    const double* off = values_.data() + k * size_;
+    for (std::size_t i = 0; i + k < size_; ++i) {
+      result[i] += off[i] * x[i + k];
+      result[i + k] += off[i] * x[i];
+    }
+  }
+}
+
+double BandedMatrix::quadratic_form(std::span<const double> x) const {
+  const double* at = x.data();
+  const std::size_t width = std::min(half_bandwidth_ + 1, size_);
+  const std::size_t whole = (size_ + 1 - width) / n_lanes * n_lanes;
+  // Diagonals beside the main one count twice: below it and above.
+  Lanes main{};
+  Lanes beside{};
+  for (std::size_t i = 0; i < whole; i += n_lanes) {
+    const Lanes here = lanes_at(at + i);
+    main += lanes_at(values_.data() + i) * here * here;
+    for (std::size_t k = 1; k < width; ++k) {
+      beside += lanes_at(values_.data() + k * size_ + i) * here * lanes_at(at + i + k);
+    }
+  }
+  double total = sum(main) + 2.0 * sum(beside);
+  for (std::size_t i = whole; i < size_; ++i) {
+    total += values_[i] * at[i] * at[i];
+    for (std::size_t k = 1; k < width && i + k < size_; ++k) {
+      total += 2.0 * values_[k * size_ + i] * at[i] * at[i + k];
+    }
+  }
+  return total;
+}
+
+bool BandedMatrix::is_positive_definite() const {
+  BandedMatrix factor(size_, half_bandwidth_);  // unit lower triangle; D on the diagonal
+  for (std::size_t j = 0; j < size_; ++j) {
+    const std::size_t first = j > half_bandwidth_ ? j - half_bandwidth_ : 0;
+    double pivot = at(j, j);
+    for (std::size_t k = first; k < j; ++k) {
+      pivot -= factor.at(j, k) * factor.at(j, k) * factor.at(k, k);
+    }
+    if (!(pivot > 0.0)) return false;
+    factor.at(j, j) = pivot;
+    for (std::size_t i = j + 1; i <= std::min(j + half_bandwidth_, size_ - 1); ++i) {
+      double sum = at(i, j);
+      for (std::size_t k = i > half_bandwidth_ ? i - half_bandwidth_ : 0; k < j; ++k) {
+        sum -= factor.at(i, k) * factor.at(j, k) * factor.at(k, k);
+      }
+      factor.at(i, j) = sum / pivot;
+    }
+  }
+  return true;
+}
+
+}  // namespace subimpact

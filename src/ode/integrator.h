@@ -1,0 +1,85 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "ode/second_order_ode.h"
+
+namespace subimpact {
+
+/// What the integration has cost so far.
+struct WorkCounts {
+  long steps = 0;  ///< accepted steps
+  long rejected_steps = 0;
+  long right_hand_sides = 0;  ///< evaluations of the acceleration asked for by the integrator
+  long partial_steps = 0;     ///< steps retaken to a time inside the last one
+  long mass_solves = 0;       ///< beyond those of the accelerations
+  long jacobians = 0;         ///< evaluations of the tangent stiffness
+  long factorisations = 0;    ///< numerical ones, of Newton matrices
+  long pattern_analyses = 0;  ///< symbolic ones: one a matrix
+  long nonlinear_iterations = 0;
+  long nonlinear_failures = 0;  ///< solves that did not converge
+};
+
+/// An integrator that cannot go on. `what()` says all; the parts are kept for reports.
+class IntegrationFailure : public std::runtime_error {
+ public:
+  IntegrationFailure(double time, const std::string& function, const std::string& flag,
+                     const std::string& detail)
+      : std::runtime_error(function + " failed with " + flag +
+                           (detail.empty() ? "" : ": " + detail)),
+        time(time),
+        function(function),
+        flag(flag) {}
+  double time;           ///< s, up to which the solution is good
+  std::string function;  ///< library function or own routine
+  std::string flag;      ///< its error's name
+};
+
+/// One method's way through a smooth stretch of q'' = a(q). It knows neither beams nor events: the
+/// caller looks at each step, may ask for the state anywhere inside it, and restarts after an
+/// event.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Begins, or begins again after an event, at (t, y). The acceleration may have changed.
+  virtual void restart(double t, const State& y) = 0;
+
+  /// Takes one accepted step from time() on. May pass any event: the acceleration is then that of
+  /// the branch in force, continued. Throws IntegrationFailure; time() and state() are then still
+  /// those of the last accepted step.
+  virtual void step() = 0;
+
+  // The last step's ends; both are the present state before the first step after a restart.
+  double start_time() const { return t0_; }
+  double time() const { return t1_; }
+  const State& start_state() const { return y0_; }
+  const State& state() const { return y1_; }
+
+  /// The state at a time within the last step, with the method's own accuracy (a partial step from
+  /// the start, not an interpolant of lower order).
+  virtual void state_at(double t, State& y) = 0;
+
+  /// The same, followed backwards from the step's end. It differs from state_at by the step's own
+  /// error, which is large only where the force changes within the step.
+  virtual void state_before_end(double t, State& y) { state_at(t, y); }
+
+  /// Whether the integrator itself has shown that nothing happened in the last step, however long:
+  /// nobody need look for events in it.
+  virtual bool is_eventless() const { return false; }
+
+  virtual WorkCounts work() const = 0;
+
+ protected:
+  /// For a step that failed after its start became (t0_, y0_): back to that start.
+  void undo_step() {
+    t1_ = t0_;
+    y1_ = y0_;
+  }
+
+  double t0_ = 0.0, t1_ = 0.0;
+  State y0_, y1_;
+};
+
+}  // namespace subimpact

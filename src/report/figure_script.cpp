@@ -1,0 +1,217 @@
+#include "report/figure_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace subimpact {
+namespace {
+
+constexpr double line_tolerance = 0.15;  // pixels
+constexpr int mark_height = 26;          // pixels
+
+double distance_from_segment(Point p, Point a, Point b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  const double length_squared = dx * dx + dy * dy;
+  double share = 0.0;  // of the segment, up to the point nearest to p
+  if (length_squared > 0.0) {
+    share = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length_squared, 0.0, 1.0);
+  }
+  return std::hypot(p.x - (a.x + share * dx), p.y - (a.y + share * dy));
+}
+
+// Indices of the first and last point and of the smallest and largest coordinates, in order.
+std::vector<std::size_t> extremes(const std::vector<Point>& line) {
+  std::vector<std::size_t> found{0, line.size() - 1};
+  for (double Point::*coordinate : {&Point::x, &Point::y}) {
+    const auto [low, high] = std::minmax_element(
+        line.begin(), line.end(),
+        [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+    found.push_back(static_cast<std::size_t>(low - line.begin()));
+    found.push_back(static_cast<std::size_t>(high - line.begin()));
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+// The points that a panel shows; all of them if it would show none.
+std::vector<Point> shown_points(const std::vector<Point>& points,
+                                const std::optional<AxisRange>& x_range) {
+  if (!x_range) return points;
+  std::vector<Point> shown;
+  for (const Point& p : points) {
+    if (p.x >= x_range->from && p.x <= x_range->to) shown.push_back(p);
+  }
+  return shown.empty() ? points : shown;
+}
+
+double extent(const std::vector<Point>& points, double Point::*coordinate) {
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(),
+      [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+  return (*high).*coordinate - (*low).*coordinate;
+}
+
+}  // namespace
+
+std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, double y_scale,
+                            double tolerance) {
+  if (line.size() < 3) return line;
+  std::vector<bool> kept(line.size(), false);
+  const auto scaled = [&](std::size_t i) {
+    return Point{line[i].x / x_scale, line[i].y / y_scale};
+  };
+  std::vector<std::pair<std::size_t, std::size_t>> spans;
+  const std::vector<std::size_t> fixed = extremes(line);
+  for (std::size_t k = 0; k < fixed.size(); ++k) {
+    kept[fixed[k]] = true;
+    if (k > 0) spans.push_back({fixed[k - 1], fixed[k]});
+  }
+  while (!spans.empty()) {
+    const auto [first, last] = spans.back();
+    spans.pop_back();
+    double largest = tolerance;
+    std::size_t furthest = first;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double distance = distance_from_segment(scaled(i), scaled(first), scaled(last));
+      if (distance <= largest) continue;
+      largest = distance;
+      furthest = i;
+    }
+    if (furthest == first) continue;
+    kept[furthest] = true;
+    spans.push_back({first, furthest});
+    spans.push_back({furthest, last});
+  }
+  std::vector<Point> thinned;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (kept[i]) thinned.push_back(line[i]);
+  }
+  return thinned;
+}
+
+FigureScript::FigureScript(std::string name, std::string caption, FigureSize size)
+    : name_(std::move(name)), caption_(std::move(caption)), size_(size) {}
+
+FigureSize FigureScript::size() const {
+  return {size_.width, size_.height + mark_height * static_cast<int>(marks_.size())};
+}
+
+std::string FigureScript::text() const {
+  std::string title;  // a newline between marks, as gnuplot writes it within double quotes
+  for (const std::string& text : marks_) {
+    title += fmt::format("{}{{/:Bold {}}}", title.empty() ? "" : "\\n", text);
+  }
+  return "# " + caption_ + "\n" + figure_style() + data_ +
+         fmt::format("panels = {:.6g}\n", 1.0 * size_.height / size().height) +
+         (title.empty() ? "set multiplot\n"
+                        : fmt::format("set multiplot title \"{}\" font ',12'\n", title)) +
+         commands_ + "unset multiplot\n";
+}
+
+std::string FigureScript::line(const std::vector<Point>& points, const Box& box,
+                               const std::optional<AxisRange>& x_range) {
+  if (points.empty()) return this->points(points);
+  const double x_pixels = size_.width * (box.right - box.left);
+  const double y_pixels = size_.height * (box.top - box.bottom);
+  const std::vector<Point> shown = shown_points(points, x_range);
+  const double x_extent = x_range ? x_range->to - x_range->from : extent(shown, &Point::x);
+  const double x_scale = x_extent / x_pixels;
+  const double y_scale = extent(shown, &Point::y) / y_pixels;
+  return this->points(thin_out(points, x_scale > 0.0 ? x_scale : 1.0, y_scale > 0.0 ? y_scale : 1.0,
+                               line_tolerance));
+}
+
+std::string FigureScript::points(const std::vector<Point>& points) {
+  const std::string name = fmt::format("$data{}", ++n_data_);
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{} << EOD\n", name);
+  for (const Point& point : points) fmt::format_to(out, "{:.7g} {:.7g}\n", point.x, point.y);
+  // A block without rows is an error to gnuplot; this one draws nothing.
+  if (points.empty()) fmt::format_to(out, "NaN NaN\n");
+  fmt::format_to(out, "EOD\n");
+  data_ += fmt::to_string(text);
+  return name;
+}
+
+void FigureScript::place(const Box& box) {
+  *this << fmt::format(
+      "set lmargin at screen {}; set rmargin at screen {}\n"
+      "set bmargin at screen {}*panels; set tmargin at screen {}*panels\n",
+      box.left, box.right, box.bottom, box.top);
+}
+
+void FigureScript::shade(const std::vector<Band>& bands) {
+  *this << "unset object\n";
+  for (const Band& band : bands) {
+    *this << fmt::format(
+        "set object rectangle from first {:.7g}, graph 0 to first {:.7g}, graph 1 behind "
+        "fillcolor rgb '{}' fillstyle solid noborder\n",
+        band.from, band.to, band.colour);
+  }
+}
+
+double tic_spacing(double extent, int parts) {
+  if (!(extent > 0.0)) return 1.0;
+  const double raw = extent / parts;
+  const double decade = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * decade >= raw) return factor * decade;
+  }
+  return 10.0 * decade;
+}
+
+Unit force_unit(double largest) {
+  if (largest >= 1e3) return {1e-3, "kN"};
+  if (largest >= 0.1) return {1.0, "N"};
+  return {1e3, "mN"};
+}
+
+Unit length_unit(double largest) {
+  if (largest >= 1e-4) return {1e3, "mm"};
+  if (largest >= 1e-7) return {1e6, "µm"};
+  return {1e9, "nm"};
+}
+
+Unit energy_unit(double largest) {
+  if (largest >= 0.1) return {1.0, "J"};
+  if (largest >= 1e-4) return {1e3, "mJ"};
+  return {1e6, "µJ"};
+}
+
+double largest(const Result& result, double HistoryRow::*member) {
+  double found = 0.0;
+  for (const HistoryRow& row : result.history) found = std::max(found, std::abs(row.*member));
+  return found;
+}
+
+TimeUnit time_unit(double length) {
+  if (length > 1e-3) return {1e3, "ms"};
+  return {1e6, "µs"};
+}
+
+std::vector<FigureScript::Band> sub_impact_bands(const Result& result, TimeUnit unit) {
+  std::vector<FigureScript::Band> bands;
+  for (const SubImpact& s : result.sub_impacts) {
+    bands.push_back({s.start * unit.per_second,
+                     s.end.value_or(result.outcome.time) * unit.per_second, band_colour});
+  }
+  return bands;
+}
+
+std::vector<Point> history_line(const Result& result, TimeUnit unit, double HistoryRow::*member,
+                                double factor) {
+  std::vector<Point> line;
+  for (const HistoryRow& row : result.history) {
+    line.push_back({row.time * unit.per_second, row.*member * factor});
+  }
+  return line;
+}
+
+}  // namespace subimpact

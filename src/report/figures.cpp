@@ -1,0 +1,75 @@
+#include "subimpact/report/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/figure_script.h"
+#include "subimpact/io/report.h"
+
+namespace subimpact {
+namespace {
+
+// The sections that `bending` has no room for.
+std::string sections_left_out(const std::vector<double>& sections) {
+  std::string positions;
+  for (std::size_t k = most_bending_panels; k < sections.size(); ++k) {
+    positions += fmt::format("{}{:g}", positions.empty() ? "" : ", ", sections[k]);
+  }
+  return fmt::format(
+      "bending: sections {} to {} of output.sections ({}): the figure has room for {}; run the "
+      "case again with fewer, or draw them from sections.csv",
+      most_bending_panels + 1, sections.size(), positions, most_bending_panels);
+}
+
+// A line each, because figures are narrow.
+void mark_clauses(FigureScript& figure, const std::string& text) {
+  const std::string separator = "; ";
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(separator, start), text.size());
+    figure.mark(text.substr(start, end - start));
+    start = end + separator.size();
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> figures_left_out(const Case& input, const Result& result) {
+  std::vector<std::string> reasons;
+  if (result.history.empty()) {
+    reasons.push_back(
+        "response, first-sub-impact, indentation, energies: the run kept no history; run it again "
+        "with output.interval above 0");
+  }
+  if (result.section_history.empty()) {
+    reasons.push_back(
+        "bending: the run kept the bending of no section; run it again with --set "
+        "output.sections=0.5 (or more positions, as fractions of the length)");
+  } else if (input.output.sections.size() > most_bending_panels) {
+    reasons.push_back(sections_left_out(input.output.sections));
+  }
+  return reasons;
+}
+
+DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
+                          const Result& result) {
+  DrawnFigures figures;
+  figures.left_out = figures_left_out(input, result);
+  const std::string caveat = outcome_caveat(result);
+  const auto draw = [&](FigureScript figure) {
+    mark_clauses(figure, caveat);
+    draw_figure(directory, figure.name(), figure.text(), figure.size());
+    figures.drawn.push_back({figure.name(), figure.caption()});
+  };
+  if (!result.history.empty()) {
+    draw(response_figure(input, result));
+    draw(first_sub_impact_figure(input, result));
+    draw(indentation_figure(input, result));
+    draw(energies_figure(input, result));
+  }
+  draw(timeline_figure(input, result));
+  if (!result.section_history.empty()) draw(bending_figure(input, result));
+  return figures;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,179 @@
+#include "report/strike_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "case/counted.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/study/strike_account.h"
+
+namespace subimpact {
+namespace {
+
+// Rises of the striker's energy below this part of its first value are rounding and integration
+// error.
+constexpr double negligible_gain = 1e-6;
+
+double end_of(const SubImpact& s, const Result& result) {
+  return s.end.value_or(result.outcome.time);
+}
+
+std::string sub_impact_words(const Result& result) {
+  const auto& hits = result.sub_impacts;
+  if (hits.empty()) return "The striker never touched the beam.";
+  const std::vector<ZoneSummary> zones = summarise_zones(hits);
+  std::string text = fmt::format("What looks like one blow is {} in {}",
+                                 counted(hits.size(), "sub-impact"), counted(zones.size(), "zone"));
+  if (hits.size() == 1) text = "The strike is a single contact";
+  text += hits.back().end
+              ? fmt::format("; the last separation comes at {}. ", duration_text(*hits.back().end))
+              : "; the run ended while the bodies still touched. ";
+  if (hits.size() > 1) {
+    for (std::size_t k = 0; k < zones.size(); ++k) {
+      const ZoneSummary& zone = zones[k];
+      text += fmt::format(
+          "Zone {}, {} to {}, holds {} in {}. ", zone.zone, duration_text(zone.start),
+          zone.end ? duration_text(*zone.end) : "the end of the run",
+          counted(zone.n_sub_impacts, "sub-impact"), counted(zone.n_subzones, "sub-zone"));
+      if (k + 1 < zones.size() && zone.end) {
+        text += fmt::format("Then the bodies are apart for {}. ",
+                            duration_text(zones[k + 1].start - *zone.end));
+      }
+    }
+  }
+  double impulse = 0.0;
+  for (const SubImpact& s : hits) impulse += s.impulse;
+  const SubImpact& first = hits.front();
+  text += fmt::format("The first contact lasts {}, peaks at {:.4g} N and carries {:.3g} N s",
+                      duration_text(end_of(first, result) - first.start), first.peak_force,
+                      first.impulse);
+  if (hits.size() > 1) text += fmt::format(", {:.0f} % of all", 100.0 * first.impulse / impulse);
+  return text + ".";
+}
+
+std::string yield_words(const Case& input, const Result& result) {
+  std::string text;
+  if (result.first_contact_yield) {
+    text += fmt::format("The contact first yields after {}, at an indentation of {:.4g} mm",
+                        duration_text(*result.first_contact_yield),
+                        1e3 * result.used.yield_indentation);
+    std::size_t again = 0;
+    for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
+      const double before = result.sub_impacts[i - 1].residual_indentation;
+      if (result.sub_impacts[i].residual_indentation > before) ++again;
+    }
+    text += again == 0 ? "; no later sub-impact yields further. "
+                       : fmt::format("; {} later {} further. ", again,
+                                     again == 1 ? "sub-impact yields" : "sub-impacts yield");
+  } else {
+    text += "The contact stays elastic. ";
+  }
+  if (result.first_section_yield) {
+    text +=
+        fmt::format("A fibre of the beam first yields after {}; by the end {} of {} {}{} yielded.",
+                    duration_text(*result.first_section_yield), result.n_yielded_sections,
+                    counted(result.used.n_sections, "section"),
+                    result.used.half_model ? "(of the half that is modelled) " : "",
+                    result.n_yielded_sections == 1 ? "has" : "have");
+  } else {
+    text += input.model.section == SectionKind::elastic
+                ? "The beam's sections are modelled as elastic."
+                : "No section of the beam yields.";
+  }
+  return text;
+}
+
+std::string striker_words(const Result& result, const StrikeAccount& account) {
+  const double first = result.history.front().striker_energy;
+  std::string text =
+      fmt::format("The striker enters with {:.4g} J and leaves with {:.4g} J at {:.4g} m/s. ",
+                  first, first - account.striker_loss, result.striker_velocity);
+  if (account.striker_gain <= negligible_gain * first) {
+    text += "At no time does it gain energy: measured by the striker there is no recovery.";
+  } else {
+    text += fmt::format(
+        "It gains energy at times, up to {:.3g} J above an earlier value: measured "
+        "by the striker there is a recovery.",
+        account.striker_gain);
+  }
+  return text;
+}
+
+// "rises from 1.01 J to 3.34 J".
+std::string change_words(const StrikePart& part) {
+  return fmt::format("{} from {:.3g} J to {:.3g} J",
+                     part.elastic_change() > 0.0 ? "rises" : "falls", part.elastic_start,
+                     part.elastic_end);
+}
+
+std::string part_name(const StrikePart& part) {
+  using Kind = StrikePart::Kind;
+  switch (part.kind) {
+    case Kind::zone:
+      return fmt::format("over zone {}", part.zone);
+    case Kind::subzone:
+      return fmt::format("in sub-zone {} of zone {}", part.subzone, part.zone);
+    case Kind::subzone_separation:
+      return fmt::format("in the separation after that sub-zone");
+    case Kind::separation:
+      return fmt::format("in the separation after zone {}", part.zone);
+  }
+  return {};
+}
+
+std::string recovery_words(const StrikeAccount& account) {
+  std::string text = "The beam's elastic bending energy tells compression from recovery. It ";
+  std::size_t n_subzones = 0;
+  std::vector<std::string> pieces;
+  for (const StrikePart& part : account.parts) {
+    using Kind = StrikePart::Kind;
+    if (part.kind == Kind::zone || part.kind == Kind::separation) {
+      pieces.push_back(change_words(part) + " " + part_name(part));
+    }
+    if (part.kind == Kind::subzone_separation) ++n_subzones;
+  }
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (i > 0) text += i + 1 == pieces.size() ? ", and " : ", ";
+    text += pieces[i];
+  }
+  text += ". ";
+  if (n_subzones > 0) {
+    text += "Within zones: it ";
+    bool first = true;
+    for (const StrikePart& part : account.parts) {
+      using Kind = StrikePart::Kind;
+      if (part.kind != Kind::subzone && part.kind != Kind::subzone_separation) continue;
+      bool divided = false;
+      for (const StrikePart& other : account.parts) {
+        divided = divided || (other.kind == Kind::subzone_separation && other.zone == part.zone);
+      }
+      if (!divided) continue;
+      text += fmt::format("{}{} {}", first ? "" : ", ", change_words(part), part_name(part));
+      first = false;
+    }
+    text += ". ";
+  }
+  text += fmt::format(
+      "Its largest value, {:.3g} J, is reached at {}; what follows is recovery, down "
+      "to {:.3g} J at the last separation.",
+      account.largest_elastic, duration_text(account.largest_elastic_at), account.elastic_at_end);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> strike_words(const Case& input, const Result& result) {
+  std::vector<std::string> paragraphs{sub_impact_words(result), yield_words(input, result)};
+  if (!result.outcome.completed()) {
+    paragraphs.insert(paragraphs.begin(), "Outcome: " + failure_message(input, result) + ".");
+  }
+  if (const auto account = account_of(result)) {
+    paragraphs.push_back(striker_words(result, *account));
+    paragraphs.push_back(recovery_words(*account));
+  }
+  return paragraphs;
+}
+
+}  // namespace subimpact

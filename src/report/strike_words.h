@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "subimpact/case/case.h"
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// A strike told in sentences: sub-impacts and zones, first yields, what the striker lost, and
+/// compression and recovery in terms of the beam's elastic energy. A paragraph an entry.
+std::vector<std::string> strike_words(const Case& input, const Result& result);
+
+}  // namespace subimpact

@@ -1,0 +1,138 @@
+// Momentum and energy at every accepted step, and in the rows of history.csv.
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/model_factory.h"
+#include "paper_case.h"
+#include "simulate/event_loop.h"
+
+namespace subimpact {
+namespace {
+
+// Looks at every accepted state: the start of every step, and both sides of every event.
+class Conserved final : public RunObserver {
+ public:
+  Conserved(StruckBeam& beam, const State& initial)
+      : energy_(beam.energies(initial).total()), momentum_(beam.momentum(initial)) {}
+
+  void on_step(const StepEnds& step, StruckBeam& beam, Integrator&) override {
+    look_at(step.y0, beam);
+    ++steps;
+  }
+  void before_event(const Transition&, const State& y, StruckBeam& beam) override {
+    look_at(y, beam);
+  }
+  void after_event(const Transition&, const State& y, StruckBeam& beam) override {
+    look_at(y, beam);
+  }
+
+  double energy_error = 0.0;    // largest, relative
+  double momentum_error = 0.0;  // largest, relative
+  double plastic_loss = 0.0;    // largest decrease of a dissipated energy, J
+  long steps = 0;
+
+ private:
+  void look_at(const State& y, StruckBeam& beam) {
+    const Energies now = beam.energies(y);
+    energy_error = std::max(energy_error, std::abs(now.total() / energy_ - 1.0));
+    momentum_error = std::max(momentum_error, std::abs(beam.momentum(y) / momentum_ - 1.0));
+    plastic_loss = std::max({plastic_loss, dissipated_.bending_plastic - now.bending_plastic,
+                             dissipated_.contact_plastic - now.contact_plastic});
+    dissipated_ = now;
+  }
+  double energy_;
+  double momentum_;
+  Energies dissipated_;
+};
+
+Conserved followed(const Case& input) {
+  StruckBeam beam = make_struck_beam(input);
+  const Used used = describe(input, beam);
+  const auto integrator = make_integrator(input, used, beam);
+  Conserved conserved(beam, beam.initial_state());
+  Audit accounts(beam, beam.initial_state());
+  EventLoop loop(beam, *integrator, conserved, accounts, loop_options(input, used));
+  loop.start();
+  while (!loop.finished()) loop.advance();
+  printf("%ld steps: energy %.1e, momentum %.1e, dissipation falls by %.1e J at most\n",
+         conserved.steps, conserved.energy_error, conserved.momentum_error, conserved.plastic_loss);
+  return conserved;
+}
+
+class Conservation : public testing::TestWithParam<SectionKind> {};
+
+TEST_P(Conservation, HoldsAtEveryStepOfErkAtOneInABillion) {
+  const Conserved conserved = followed(paper_case(GetParam(), 8e-3));
+  EXPECT_GT(conserved.steps, 1000);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
+  EXPECT_LT(conserved.plastic_loss, 1e-12);
+}
+
+TEST_P(Conservation, HoldsAtEveryStepOfTheExponentialMethod) {
+  Case input = paper_case(GetParam(), 8e-3);
+  input.solver.method = Method::exponential;
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-11);
+  EXPECT_LT(conserved.plastic_loss, 1e-11);
+}
+
+TEST_P(Conservation, OfMomentumHoldsAtEveryCentralDifference) {
+  Case input = paper_case(GetParam(), 2e-3);
+  input.solver.method = Method::central_difference;
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
+  EXPECT_LT(conserved.energy_error, 0.05);  // of second order in the step
+}
+
+TEST_P(Conservation, HoldsForAStrikeAwayFromMidSpanBetweenTwoCells) {
+  Case input = paper_case(GetParam(), 0.5e-3);
+  input.scene.striker.position = 0.31;
+  input.model.segments = 200;
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
+}
+
+TEST_P(Conservation, HoldsOnHermiteElements) {
+  Case input = paper_case(GetParam(), 2e-3);
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 100;
+  const Conserved conserved = followed(input);
+  EXPECT_LT(conserved.energy_error, 1e-8);
+  EXPECT_LT(conserved.momentum_error, 1e-12);
+  EXPECT_LT(conserved.plastic_loss, 1e-12);
+}
+
+TEST_P(Conservation, IsReportedInTheHistoryRows) {
+  Case input = paper_case(GetParam(), 0.5e-3);
+  input.output.interval = 1e-6;
+  const Result result = simulate(input);
+  ASSERT_GT(result.history.size(), 500u);
+  double energy = 0.0;
+  double momentum = 0.0;
+  for (const HistoryRow& row : result.history) {
+    const double sum = row.striker_energy + row.beam_kinetic_energy + row.bending_elastic +
+                       row.bending_plastic + row.contact_elastic + row.contact_plastic;
+    EXPECT_NEAR(sum / result.used.initial_energy - 1.0, row.energy_error, 1e-14);
+    energy = std::max(energy, std::abs(row.energy_error));
+    momentum = std::max(momentum, std::abs(row.momentum_error.value()));
+  }
+  printf("rows: energy %.1e, momentum %.1e\n", energy, momentum);
+  EXPECT_LT(energy, 1e-8);
+  EXPECT_LT(momentum, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Conservation,
+                         testing::Values(SectionKind::elastic, SectionKind::exact,
+                                         SectionKind::layers),
+                         [](const auto& info) {
+                           return std::string(info.param == SectionKind::elastic ? "elastic"
+                                              : info.param == SectionKind::exact ? "exact"
+                                                                                 : "layers");
+                         });
+
+}  // namespace
+}  // namespace subimpact

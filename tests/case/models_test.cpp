@@ -1,0 +1,144 @@
+// One scene modelled in two ways that must agree.
+
+#include <cmath>
+
+#include "case/model_factory.h"
+#include "paper_case.h"
+#include "simulate/event_loop.h"
+#include "simulate/recorder.h"
+
+namespace subimpact {
+namespace {
+
+double largest_relative_difference(const Result& a, const Result& b) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < a.sub_impacts.size(); ++i) {
+    const SubImpact& p = a.sub_impacts[i];
+    const SubImpact& q = b.sub_impacts[i];
+    if (i > 0) worst = std::max(worst, std::abs(p.start / q.start - 1.0));
+    EXPECT_EQ(p.end.has_value(), q.end.has_value());
+    if (p.end && q.end) worst = std::max(worst, std::abs(*p.end / *q.end - 1.0));
+    worst = std::max(worst, std::abs(p.max_indentation / q.max_indentation - 1.0));
+  }
+  return worst;
+}
+
+class HalfAndWholeModel : public testing::TestWithParam<SectionKind> {};
+
+TEST_P(HalfAndWholeModel, GiveTheSameEvents) {
+  // With one fixed step, never cut for what sections do in it (whether to do so is decided by a
+  // mean over the unknowns), so that the two differ by rounding alone.
+  Case input = paper_case(GetParam(), 1e-3);
+  input.solver.step = 1e-7;
+  input.solver.rtol = 1e-2;
+  const Result half = simulate(input);
+  input.model.symmetry = SymmetryUse::off;
+  const Result whole = simulate(input);
+  EXPECT_TRUE(half.used.half_model);
+  EXPECT_FALSE(whole.used.half_model);
+  ASSERT_EQ(half.sub_impacts.size(), whole.sub_impacts.size());
+  ASSERT_GE(half.sub_impacts.size(), 8u);
+  const double difference = largest_relative_difference(half, whole);
+  printf("largest relative difference %.1e\n", difference);
+  EXPECT_LT(difference, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(, HalfAndWholeModel,
+                         testing::Values(SectionKind::elastic, SectionKind::exact,
+                                         SectionKind::layers),
+                         [](const auto& info) {
+                           return std::string(info.param == SectionKind::elastic ? "elastic"
+                                              : info.param == SectionKind::exact ? "exact"
+                                                                                 : "layers");
+                         });
+
+State final_state(const Case& input, SectionField::Storage storage) {
+  StruckBeam beam = make_struck_beam(input, storage);
+  const Used used = describe(input, beam);
+  const auto integrator = make_integrator(input, used, beam);
+  Result result;
+  Audit audit(beam, beam.initial_state());
+  Recorder recorder(beam, 0.0, used.events, audit, result);
+  EventLoop loop(beam, *integrator, recorder, audit, {input.end_time, used.events, 1e-10, 1.0});
+  loop.start();
+  while (!loop.finished()) loop.advance();
+  return loop.state();
+}
+
+class StoredSections : public testing::TestWithParam<SectionKind> {};
+
+TEST_P(StoredSections, LazilyOrEagerlyGiveIdenticalBits) {
+  const Case input = paper_case(GetParam(), 0.4e-3);
+  const State lazy = final_state(input, SectionField::Storage::when_yielded);
+  const State eager = final_state(input, SectionField::Storage::always);
+  EXPECT_EQ(lazy, eager);
+}
+
+INSTANTIATE_TEST_SUITE_P(, StoredSections, testing::Values(SectionKind::exact, SectionKind::layers),
+                         [](const auto& info) {
+                           return std::string(info.param == SectionKind::exact ? "exact"
+                                                                               : "layers");
+                         });
+
+TEST(AMirroredStrike, GivesTheSameEvents) {
+  Case input = paper_case(SectionKind::exact, 0.5e-3);
+  input.model.segments = 150;
+  input.solver.step = 1e-7;
+  input.scene.striker.position = 0.3;
+  const Result left = simulate(input);
+  input.scene.striker.position = 0.7;
+  const Result right = simulate(input);
+  ASSERT_EQ(left.sub_impacts.size(), right.sub_impacts.size());
+  EXPECT_LT(largest_relative_difference(left, right), 1e-9);
+}
+
+TEST(TheMassSolvers, GiveTheSameEvents) {
+  Case input = paper_case(SectionKind::elastic, 0.5e-3);
+  input.solver.step = 1e-7;
+  const Result tridiagonal = simulate(input);
+  input.solver.mass_solver = MassSolverKind::klu;
+  const Result klu = simulate(input);
+  ASSERT_EQ(tridiagonal.sub_impacts.size(), klu.sub_impacts.size());
+  EXPECT_LT(largest_relative_difference(tridiagonal, klu), 1e-9);
+}
+
+TEST(ManyLayers, ComeCloseToTheExactSection) {
+  const Case exact = paper_case(SectionKind::exact, 0.25e-3);
+  Case layers = paper_case(SectionKind::layers, 0.25e-3);
+  const double limit = simulate(exact).sub_impacts.front().end.value();
+  double previous = 1.0;
+  for (const int n : {20, 40, 80, 160}) {
+    layers.model.layers = n;
+    const double difference = std::abs(simulate(layers).sub_impacts.front().end.value() - limit);
+    printf("%4d layers: first separation differs by %.3e us\n", n, 1e6 * difference);
+    EXPECT_LT(difference, 0.5 * previous);
+    previous = difference;
+  }
+}
+
+TEST(AnEvenNumberOfSegments, IsRefusedForTheHalfModelAndTakenForTheWhole) {
+  Case input = paper_case(SectionKind::elastic, 1e-5);
+  input.model.segments = 100;
+  try {
+    simulate(input);
+    FAIL() << "not refused";
+  } catch (const InvalidCase& refused) {
+    EXPECT_EQ(refused.key, "model.segments");
+    EXPECT_NE(std::string(refused.what()).find("101"), std::string::npos);
+  }
+  input.model.symmetry = SymmetryUse::off;
+  EXPECT_TRUE(simulate(input).outcome.completed());
+}
+
+TEST(AnIndentationAsDeepAsTheBeam, EndsTheRunWithWhatWasComputed) {
+  Case input = paper_case(SectionKind::elastic, 1e-3);
+  input.scene.striker.velocity = 4000.0;
+  const Result result = simulate(input);
+  EXPECT_EQ(result.outcome.kind, OutcomeKind::left_validity);
+  EXPECT_GT(result.outcome.time, 0.0);
+  EXPECT_EQ(result.sub_impacts.size(), 1u);
+  EXPECT_NE(result.outcome.message.find("thickness"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,184 @@
+// Impacts of two rigid bodies, as a user would set them up: model.mesh = "rigid".
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "paper_scene.h"
+#include "subimpact/case/method_tables.h"
+#include "subimpact/case/simulate.h"
+
+namespace subimpact {
+namespace {
+
+Case rigid_case(ContactKind kind, double velocity) {
+  Case input;
+  input.scene = paper_scene();
+  input.scene.contact.kind = kind;
+  input.scene.striker.velocity = velocity;
+  if (kind != ContactKind::foundation) {
+    input.scene.striker.nose_radius.reset();
+    input.scene.contact.stiffness = kind == ContactKind::hertz ? 3e10 : 2e7;
+  }
+  input.model.mesh = MeshKind::rigid;
+  input.end_time = 2e-2;
+  input.solver.rtol = 1e-10;
+  input.output.interval = 0.0;
+  return input;
+}
+
+double reduced_mass(const Case& input) {
+  const double m = input.scene.striker.mass;
+  const double beam = input.scene.beam.mass();
+  return m * beam / (m + beam);
+}
+
+TEST(RigidBodies, UnderAPowerLawPartAfterTheClosedFormsDurationWithRestitution1) {
+  const struct {
+    ContactKind kind;
+    double exponent, duration_constant;
+  } laws[] = {{ContactKind::hertz, 1.5, 2.943275184}, {ContactKind::linear, 1.0, std::numbers::pi}};
+  for (const auto& [kind, n, constant] : laws) {
+    for (const double v : {0.01, 1.0, 10.0}) {
+      const Case input = rigid_case(kind, v);
+      const Result result = simulate(input);
+      ASSERT_EQ(result.sub_impacts.size(), 1u);
+      const SubImpact& hit = result.sub_impacts[0];
+      const double k = *input.scene.contact.stiffness;
+      const double depth =
+          std::pow((n + 1.0) * reduced_mass(input) * v * v / (2.0 * k), 1.0 / (n + 1.0));
+      EXPECT_NEAR(hit.max_indentation, depth, 1e-8 * depth);
+      EXPECT_NEAR(hit.peak_force, k * std::pow(depth, n), 1e-8 * hit.peak_force);
+      EXPECT_NEAR(hit.end.value(), constant * depth / v, 2e-9 * hit.end.value());
+      EXPECT_NEAR(result.beam_mean_velocity - result.striker_velocity, v, 1e-9 * v);
+    }
+  }
+}
+
+TEST(RigidBodies, WithAnElastoPlasticSurfaceLoseWhatTheClosedFormSays) {
+  for (const double v : {0.05, 0.5, 3.0, 15.9}) {
+    const Case input = rigid_case(ContactKind::foundation, v);
+    const Result result = simulate(input);
+    const double k = result.used.contact_stiffness;
+    const double unit = result.used.yield_indentation;
+    const double threshold = std::sqrt(0.8 * k * std::pow(unit, 2.5) / reduced_mass(input));
+    const double e = (result.beam_mean_velocity - result.striker_velocity) / v;
+    const double x = result.max_indentation / unit;
+    EXPECT_EQ(x > 1.0, v > threshold);
+    const double expected =
+        x <= 1.0 ? 1.0
+                 : std::sqrt(1.0 - std::pow(x - 1.0, 1.5) /
+                                       (0.4 * (std::pow(x, 2.5) - std::pow(x - 1.0, 2.5))));
+    EXPECT_NEAR(e, expected, 1e-8) << v;
+  }
+}
+
+TEST(RigidBodies, ComeOutTheSameByEveryMethod) {
+  Case input = rigid_case(ContactKind::foundation, 1.9);
+  input.end_time = 1e-3;
+  const Result reference = simulate(input);
+  for (const Method method : {Method::nystrom, Method::exponential, Method::dirk, Method::imex,
+                              Method::adams, Method::bdf, Method::central_difference}) {
+    input.solver.method = method;
+    if (method == Method::central_difference) input.solver.step = 1e-8;
+    const Result result = simulate(input);
+    ASSERT_EQ(result.sub_impacts.size(), 1u);
+    EXPECT_NEAR(result.sub_impacts[0].end.value(), reference.sub_impacts[0].end.value(), 1e-11);
+    EXPECT_LT(result.max_momentum_error, 1e-12);
+  }
+}
+
+// A light beam struck at its end, with nothing that yields.
+Case elastic_end_strike() {
+  Case input = rigid_case(ContactKind::foundation, 0.118);
+  Beam& beam = input.scene.beam;
+  beam.length = 0.1057;
+  beam.width = 0.0426;
+  beam.thickness = 0.00747;
+  beam.density = 1115.0;
+  beam.youngs_modulus = 2.176e11;
+  beam.yield_stress = std::numeric_limits<double>::infinity();
+  input.scene.striker = {0.00064, 0.1904, 0.118, 1.0};
+  input.end_time = 7.8e-6;
+  return input;
+}
+
+TEST(RigidBodies, KeepTheirEnergyTo1000TolerancesWithEveryTableOfImexAndDirk) {
+  Case input = elastic_end_strike();
+  for (const MethodTable& table : method_tables()) {
+    if (table.method != Method::imex && table.method != Method::dirk) continue;
+    for (const double rtol : {1e-4, 1e-6, 1e-8, 1e-10}) {
+      input.solver.method = table.method;
+      input.solver.table = table.name;
+      input.solver.rtol = rtol;
+      EXPECT_LT(simulate(input).max_energy_error, 1e3 * rtol) << table.name;
+    }
+  }
+}
+
+TEST(RigidBodies, LoseAtLeast30TimesLessEnergyWithAHundredthOfImexsTolerance) {
+  Case input = elastic_end_strike();
+  input.solver.method = Method::imex;
+  double last = 1.0;
+  for (const double rtol : {1e-6, 1e-8, 1e-10}) {
+    input.solver.rtol = rtol;
+    const double error = simulate(input).max_energy_error;
+    EXPECT_LT(error, last / 30.0) << rtol;
+    last = error;
+  }
+}
+
+TEST(ARigidBeam, StruckOffMidSpanAnswersWithTheMassOfItsCentreOfPercussion) {
+  // 1/m_eff = 1/M + c^2/Theta at the distance c from the centre.
+  Case input = rigid_case(ContactKind::hertz, 2.0);
+  input.scene.striker.position = 0.9;
+  const Beam& beam = input.scene.beam;
+  const double c = 0.4 * beam.length;
+  const double inertia =
+      beam.mass() * beam.length * beam.length / 12.0 + beam.rotary_inertia() * beam.length;
+  const double effective = 1.0 / (1.0 / beam.mass() + c * c / inertia);
+  const double m = input.scene.striker.mass;
+  const Result result = simulate(input);
+  // An elastic impact reverses the relative velocity: the impulse is twice the reduced mass' own.
+  const double impulse = 2.0 * m * effective / (m + effective) * 2.0;
+  EXPECT_NEAR(result.sub_impacts.at(0).impulse, impulse, 1e-9 * impulse);
+  EXPECT_NEAR(result.beam_mean_velocity, impulse / beam.mass(), 1e-9);
+  EXPECT_LT(result.max_energy_error, 1e-9);
+}
+
+TEST(ARigidBeam, IsTheLimitOfAnEverStifferOne) {
+  // A short beam, so that its lowest frequency is far above the contact's.
+  Case rigid = rigid_case(ContactKind::linear, 1.0);
+  rigid.scene.beam.length = 0.05;
+  rigid.scene.striker.mass = 0.02;
+  rigid.scene.contact.stiffness = 1e5;
+  rigid.model.section = SectionKind::elastic;
+  const double limit = simulate(rigid).sub_impacts.at(0).end.value();
+  double last = 1.0;
+  for (const double modulus : {1e12, 1e14, 1e16}) {
+    Case bending = rigid;
+    bending.model.mesh = MeshKind::cells;
+    bending.model.segments = 51;
+    bending.solver.method = Method::exponential;
+    bending.scene.beam.youngs_modulus = modulus;
+    const Result result = simulate(bending);
+    const double difference = std::abs(result.sub_impacts.at(0).end.value() / limit - 1.0);
+    EXPECT_LT(difference, 0.2 * last) << modulus;
+    last = difference;
+  }
+  EXPECT_LT(last, 1e-5);
+}
+
+TEST(ARigidBeam, TakesTheCentralDifferenceStepOfTheContact) {
+  Case input = rigid_case(ContactKind::hertz, 1.0);
+  const double exact = simulate(input).sub_impacts.at(0).end.value();
+  input.solver.method = Method::central_difference;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_NEAR(result.sub_impacts.at(0).end.value() / exact, 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,79 @@
+#include "numerics/hermite.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "random_walk.h"
+
+namespace subimpact {
+namespace {
+
+struct Cubic {
+  double c0, c1, c2, c3;
+  double operator()(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
+  double rate(double t) const { return c1 + t * (2.0 * c2 + t * 3.0 * c3); }
+};
+
+HermiteCubic through(const Cubic& cubic, double t0, double step) {
+  return {cubic(t0), cubic.rate(t0), cubic(t0 + step), cubic.rate(t0 + step), step};
+}
+
+TEST(HermiteCubic, ReproducesEveryCubicAndItsSlopeExactly) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const std::vector<double> c = random_numbers(seed, 6);
+    const Cubic cubic{c[0], c[1], c[2], c[3]};
+    const double t0 = c[4];
+    const double step = 0.1 + std::abs(c[5]);
+    const HermiteCubic path = through(cubic, t0, step);
+    for (double s = 0.0; s <= 1.0; s += 0.0625) {
+      EXPECT_NEAR(path(s), cubic(t0 + s * step), 4e-15 * 16.0);
+      EXPECT_NEAR(path.slope(s), step * cubic.rate(t0 + s * step), 4e-15 * 16.0);
+    }
+  }
+}
+
+TEST(HermiteCubic, PeakIsWhereACubicsRateFallsThroughZero) {
+  int n_peaks = 0;
+  for (unsigned seed = 0; seed < 2000; ++seed) {
+    const std::vector<double> c = random_numbers(seed, 4);
+    const Cubic cubic{c[0], c[1], c[2], c[3]};
+    if (!(cubic.rate(0.0) > 0.0 && cubic.rate(1.0) < 0.0)) continue;
+    ++n_peaks;
+    // The root of c1 + 2 c2 t + 3 c3 t^2 at which it falls, in the form that does not cancel.
+    const double root = std::sqrt(c[2] * c[2] - 3.0 * c[1] * c[3]);
+    const double expected = c[2] <= 0.0 ? c[1] / (-c[2] + root) : -(c[2] + root) / (3.0 * c[3]);
+    EXPECT_NEAR(through(cubic, 0.0, 1.0).peak(), expected, 1e-11);
+  }
+  EXPECT_GT(n_peaks, 100);
+}
+
+TEST(HermiteCubic, RiseFindsTheRootOfAMonotoneCubicAnywhereInTheStep) {
+  for (const double root : {1e-9, 0.01, 0.3, 0.5, 0.77, 0.999, 1.0 - 1e-9}) {
+    for (const double bend : {0.0, 1.0, 30.0}) {
+      // (t - root) (1 + bend (t - root)^2): rises everywhere
+      const Cubic cubic{-root - bend * std::pow(root, 3), 1.0 + 3.0 * bend * root * root,
+                        -3.0 * bend * root, bend};
+      EXPECT_NEAR(through(cubic, 0.0, 1.0).rise(0.0, 1.0), root, 1e-12);
+    }
+  }
+}
+
+TEST(HermiteCubic, RiseKeepsToItsBracketWhenTheCubicHasOtherRoots) {
+  const auto f = [](double t) { return (t - 0.2) * (t - 0.5) * (t - 0.9); };
+  const auto rate = [](double t) {
+    return (t - 0.5) * (t - 0.9) + (t - 0.2) * (t - 0.9) + (t - 0.2) * (t - 0.5);
+  };
+  const HermiteCubic path(f(0.0), rate(0.0), f(1.0), rate(1.0), 1.0);
+  EXPECT_NEAR(path.rise(0.0, 0.4), 0.2, 1e-12);
+  EXPECT_NEAR(path.rise(0.6, 1.0), 0.9, 1e-12);
+}
+
+TEST(HermiteCubic, RatesAreTakenPerTimeAndNotPerStep) {
+  // value = t over a step of 1e-7: the step's length must enter.
+  const HermiteCubic path(0.0, 1.0, 1e-7, 1.0, 1e-7);
+  EXPECT_NEAR(path(0.25), 0.25e-7, 1e-21);
+}
+
+}  // namespace
+}  // namespace subimpact

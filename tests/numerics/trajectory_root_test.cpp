@@ -1,0 +1,186 @@
+#include "numerics/trajectory_root.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace subimpact {
+namespace {
+
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+
+struct Search {
+  double found = 0.0;
+  double last_evaluated = std::numeric_limits<double>::quiet_NaN();
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  int evaluations = 0;
+};
+
+Search search(const std::function<GuardValue(double)>& guard, double a, double b, double guess,
+              RootOptions options) {
+  Search result;
+  result.found = find_rise(
+      [&](double t) {
+        ++result.evaluations;
+        result.last_evaluated = t;
+        result.lowest = std::min(result.lowest, t);
+        result.highest = std::max(result.highest, t);
+        return guard(t);
+      },
+      a, b, guess, options);
+  return result;
+}
+
+struct NastyCase {
+  const char* name;
+  double allowed;  // distance from the root, for a tolerance of 1e-12
+  std::function<GuardValue(double t, double root)> guard;
+};
+
+const NastyCase nasty_cases[] = {
+    {"straight", 1e-15,
+     [](double t, double r) {
+       return GuardValue{t - r, 1.0};
+     }},
+    {"steep", 1e-12,
+     [](double t, double r) {
+       const double c = std::cosh(std::min(300.0, std::abs(1e8 * (t - r))));
+       return GuardValue{std::tanh(1e8 * (t - r)), 1e8 / (c * c)};
+     }},
+    {"jump", 1e-12,
+     [](double t, double r) {
+       return GuardValue{t < r ? -1.0 : 1.0, 0.0};
+     }},
+    {"flat at the root: third power", 1e-11,
+     [](double t, double r) {
+       return GuardValue{std::pow(t - r, 3), 3.0 * std::pow(t - r, 2)};
+     }},
+    // Newton stalls here and every halving costs two evaluations: the budget buys 30 of them.
+    {"flat at the root: seventh power", 1e-9,
+     [](double t, double r) {
+       return GuardValue{std::pow(t - r, 7), 7.0 * std::pow(t - r, 6)};
+     }},
+    {"vertical at the root: cube root", 1e-11,
+     [](double t, double r) {
+       return GuardValue{std::cbrt(t - r), std::pow(std::abs(t - r) + 1e-300, -2.0 / 3.0) / 3.0};
+     }},
+    {"rate of the wrong sign", 1e-12,
+     [](double t, double r) {
+       return GuardValue{t - r, -1.0};
+     }},
+    {"rate a thousand times too small", 1e-11,
+     [](double t, double r) {
+       return GuardValue{t - r, 1e-3};
+     }},
+    // The Newton step that ends the search is a thousand times too short.
+    {"rate a thousand times too large", 1e-9,
+     [](double t, double r) {
+       return GuardValue{t - r, 1e3};
+     }},
+    {"at zero from the start on, then falls, then rises", 1e-12,
+     [](double t, double r) {
+       return GuardValue{t * (t - r), 2.0 * t - r};
+     }},
+};
+
+TEST(FindRise, FindsTheRootOfNastyFunctionsWithinItsBudget) {
+  for (const NastyCase& nasty : nasty_cases) {
+    for (const double root : {1e-6, 0.1234567, 0.5, 0.87654321, 1.0 - 1e-6}) {
+      for (const double guess : {-3.0, 0.0, 0.01, 0.5, 0.999, 1.0, 7.0}) {
+        RootOptions options;
+        options.tolerance = 1e-12;
+        const Search result =
+            search([&](double t) { return nasty.guard(t, root); }, 0.0, 1.0, guess, options);
+        SCOPED_TRACE(testing::Message() << nasty.name << ", root " << root << ", guess " << guess);
+        EXPECT_NEAR(result.found, root, nasty.allowed);
+        EXPECT_LE(result.evaluations, options.max_iterations);
+        EXPECT_GE(result.lowest, 0.0);
+        EXPECT_LE(result.highest, 1.0);
+      }
+    }
+  }
+}
+
+TEST(FindRise, ReturnsTheTimeAtWhichTheGuardWasEvaluatedLast) {
+  for (const NastyCase& nasty : nasty_cases) {
+    RootOptions options;
+    options.tolerance = 1e-9;
+    const Search result =
+        search([&](double t) { return nasty.guard(t, 0.3); }, 0.0, 1.0, 0.4, options);
+    EXPECT_EQ(result.found, result.last_evaluated) << nasty.name;
+  }
+}
+
+TEST(FindRise, ConvergesQuadraticallyOnASmoothFunction) {
+  RootOptions options;
+  options.tolerance = 4.0 * rounding;
+  const double root = std::log(2.0);
+  const Search result = search(
+      [](double t) {
+        return GuardValue{std::exp(t) - 2.0, std::exp(t)};
+      },
+      0.0, 1.0, 0.6, options);
+  EXPECT_NEAR(result.found, root, 4.0 * rounding);
+  EXPECT_LE(result.evaluations, 6);
+}
+
+TEST(FindRise, FindsARootAtTheEndOfTheBracket) {
+  RootOptions options;
+  options.tolerance = 1e-14;
+  const Search at_end = search(
+      [](double t) {
+        return GuardValue{t - 1.0, 1.0};
+      },
+      0.0, 1.0, 0.2, options);
+  EXPECT_NEAR(at_end.found, 1.0, 1e-13);
+  const Search at_start = search(
+      [](double t) {
+        return GuardValue{std::expm1(t), std::exp(t)};
+      },
+      0.0, 1.0, 0.7, options);
+  EXPECT_NEAR(at_start.found, 0.0, 1e-13);
+}
+
+TEST(FindRise, WorksInMicrosecondsAsInYears) {
+  for (const double unit : {1e-9, 1e-3, 1.0, 1e7}) {
+    const double start = 3.0 * unit;
+    RootOptions options;
+    options.tolerance = 8.0 * rounding * 4.0 * unit;
+    const Search result = search(
+        [&](double t) {
+          const double s = t / unit - 3.4;
+          return GuardValue{s + s * s * s, (1.0 + 3.0 * s * s) / unit};
+        },
+        start, 4.0 * unit, 3.9 * unit, options);
+    EXPECT_NEAR(result.found, 3.4 * unit, 4.0 * options.tolerance);
+    EXPECT_LE(result.evaluations, 12);
+  }
+}
+
+TEST(FindRise, StopsAtItsBudgetWhateverTheFunction) {
+  RootOptions options;
+  options.max_iterations = 7;
+  const Search result = search(
+      [](double t) {
+        return GuardValue{t < 0.123 ? -1.0 : 1.0, 0.0};
+      },
+      0.0, 1.0, 0.5, options);
+  EXPECT_EQ(result.evaluations, 7);
+  EXPECT_NEAR(result.found, 0.123, std::ldexp(1.0, -6));
+}
+
+TEST(FindRise, AFunctionThatIsExactlyZeroEndsTheSearchThere) {
+  const Search result = search(
+      [](double t) {
+        return GuardValue{t - 0.25, 1.0};
+      },
+      0.0, 1.0, 0.25, RootOptions{});
+  EXPECT_EQ(result.found, 0.25);
+  EXPECT_EQ(result.evaluations, 1);
+}
+
+}  // namespace
+}  // namespace subimpact

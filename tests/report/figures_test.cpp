@@ -1,0 +1,276 @@
+#include "subimpact/report/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "report/figure_script.h"
+#include "subimpact/case/simulate.h"
+#include "subimpact/io/case_file.h"
+#include "temporary_directory.h"
+
+namespace subimpact {
+namespace {
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not there";
+}
+
+Case short_case(const std::vector<Override>& settings) {
+  std::vector<Override> all = {parse_override("time.end=3e-4"),
+                               parse_override("model.segments=51")};
+  all.insert(all.end(), settings.begin(), settings.end());
+  return read_case_file(SUBIMPACT_PAPER_CASE, all).value;
+}
+
+TEST(ThinOut, KeepsEveryPointWithinTheToleranceOfTheLineAndDropsWhatAddsNothing) {
+  std::vector<Point> line;
+  for (int i = 0; i <= 10000; ++i) {
+    const double x = 1e-3 * i;
+    line.push_back({x, x < 5.0 ? std::sin(x) : -1.0});
+  }
+  const double tolerance = 1e-3;
+  const std::vector<Point> thin = thin_out(line, 1.0, 1.0, tolerance);
+  EXPECT_LT(thin.size(), 100u);
+  EXPECT_EQ(thin.front().x, 0.0);
+  EXPECT_EQ(thin.back().x, 10.0);
+  std::size_t k = 0;
+  for (const Point& p : line) {
+    while (thin[k + 1].x < p.x) ++k;
+    const double share = (p.x - thin[k].x) / (thin[k + 1].x - thin[k].x);
+    const double drawn = thin[k].y + share * (thin[k + 1].y - thin[k].y);
+    if (std::abs(p.x - 5.0) > 2e-3) {
+      ASSERT_NEAR(drawn, p.y, 2.0 * tolerance) << p.x;
+    }
+  }
+}
+
+TEST(ThinOut, KeepsPeaksOfOnePoint) {
+  std::vector<Point> line;
+  for (int i = 0; i < 100; ++i) line.push_back({1.0 * i, i == 42 ? 7.0 : 0.0});
+  const std::vector<Point> thin = thin_out(line, 1.0, 1.0, 0.1);
+  EXPECT_EQ(thin.size(), 5u);
+}
+
+double distance(Point p, Point a, Point b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double squared = dx * dx + dy * dy;
+  const double share =
+      squared > 0.0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0) : 0.0;
+  return std::hypot(p.x - a.x - share * dx, p.y - a.y - share * dy);
+}
+
+// How far the points of a line, and those between them, are at most from another line.
+double largest_distance(const std::vector<Point>& from, const std::vector<Point>& line) {
+  constexpr int parts = 10;
+  double largest = 0.0;
+  for (std::size_t i = 1; i < from.size(); ++i) {
+    for (int k = 0; k <= parts; ++k) {
+      const double s = static_cast<double>(k) / parts;
+      const Point p{from[i - 1].x + s * (from[i].x - from[i - 1].x),
+                    from[i - 1].y + s * (from[i].y - from[i - 1].y)};
+      double nearest = 1e300;
+      for (std::size_t j = 1; j < line.size(); ++j) {
+        nearest = std::min(nearest, distance(p, line[j - 1], line[j]));
+      }
+      largest = std::max(largest, nearest);
+    }
+  }
+  return largest;
+}
+
+// The data that a script gives a name.
+std::vector<Point> data_in(const std::string& script, const std::string& name) {
+  std::istringstream lines(script.substr(script.find(name + " << EOD\n")));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<Point> points;
+  while (std::getline(lines, line) && line != "EOD") {
+    Point p{};
+    std::istringstream(line) >> p.x >> p.y;
+    points.push_back(p);
+  }
+  return points;
+}
+
+std::size_t count(const std::string& text, const std::string& piece) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) {
+    ++n;
+  }
+  return n;
+}
+
+TEST(ThinOut, KeepsTheExtremeOfAPathThatGoesBackAlongItself) {
+  // From 0 down to -0.115, back through 0 up to 0.63 and half way back, all on one line.
+  std::vector<Point> path;
+  const auto go_to = [&](double end) {
+    const double start = path.empty() ? 0.0 : path.back().x;
+    for (int i = 0; i <= 50; ++i) {
+      const double x = start + (end - start) * i / 50.0;
+      path.push_back({x, x});
+    }
+  };
+  go_to(-0.115);
+  go_to(0.63);
+  go_to(-0.05);
+  const std::vector<Point> thin = thin_out(path, 1.0, 1.0, 1e-3);
+  EXPECT_LE(thin.size(), 6u);
+  const auto [low, high] = std::minmax_element(
+      thin.begin(), thin.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+  EXPECT_EQ(low->x, -0.115);
+  EXPECT_EQ(high->x, 0.63);
+}
+
+TEST(ThinOut, StaysWithinTheToleranceOfALoopInBothDirections) {
+  std::vector<Point> loop;  // loading along a curve, unloading along lines, with small reversals
+  for (int i = 0; i <= 300; ++i) {
+    const double t = 0.01 * i;
+    const double x = t + 0.4 * std::sin(7.0 * t);
+    loop.push_back({x, std::pow(std::abs(x), 1.5)});
+  }
+  for (int i = 0; i <= 300; ++i) {
+    const double x = loop[300].x - 0.005 * i + 0.2 * std::sin(0.1 * i);
+    loop.push_back({x, 2.0 * x - 1.0});
+  }
+  const double tolerance = 0.01;
+  const std::vector<Point> thin = thin_out(loop, 1.0, 1.0, tolerance);
+  EXPECT_LT(thin.size(), loop.size() / 4);
+  EXPECT_LE(largest_distance(loop, thin), tolerance * (1.0 + 1e-9));
+  EXPECT_LE(largest_distance(thin, loop), tolerance * (1.0 + 1e-9));
+}
+
+TEST(FigureScript, ThinsALineByWhatThePanelShowsAndNotByWhatLiesOutside) {
+  std::vector<Point> line;  // visible from 0 to 1; far excursions beyond
+  for (int i = 0; i <= 100; ++i) line.push_back({0.01 * i, std::pow(0.01 * i, 1.5)});
+  line.push_back({-1000.0, 0.0});
+  for (int i = 0; i <= 100; ++i) line.push_back({0.01 * i, std::pow(0.01 * i, 1.5)});
+  FigureScript figure("a", "b", {800, 500});
+  const std::string name = figure.line(line, {0.0, 1.0, 0.0, 1.0}, AxisRange{0.0, 1.0});
+  for (const Point& p : line) {
+    if (p.x < 0.0) continue;
+    double nearest = 1e300;  // in pixels
+    const std::vector<Point> drawn = data_in(figure.text(), name);
+    for (std::size_t j = 1; j < drawn.size(); ++j) {
+      const auto pixels = [](Point q) { return Point{800.0 * q.x, 500.0 * q.y}; };
+      nearest = std::min(nearest, distance(pixels(p), pixels(drawn[j - 1]), pixels(drawn[j])));
+    }
+    EXPECT_LT(nearest, 1.0) << p.x;
+  }
+}
+
+TEST(Figures, DrawElasticContactAlongItsLaw) {
+  const double K = 1e10;
+  const Case input =
+      short_case({parse_override("contact.law=hertz"), parse_override("contact.stiffness=1e10"),
+                  parse_override("model.section=elastic"), parse_override("time.end=2e-3")});
+  const Result result = simulate(input);
+  ASSERT_GT(result.sub_impacts.size(), 2u);
+  const std::string script = indentation_figure(input, result).text();
+  for (const std::string name : {"$data1", "$data2"}) {  // later sub-impacts, the first one
+    const std::vector<Point> drawn = data_in(script, name);
+    for (std::size_t j = 1; j < drawn.size(); ++j) {
+      const double middle = 0.5 * (drawn[j - 1].x + drawn[j].x);  // mm
+      if (drawn[j - 1].x < 0.0 || drawn[j].x < 0.0) continue;
+      const double force = 1e-3 * K * std::pow(1e-3 * middle, 1.5);  // kN
+      ASSERT_NEAR(0.5 * (drawn[j - 1].y + drawn[j].y), force, 2e-3 * 1e-3 * result.max_force);
+    }
+  }
+}
+
+TEST(Figures, ShowTheBendingOfEverySectionAskedFor) {
+  const Case input = short_case({parse_override("output.sections=0.5,0.45,0.4,0.3,0.2,0.1,0.05")});
+  const std::string script = bending_figure(input, simulate(input)).text();
+  EXPECT_EQ(count(script, "set title 'x = "), 7u);
+  EXPECT_TRUE(figures_left_out(input, simulate(input)).empty());
+}
+
+TEST(Figures, SayWhichSectionsTheyHaveNoRoomFor) {
+  std::string sections = "output.sections=0.5";
+  for (int i = 1; i < 30; ++i) sections += ",0.25";
+  const Case input = short_case({parse_override(sections)});
+  const Result result = simulate(input);
+  expect_in(bending_figure(input, result).text(), "left out: sections 25 to 30 of output.sections");
+  const std::vector<std::string> left_out = figures_left_out(input, result);
+  ASSERT_EQ(left_out.size(), 1u);
+  expect_in(left_out[0], "bending: sections 25 to 30 of output.sections (0.25, 0.25");
+}
+
+TEST(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
+  const TemporaryDirectory directory;
+  const Case input = short_case({parse_override("output.sections=0.5")});
+  Result result = simulate(input);
+  result.outcome.kind = OutcomeKind::inaccurate;
+  result.outcome.first_failure = Interval{1e-4, 1.5e-4};
+  for (const DrawnFigure& figure : draw_figures(directory.path, input, result).drawn) {
+    expect_in(content(directory.path / (figure.name + ".gp")),
+              "inaccurate: results up to 100 us passed every check");
+    expect_in(content(directory.path / (figure.name + ".svg")),
+              "first failure between 100 and 150 us");
+  }
+}
+
+TEST(TicSpacing, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {
+  EXPECT_DOUBLE_EQ(tic_spacing(8.0, 8), 1.0);
+  EXPECT_DOUBLE_EQ(tic_spacing(0.18, 4), 0.05);
+  EXPECT_DOUBLE_EQ(tic_spacing(234.0, 6), 50.0);
+  EXPECT_DOUBLE_EQ(tic_spacing(9.0, 10), 1.0);
+  EXPECT_GT(tic_spacing(0.0, 5), 0.0);
+}
+
+TEST(Figures, OfARunAreSixEachAsSvgAndPngAndScript) {
+  const TemporaryDirectory directory;
+  const Case input = short_case({parse_override("output.sections=0.5,0.4,0.3")});
+  const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
+  EXPECT_EQ(figures.drawn.size(), 6u);
+  EXPECT_TRUE(figures.left_out.empty());
+  for (const DrawnFigure& figure : figures.drawn) {
+    expect_in(content(directory.path / (figure.name + ".svg")), "</svg>");
+    EXPECT_EQ(content(directory.path / (figure.name + ".png")).substr(1, 3), "PNG") << figure.name;
+    EXPECT_GT(content(directory.path / (figure.name + ".gp")).size(), 500u);
+    EXPECT_GT(figure.caption.size(), 40u);
+  }
+  const std::string svg = content(directory.path / "first-sub-impact.svg");
+  for (const char* piece : {"first fibre yields", "yield stress, 150 MPa", "back stress, MPa"}) {
+    expect_in(svg, piece);
+  }
+  expect_in(content(directory.path / "indentation.svg"), "A: contact yields");
+  expect_in(content(directory.path / "energies.svg"), "sub-zones");
+}
+
+TEST(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {
+  const TemporaryDirectory directory;
+  const Case input = short_case({parse_override("output.interval=0")});
+  const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
+  ASSERT_EQ(figures.drawn.size(), 1u);
+  EXPECT_EQ(figures.drawn[0].name, "timeline");
+  ASSERT_EQ(figures.left_out.size(), 2u);
+  expect_in(figures.left_out[0], "output.interval above 0");
+  expect_in(figures.left_out[1], "output.sections=0.5");
+}
+
+TEST(Figures, AreDrawnForElasticRigidAndOpenRunsToo) {
+  const std::vector<std::vector<Override>> runs = {
+      {parse_override("beam.yield_stress=inf"), parse_override("output.sections=0.5")},
+      {parse_override("model.mesh=rigid"), parse_override("output.sections=0.5")},
+      {parse_override("time.end=1e-5")},
+      {parse_override("contact.law=linear"), parse_override("contact.stiffness=1e7")}};
+  for (const auto& settings : runs) {
+    const TemporaryDirectory directory;
+    const Case input = short_case(settings);
+    EXPECT_NO_THROW(draw_figures(directory.path, input, simulate(input))) << settings[0].value;
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

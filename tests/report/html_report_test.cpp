@@ -1,0 +1,211 @@
+#include "subimpact/report/html_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "report/html_text.h"
+#include "report/strike_words.h"
+#include "subimpact/io/case_file.h"
+#include "subimpact/study/strike_account.h"
+#include "temporary_directory.h"
+
+namespace subimpact {
+namespace {
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not there";
+}
+
+FinishedRun small_run(const std::vector<Override>& settings = {}) {
+  std::vector<Override> all = {parse_override("time.end=9e-4"), parse_override("model.segments=51"),
+                               parse_override("output.sections=0.5"),
+                               parse_override("title=\"Beam <A> & \\\"B\\\"\"")};
+  all.insert(all.end(), settings.begin(), settings.end());
+  FinishedRun run;
+  run.input = read_case_file(SUBIMPACT_PAPER_CASE, all).value;
+  run.result = simulate(run.input);
+  run.program_version = "1.2.3";
+  run.libraries = {{"SUNDIALS", "6.4.1"}};
+  return run;
+}
+
+std::string page_of(const FinishedRun& run) {
+  const TemporaryDirectory directory;
+  const DrawnFigures figures = draw_figures(directory.path, run.input, run.result);
+  return html_report(run, figures, directory.path);
+}
+
+// The first thing wrong with a page as XML: a tag left open or closed twice, a bare & or <, an
+// attribute without quotes, an id used twice. Empty if nothing is.
+std::string xml_problem(const std::string& page) {
+  std::vector<std::string> open;
+  std::vector<std::string> ids;
+  std::size_t at = page.find('>') + 1;  // past the document type
+  while (at < page.size()) {
+    const char c = page[at];
+    if (c == '&') {
+      const std::size_t end = page.find(';', at);
+      if (end == std::string::npos || end - at > 6) return "bare & at " + page.substr(at, 30);
+      at = end;
+    }
+    if (c != '<') {
+      ++at;
+      continue;
+    }
+    if (page.compare(at, 4, "<!--") == 0) {
+      at = page.find("-->", at) + 3;
+      continue;
+    }
+    std::size_t end = at + 1;
+    char quote = 0;
+    for (; end < page.size() && (quote != 0 || page[end] != '>'); ++end) {
+      if (quote != 0) {
+        if (page[end] == quote) quote = 0;
+      } else if (page[end] == '"' || page[end] == '\'') {
+        if (page[page.find_last_not_of(' ', end - 1)] != '=')
+          return "a quote out of place in " + page.substr(at, 60);
+        quote = page[end];
+      } else if (page[end] == '<') {
+        return "< within " + page.substr(at, 60);
+      }
+    }
+    const std::string tag = page.substr(at + 1, end - at - 1);
+    const std::size_t name_end = tag.find_first_of(" \t\n/", tag[0] == '/' ? 1 : 0);
+    const std::string name = tag.substr(0, name_end);
+    const std::size_t id = tag.find(" id=");
+    if (id != std::string::npos) {
+      const std::string value = tag.substr(id + 5, tag.find(tag[id + 4], id + 5) - id - 5);
+      if (std::find(ids.begin(), ids.end(), value) != ids.end()) return "id twice: " + value;
+      ids.push_back(value);
+    }
+    if (name[0] == '/') {
+      if (open.empty() || "/" + open.back() != name) return "closed but not open: " + name;
+      open.pop_back();
+    } else if (tag.back() != '/') {
+      open.push_back(name);
+    }
+    at = end + 1;
+  }
+  return open.empty() ? "" : "left open: " + open.back();
+}
+
+TEST(XmlProblem, IsFoundWhereThereIsOne) {
+  EXPECT_EQ(xml_problem("<!DOCTYPE html><a b=\"c\"><d/>&amp;</a>"), "");
+  for (const char* spoilt :
+       {"<!DOCTYPE html><a><b></a>", "<!DOCTYPE html><a>x & y</a>", "<!DOCTYPE html><a>x < y</a>",
+        "<!DOCTYPE html><a>", "<!DOCTYPE html><a id=\"x\"><b id='x'/></a>"}) {
+    EXPECT_NE(xml_problem(spoilt), "") << spoilt;
+  }
+}
+
+TEST(HtmlReport, IsWellFormedAndNeedsNothingFromOutside) {
+  const std::string page = page_of(small_run());
+  EXPECT_EQ(xml_problem(page), "");
+  for (const char* outside : {"http", "src=", "<link", "<script", "@import", "<img", "<iframe",
+                              "url(\"", "url('", "file:"}) {
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  }
+  // References within figures lead to ids of the same figure.
+  expect_in(page, "href='#response-gp");
+  expect_in(page, "id='response-gp");
+}
+
+TEST(HtmlReport, HoldsCaseWordsTableFiguresMethodErrorBarsAndConservation) {
+  const FinishedRun run = small_run();
+  const std::string page = page_of(run);
+  for (const char* piece :
+       {"Beam &lt;A&gt; &amp; &quot;B&quot;", "In words", "Figures", "figure-response",
+        "figure-bending", "Figure 6.", "Sub-impacts", "peak force", "Case", "striker.velocity",
+        "15.9 m/s", "Method", "erk, table dop853", "Error bars", "--error-bars", "Conservation",
+        "Total momentum is kept", "subimpact 1.2.3, SUNDIALS 6.4.1"}) {
+    expect_in(page, piece);
+  }
+  std::size_t n_rows = 0;
+  for (std::size_t at = page.find("<tr><td>"); at != std::string::npos;
+       at = page.find("<tr><td>", at + 1)) {
+    ++n_rows;
+  }
+  EXPECT_GT(n_rows, run.result.sub_impacts.size() + 20u);
+}
+
+TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
+  FinishedRun run = small_run();
+  EXPECT_EQ(page_of(run).find("class=\"failed\""), std::string::npos);
+  run.result.outcome.kind = OutcomeKind::unstable;
+  run.result.outcome.first_failure = Interval{1e-4, 2e-4};
+  run.result.warnings = {"beam.length is 711 m & long"};
+  const std::string page = page_of(run);
+  EXPECT_EQ(xml_problem(page), "");
+  const auto banner = page.find(
+      "<p class=\"failed\">unstable: results up to 100 us passed every check; first failure "
+      "between "
+      "100 and 200 us.</p>");
+  ASSERT_NE(banner, std::string::npos);
+  EXPECT_LT(banner, page.find("class=\"tiles\""));
+  expect_in(page, "Warning: beam.length is 711 m &amp; long.");
+}
+
+TEST(HtmlReport, CountsOneAsOne) {
+  FinishedRun run = small_run({parse_override("time.end=1e-5")});
+  const std::string page = page_of(run);
+  expect_in(page, "<b>1</b><span>sub-impact</span>");
+  expect_in(page, "<b>1</b><span>zone</span>");
+}
+
+TEST(HtmlReport, ListsErrorBarsByTheirSource) {
+  FinishedRun run = small_run();
+  for (SubImpact& s : run.result.sub_impacts) s.start_error = s.error_time = 2e-9;
+  Trust trust;
+  trust.first_undecided = 1;
+  trust.parts = {{"time", "the same with rtol = 1e-10", {}, "", 2e-9},
+                 {"mesh", "the same with 103 cells", 1, "they <part>", 3e-7}};
+  run.result.trust = trust;
+  const std::string page = page_of(run);
+  EXPECT_EQ(xml_problem(page), "");
+  for (const char* piece : {"the same with rtol = 1e-10", "2.0e-03 µs", "for all sub-impacts",
+                            "the same with 103 cells", "before sub-impact 2", "they &lt;part&gt;",
+                            "sub-impact 2 is the first that is not certain"}) {
+    expect_in(page, piece);
+  }
+}
+
+TEST(HtmlReport, OfARunThatFailedSaysSo) {
+  FinishedRun run = small_run();
+  run.result.outcome = {OutcomeKind::solver_failed, 5e-4, "the step became too small", {}};
+  const std::string page = page_of(run);
+  expect_in(page, "solver-failed");
+  expect_in(page, "the step became too small");
+  EXPECT_EQ(xml_problem(page), "");
+}
+
+TEST(StrikeWords, TellZonesYieldsTheStrikersLossAndTheBeamsRecovery) {
+  const FinishedRun run = small_run();
+  std::string text;
+  for (const std::string& paragraph : strike_words(run.input, run.result)) text += paragraph + "\n";
+  for (const char* piece :
+       {" sub-impacts in 1 zone", "The contact first yields after", "A fibre of the beam first",
+        "At no time does it gain energy", "tells compression from recovery", "Its largest value"}) {
+    expect_in(text, piece);
+  }
+}
+
+TEST(StrikeWords, OfAnElasticReboundSayThatTheStrikerGains) {
+  // A light ball on a heavy rigid body comes back: compression and recovery in one contact.
+  const FinishedRun run =
+      small_run({parse_override("model.mesh=rigid"), parse_override("beam.yield_stress=inf"),
+                 parse_override("striker.mass=0.01")});
+  const auto account = account_of(run.result);
+  ASSERT_TRUE(account);
+  EXPECT_GT(account->striker_gain, 0.5 * run.result.used.initial_energy);
+  EXPECT_EQ(account->parts.size(), 2u);  // one zone of one sub-zone
+  std::string text;
+  for (const std::string& paragraph : strike_words(run.input, run.result)) text += paragraph + "\n";
+  expect_in(text, "single contact");
+  expect_in(text, "It gains energy at times");
+  expect_in(text, "The contact stays elastic");
+}
+
+}  // namespace
+}  // namespace subimpact

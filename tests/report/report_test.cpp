@@ -1,0 +1,181 @@
+#include "subimpact/io/report.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "report/strike_words.h"
+#include "sample_result.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/method_tables.h"
+#include "subimpact/io/case_file.h"
+
+namespace subimpact {
+namespace {
+
+Case paper_case() { return read_case_file(SUBIMPACT_PAPER_CASE).value; }
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
+}
+
+TEST(SubImpactTable, ShowsMicrosecondsMillimetresAndNewtons) {
+  const std::string table = sub_impact_table(sample_result());
+  expect_in(table, "333.3333");   // end, us
+  expect_in(table, "8796.31");    // peak force, N
+  expect_in(table, "0.1696389");  // indentation, mm
+}
+
+TEST(SubImpactTable, SetsZonesAndSubZonesApartAndMarksAnOpenEnd) {
+  const std::string table = sub_impact_table(sample_result());
+  const auto zone_1 = table.find("zone 1\n");
+  const auto subzone_2 = table.find("sub-zone 2\n");
+  const auto zone_2 = table.find("\nzone 2\n");
+  const auto open = table.find("(open)");
+  ASSERT_NE(open, std::string::npos) << table;
+  EXPECT_LT(zone_1, subzone_2);
+  EXPECT_LT(subzone_2, zone_2);
+  EXPECT_LT(zone_2, open);
+}
+
+TEST(FailureMessage, NamesTimeModeMethodLastEventAndCause) {
+  Result result = sample_result();
+  result.outcome = {OutcomeKind::solver_failed, 12.5e-6, "the library gave up", {}};
+  const std::string message = failure_message(paper_case(), result);
+  expect_in(message, "solver-failed at 12.5 us");
+  expect_in(message, "in contact, sub-impact 3");
+  expect_in(message, "method erk");
+  expect_in(message, "last event section_reverses at 0.666667 us");
+  expect_in(message, "the library gave up");
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(FailureMessage, SaysWhenTheStrikerWasFree) {
+  Result result = sample_result();
+  result.sub_impacts.pop_back();
+  expect_in(failure_message(paper_case(), result), "separated after sub-impact 2");
+}
+
+TEST(RunSummary, WeighsBeamAndStriker) {
+  Case input = paper_case();
+  expect_in(run_summary(input, sample_result()),
+            "masses              beam 0.226055 kg, striker 0.201 kg");
+  input.scene.beam.length *= 1e3;
+  input.scene.beam.width *= 1e3;
+  input.scene.beam.thickness *= 1e3;
+  expect_in(run_summary(input, sample_result()), "beam 226055 t");
+}
+
+TEST(RunSummary, CountsOneAsOne) {
+  Result result = sample_result();
+  result.sub_impacts.resize(1);
+  result.work.steps = 1;
+  result.work.right_hand_sides = 1;
+  result.work.roots = 1;
+  const std::string summary = run_summary(paper_case(), result);
+  expect_in(summary, "1 in 1 zone\n");
+  expect_in(summary, "1 sub-impact in 1 sub-zone,");
+  expect_in(summary, "1 step, 0 rejected, 1 right-hand side, 1 event;");
+}
+
+Result result_with_a_failed_check() {
+  Result result = sample_result();
+  result.outcome = {OutcomeKind::inaccurate, 2e-3, "the energy is off", Interval{1e-3, 1.5e-3}};
+  return result;
+}
+
+constexpr const char* failed_check =
+    "results up to 1000 us passed every check; first failure between 1000 and 1500 us";
+
+TEST(FailedCheck, IsPlacedInTimeBySummaryFailureMessageAndWords) {
+  const Result result = result_with_a_failed_check();
+  expect_in(run_summary(paper_case(), result), failed_check);
+  expect_in(failure_message(paper_case(), result), failed_check);
+  expect_in(strike_words(paper_case(), result).front(), failed_check);
+}
+
+TEST(FailedCheck, MarksTheSubImpactTable) {
+  EXPECT_EQ(sub_impact_table(result_with_a_failed_check())
+                .find(std::string("inaccurate: ") + failed_check),
+            0u);
+  EXPECT_EQ(sub_impact_table(sample_result()).find("  "), 0u);
+}
+
+TEST(Warnings, AreShownInTheSummary) {
+  Result result = sample_result();
+  result.warnings = {"beam.length is 711.2 m"};
+  expect_in(run_summary(paper_case(), result), "warning             beam.length is 711.2 m\n");
+}
+
+TEST(Explanation, TellsUnknownsSymmetrySectionStepTolerancesAndContact) {
+  const Case input = paper_case();
+  const std::string text = explanation(input, explain(input), estimate_cost(input));
+  expect_in(text, "one half is modelled");
+  expect_in(text, "251 of the beam and 1 of the striker");
+  expect_in(text, "40 layers: elastic stiffness 0.999375");
+  expect_in(text, "0.28");  // critical step, us
+  expect_in(text, "2.948976e+10 N/m^1.5");
+  expect_in(text, "0.0156337 mm");
+  expect_in(text, "12.47 ms");
+  expect_in(text, "right-hand sides");
+}
+
+TEST(Explanation, SaysThatAnInfiniteYieldStressLeavesNothingToYield) {
+  Case input = paper_case();
+  input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
+  const std::string text = explanation(input, explain(input), estimate_cost(input));
+  expect_in(text, "elastic, although \"layers\" was asked");
+  expect_in(text, "the contact never yields");
+}
+
+TEST(Explanation, GivesTheReasonForAWholeModel) {
+  Case input = paper_case();
+  input.model.symmetry = SymmetryUse::off;
+  expect_in(explanation(input, explain(input), std::nullopt), "not used, as asked");
+  input.model.symmetry = SymmetryUse::automatic;
+  input.scene.striker.position = 0.4;
+  expect_in(explanation(input, explain(input), std::nullopt), "not symmetric about mid-span");
+}
+
+TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {
+  Case input = paper_case();
+  input.solver.method = Method::central_difference;
+  input.solver.step = 1e-7;
+  const auto cost = estimate_cost(input);
+  ASSERT_TRUE(cost);
+  EXPECT_NEAR(cost->steps, 80000.0, 1e-6);
+  EXPECT_NEAR(cost->right_hand_sides, 80000.0, 1e-6);
+  EXPECT_GT(cost->seconds, 0.0);
+}
+
+TEST(CostEstimate, OfAnAdaptiveMethodIsRightWithinAFactorOfThree) {
+  Case input = paper_case();
+  input.end_time = 2e-4;
+  input.output.interval = 0.0;
+  const auto cost = estimate_cost(input);
+  ASSERT_TRUE(cost);
+  const double counted = static_cast<double>(simulate(input).work.right_hand_sides);
+  EXPECT_LT(cost->right_hand_sides, 3.0 * counted);
+  EXPECT_GT(cost->right_hand_sides, counted / 3.0);
+}
+
+TEST(Listings, NameEveryKeyMethodAndTable) {
+  const std::string keys = fmt::format("\n{}", key_listing());
+  for (const CaseKey& key : case_keys()) expect_in(keys, fmt::format("\n{} ", key.leaf()));
+  const std::string methods = method_listing();
+  for (const Choice& method : find_case_key("solver.method")->choices) {
+    expect_in(methods, fmt::format("  {} ", method.name));
+  }
+  for (const MethodTable& table : method_tables())
+    expect_in(methods, fmt::format(" {} ", table.name));
+}
+
+TEST(DurationText, ChoosesTheUnit) {
+  EXPECT_EQ(duration_text(12.5e-6), "12.5 us");
+  EXPECT_EQ(duration_text(8e-3), "8 ms");
+  EXPECT_EQ(duration_text(3.25), "3.25 s");
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,121 @@
+#include "subimpact/io/work_precision.h"
+#include "subimpact/report/work_precision_chart.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "subimpact/io/results.h"
+#include "temporary_directory.h"
+
+namespace subimpact {
+namespace {
+
+WorkPrecisionPoint point(const std::string& method, double rtol, double error, double seconds,
+                         Verdict verdict = Verdict::right) {
+  WorkPrecisionPoint p;
+  p.setting = {method, false, rtol};
+  p.verdict = verdict;
+  p.errors.maximum = error;
+  p.errors.median = 0.5 * error;
+  p.errors.n_reference = p.errors.n_found = p.errors.n_corresponding = 7;
+  p.seconds = seconds;
+  p.repeats = 3;
+  p.work.right_hand_sides = 1234;
+  if (verdict == Verdict::unstable) p.message = "at 3 us it grows, without bound";
+  if (verdict == Verdict::wrong_count) p.errors.odd = OddSubImpact{1e-3, 2e-6, "lost"};
+  return p;
+}
+
+std::vector<WorkPrecision> studies() {
+  WorkPrecision study;
+  study.label = "elastic section";
+  study.reference.description = "this beside that";
+  study.reference.error = 1e-15;
+  study.points = {point("erk:dop853", 1e-4, 1e-8, 0.02), point("erk:dop853", 1e-6, 1e-10, 0.05),
+                  point("nystrom", 1e-2, 0.0, 0.01, Verdict::unstable),
+                  point("nystrom", 1e-3, 1e-7, 0.01, Verdict::wrong_count),
+                  point("nystrom", 1e-4, 2e-9, 0.01)};
+  return {study, study};
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
+  const TemporaryDirectory directory;
+  const std::vector<WorkPrecision> all = studies();
+  {
+    PointLog log(directory.path, {"a", "b"});
+    EXPECT_EQ(log.n_known(), 0u);
+    for (const WorkPrecisionPoint& p : all.front().points) log.append("a", "elastic", p);
+  }
+  std::ofstream(directory.path / "work_precision.csv", std::ios::app) << "a,elastic,erk,rt";  // cut
+  const PointLog log(directory.path, {"a", "b"});
+  EXPECT_EQ(log.n_known(), 5u);
+  const auto unstable = log.known("a", {"nystrom", false, 1e-2});
+  ASSERT_TRUE(unstable.has_value());
+  EXPECT_EQ(unstable->verdict, Verdict::unstable);
+  EXPECT_EQ(unstable->message, "at 3 us it grows; without bound");
+  const auto wrong = log.known("a", {"nystrom", false, 1e-3});
+  ASSERT_TRUE(wrong && wrong->errors.odd);
+  EXPECT_EQ(wrong->errors.odd->duration, 2e-6);
+  EXPECT_EQ(wrong->errors.maximum, 1e-7);
+  EXPECT_EQ(wrong->seconds, 0.01);
+  EXPECT_EQ(wrong->work.right_hand_sides, 1234);
+  EXPECT_FALSE(log.known("b", {"nystrom", false, 1e-3}).has_value());
+  EXPECT_FALSE(log.known("a", {"nystrom", true, 1e-3}).has_value());
+}
+
+TEST(ALogOfPoints, IsNotMixedWithThatOfAnotherCase) {
+  const TemporaryDirectory directory;
+  PointLog(directory.path, {"a"}).append("a", "elastic", studies().front().points.front());
+  EXPECT_THROW(PointLog(directory.path, {"b"}), OutputError);
+  EXPECT_EQ(PointLog(directory.path, {"a"}).n_known(), 1u);
+}
+
+TEST(ALogOfPoints, HasSettingsThatWereNotRunTriedAgain) {
+  const TemporaryDirectory directory;
+  PointLog(directory.path, {"a"})
+      .append("a", "elastic", point("erk", 1e-9, 0.0, 0.0, Verdict::not_run));
+  EXPECT_EQ(PointLog(directory.path, {"a"}).n_known(), 0u);
+}
+
+TEST(CasesOfDifferentScenes, HaveDifferentIdsButSettingsDoNotMatter) {
+  Case input;
+  Case other = input;
+  other.solver.rtol = 1e-4;
+  other.solver.method = Method::bdf;
+  other.title = "another";
+  EXPECT_EQ(case_id(input), case_id(other));
+  other.scene.striker.mass = 2.0;
+  EXPECT_NE(case_id(input), case_id(other));
+}
+
+TEST(AWorkPrecisionChart, HasAPanelAStudyAndNamesMethodsAxesAndFailures) {
+  const TemporaryDirectory directory;
+  draw_work_precision(directory.path, studies());
+  const std::string svg = content(directory.path / "work_precision.svg");
+  for (const char* piece : {"elastic section", "erk:dop853", "nystrom", "wall time (ms)",
+                            "largest error of an event time (us)", "failed", "lost or invented"}) {
+    EXPECT_NE(svg.find(piece), std::string::npos) << piece;
+  }
+  EXPECT_GT(content(directory.path / "work_precision.png").size(), 10000u);
+  EXPECT_GT(content(directory.path / "work_precision_evaluations.svg").size(), 1000u);
+}
+
+TEST(AWorkPrecisionTable, SaysWhatEachPointCostsAndWhyItIsWrong) {
+  const std::string text = work_precision_table(studies().front());
+  for (const char* piece : {"this beside that", "erk:dop853", "rtol 1e-06", "wrong count",
+                            "nystrom at rtol 1e-02: at 3 us it grows, without bound", "50 ms"}) {
+    EXPECT_NE(text.find(piece), std::string::npos) << piece << " is not in:\n" << text;
+  }
+  const std::string advice = advice_text(advice_from(studies().front().points));
+  EXPECT_NE(advice.find("0.01 us   nystrom at rtol 1e-04: 10 ms"), std::string::npos) << advice;
+}
+
+}  // namespace
+}  // namespace subimpact
