@@ -68,6 +68,20 @@ Outcome outcome_of(const RunStopped& stop, const Case& input, const Used& used) 
   return outcome;
 }
 
+// The last state is judged however the run ended.
+void judge_end(Audit& audit, const EventLoop& loop, const Case& input, Result& result) {
+  if (result.outcome.first_failure) return;
+  try {
+    audit.check(loop.time(), loop.state());
+  } catch (const RunStopped& stop) {
+    if (result.outcome.kind == OutcomeKind::solver_failed) {
+      result.outcome.first_failure = stop.first_failure;
+    } else {
+      result.outcome = outcome_of(stop, input, result.used);
+    }
+  }
+}
+
 // With a fixed step contacts may be too short for it although the accounts close.
 void warn_of_short_contacts(const Recorder& recorder, const Used& used, Result& result) {
   if (!used.step) return;
@@ -143,6 +157,7 @@ Result simulate(const Case& input, const Progress& progress) {
     result.outcome.kind = OutcomeKind::solver_failed;
     result.outcome.message = failure.what() + ("; " + remedy(input));
   }
+  judge_end(audit, loop, input, result);
   result.outcome.time =
       result.outcome.first_failure ? result.outcome.first_failure->to : loop.time();
   recorder.finish(loop.time(), loop.state(), beam, !result.outcome.first_failure);
