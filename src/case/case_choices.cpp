@@ -1,5 +1,8 @@
 #include "case/case_choices.h"
 
+#include <vector>
+
+#include "case/methods.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -77,31 +80,11 @@ std::span<const Named<StopRule>> names_of(StopRule) {
 }
 
 std::span<const Named<Method>> names_of(Method) {
-  static constexpr Named<Method> names[] = {
-      {Method::central_difference, "central-difference",
-       "explicit, second order, fixed step: the scheme to reproduce published runs with"},
-      {Method::erk, "erk",
-       "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event times"},
-      {Method::nystrom, "nystrom",
-       "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of its "
-       "cost"},
-      {Method::exponential, "exponential",
-       "natural modes: an elastic beam under a collocated contact force, free flight in closed "
-       "form "
-       "where it yields; the fastest"},
-      {Method::dirk, "dirk",
-       "diagonally implicit Runge-Kutta with error control (ARKODE): stable at any step, but damps "
-       "what it does not resolve"},
-      {Method::imex, "imex",
-       "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler systems"},
-      {Method::adams, "adams",
-       "Adams-Moulton of variable order (CVODE): two evaluations a step; for tolerances of 1e-7 "
-       "and "
-       "below"},
-      {Method::bdf, "bdf",
-       "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser ones orders "
-       "above 2 (solver.max_order) blow up, as they do on any undamped oscillation"},
-  };
+  static const std::vector<Named<Method>> names = [] {
+    std::vector<Named<Method>> list;
+    for (const MethodDescriptor& row : methods()) list.push_back({row.method, row.name, row.note});
+    return list;
+  }();
   return names;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "case/methods.h"
 #include "case/model_factory.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/method_tables.h"
@@ -17,8 +18,6 @@ constexpr int batch = 64;
 // Fits to the paper's example, 501 cells, over rtol 1e-6 to 1e-10 and all explicit tables (see the
 // header for what they are worth): the angle omega_max h of a step at rtol 1e-8 is proportional to
 // what the step evaluates, and a Nystroem evaluation takes it twice as far.
-constexpr double radians_per_evaluation = 0.11;
-constexpr double nystrom_gain = 2.0;
 constexpr double reference_tolerance = 1e-8;
 // A beam that yields has steps cut, put right and restarted where its sections begin to flow or
 // turn.
@@ -45,7 +44,7 @@ double measure_right_hand_side(StruckBeam& beam) {
 
 // Of the explicit methods: what an implicit or a multistep method costs depends on its iterations.
 const MethodTable* table_of(Method method, const Used& used) {
-  if (method != Method::erk && method != Method::nystrom) return nullptr;
+  if (!(descriptor_of(method).radians_per_evaluation > 0.0)) return nullptr;
   for (const MethodTable& table : method_tables()) {
     if (table.method == method && used.table && table.name == *used.table) return &table;
   }
@@ -59,9 +58,9 @@ std::optional<CostEstimate> estimate_cost(const Case& input) {
   StruckBeam beam = make_struck_beam(input);
   const Used used = describe(input, beam);
   const MethodTable* table = table_of(input.solver.method, used);
-  const Method method = input.solver.method;
-  const bool fitted = method == Method::erk || method == Method::nystrom;
-  if (!fitted && method != Method::central_difference) return std::nullopt;
+  const MethodDescriptor& method = descriptor_of(input.solver.method);
+  const bool fitted = method.radians_per_evaluation > 0.0;
+  if (!fitted && method.steps != MethodDescriptor::Steps::fixed) return std::nullopt;
   if (used.highest_frequency == 0.0) return std::nullopt;  // a rigid beam: no mesh, no fit
   CostEstimate cost;
   cost.seconds_per_right_hand_side = measure_right_hand_side(beam);
@@ -69,7 +68,7 @@ std::optional<CostEstimate> estimate_cost(const Case& input) {
   double step = used.step.value_or(0.0);
   if (!used.step) {
     const double radians =
-        radians_per_evaluation * evaluations * (method == Method::nystrom ? nystrom_gain : 1.0) *
+        method.radians_per_evaluation * evaluations *
         std::pow(input.solver.rtol / reference_tolerance, 1.0 / (table->embedded_order + 1.0));
     step =
         std::min(radians / used.highest_frequency, input.solver.max_step.value_or(input.end_time));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "case/methods.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -21,33 +22,23 @@ bool has_elastic_sections(const Case& c) { return c.model.section == SectionKind
 bool never_yields(const Case& c) { return std::isinf(c.scene.beam.yield_stress); }
 bool is_equal_mesh(const Case& c) { return c.model.strike_refinement == 1.0; }
 
-bool is_central(const Case& c) { return c.solver.method == Method::central_difference; }
-bool has_fixed_step(const Case& c) { return c.solver.step.has_value(); }
-bool interpolates_events(const Case& c) {
-  return c.solver.events.value_or(is_central(c)
-                                      ? EventHandling::interpolated
-                                      : EventHandling::located) == EventHandling::interpolated;
+bool is_central(const Case& c) {
+  return descriptor_of(c.solver.method).steps == MethodDescriptor::Steps::fixed;
 }
+bool has_fixed_step(const Case& c) { return c.solver.step.has_value(); }
+bool interpolates_events(const Case& c) { return events_of(c) == EventHandling::interpolated; }
 bool central_interpolates(const Case& c) { return is_central(c) && !c.solver.events; }
 // What sections do within a step is put right to within the tolerance, with a fixed step too.
 bool locates_reversals(const Case& c) {
-  const bool multistep = c.solver.method == Method::adams || c.solver.method == Method::bdf;
   const bool may_yield = !is_rigid(c) && !has_elastic_sections(c) && !never_yields(c);
-  return may_yield && !interpolates_events(c) &&
-         c.solver.reversals.value_or(multistep
-                                         ? ReversalHandling::step_end
-                                         : ReversalHandling::located) == ReversalHandling::located;
+  return may_yield && !interpolates_events(c) && reversals_of(c) == ReversalHandling::located;
 }
 bool central_needs_no_tolerance(const Case& c) { return is_central(c) && !locates_reversals(c); }
 // Implicit methods solve their equations to the tolerance, whatever the step.
 bool fixed_step_needs_no_tolerance(const Case& c) {
-  const bool implicit = c.solver.method == Method::dirk || c.solver.method == Method::imex;
-  return has_fixed_step(c) && !implicit && !locates_reversals(c);
+  return has_fixed_step(c) && !descriptor_of(c.solver.method).implicit && !locates_reversals(c);
 }
-bool is_not_sundials(const Case& c) {
-  return is_central(c) || c.solver.method == Method::nystrom ||
-         c.solver.method == Method::exponential;
-}
+bool is_not_sundials(const Case& c) { return !descriptor_of(c.solver.method).sundials; }
 bool is_not_central(const Case& c) { return !is_central(c); }
 bool ignores_the_nose(const Case& c) {
   return c.scene.contact.kind == ContactKind::linear || c.scene.contact.stiffness.has_value();

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "case/mesh_checks.h"
-#include "integrate/cvode.h"
+#include "case/methods.h"
 #include "integrate/klu_mass_solver.h"
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
@@ -39,11 +39,6 @@ constexpr double tolerated_energy_per_rtol = 1e4;
 constexpr double least_tolerated_energy = 1e-6;
 constexpr double most_tolerated_energy = 1e-3;
 constexpr double tolerated_momentum = 1e-9;
-constexpr int default_adams_order = 12;
-// Orders above 2 are unstable on undamped oscillations, but only for steps that tolerances of 1e-7
-// and below do not take; there order 5 is 20 times as accurate as order 2 in a quarter of the
-// evaluations.
-constexpr int default_bdf_order = 5;
 
 // How far putting right what sections do within a step may be off, in units of the integrator's own
 // tolerance on velocities. At 1 it is off by a third of it, root mean square over the steps of the
@@ -54,53 +49,53 @@ bool is_symmetric(const Scene& scene) {
   return scene.striker.position == 0.5 && scene.beam.ends[0] == scene.beam.ends[1];
 }
 
-std::vector<std::string> tables_of(Method method) {
+std::vector<std::string> tables_of(const MethodDescriptor& method) {
   std::vector<std::string> names;
-  for (const MethodTable& table : method_tables()) {
-    if (table.method == method) names.push_back(table.name);
-  }
+  if (method.tables == nullptr) return names;
+  for (const MethodTable& table : method.tables()) names.push_back(table.name);
   return names;
 }
 
-bool is_multistep(Method method) { return method == Method::adams || method == Method::bdf; }
-
 std::optional<int> max_order_used(const Case& input) {
   const std::optional<int>& asked = input.solver.max_order;
-  const Method method = input.solver.method;
-  if (!is_multistep(method)) {
+  const MethodDescriptor& method = descriptor_of(input.solver.method);
+  if (!method.order) {
     if (!asked) return std::nullopt;
     throw InvalidCase(
         "solver.max_order",
-        fmt::format("is {}, but {} has no order to choose; leave it out, or use adams "
-                    "or bdf",
-                    *asked, to_string(method)));
+        fmt::format("is {}, but {} has no order to choose; leave it out, or use adams or bdf",
+                    *asked, method.name));
   }
-  const int limit = method == Method::adams ? adams_order_limit : bdf_order_limit;
-  const int order =
-      asked.value_or(method == Method::adams ? default_adams_order : default_bdf_order);
-  if (order < 1 || order > limit) {
+  const int order = asked.value_or(method.order->usual);
+  if (order < 1 || order > method.order->limit) {
     throw InvalidCase("solver.max_order", fmt::format("is {}; allowed for {}: from 1 to {}", order,
-                                                      to_string(method), limit));
+                                                      method.name, method.order->limit));
   }
   return order;
 }
 
-// The method relies on a force that is smooth within a step.
-void check_exponential_events(const Used& used) {
-  if (used.events == EventHandling::located) return;
-  throw InvalidCase(
-      "solver.events",
-      "is \"interpolated\", but the steps of exponential are too long for it; allowed: "
-      "\"located\"; leave it out, or use another solver.method");
-}
-
-// On a beam that may yield it relies on seeing where sections begin to flow, too.
-void check_yielding_exponential(const Case& input, const Used& used) {
-  const auto refuse = [](const char* key, const char* what) {
-    throw InvalidCase(key, fmt::format("is {}, which exponential cannot do where the beam may "
-                                       "yield; leave it out, set model.section = \"elastic\", or "
-                                       "use nystrom",
-                                       what));
+// Settings that the method cannot take.
+void check_method(const Case& input, const Used& used, bool can_yield) {
+  const MethodDescriptor& method = descriptor_of(input.solver.method);
+  if (method.needs_located_events && used.events != EventHandling::located) {
+    throw InvalidCase("solver.events",
+                      fmt::format("is \"interpolated\", but the steps of {} are too long for it; "
+                                  "allowed: \"located\"; leave it out, or use another "
+                                  "solver.method",
+                                  method.name));
+  }
+  if (method.steps == MethodDescriptor::Steps::adaptive_order && input.solver.step) {
+    throw InvalidCase(
+        "solver.step",
+        fmt::format("is {} s, but {} chooses step and order together and has no fixed step; leave "
+                    "it out (solver.max_step bounds the step), or use another method",
+                    *input.solver.step, method.name));
+  }
+  if (!method.needs_adaptive_steps_to_yield || !can_yield) return;
+  const auto refuse = [&](const char* key, const char* what) {
+    throw InvalidCase(key, fmt::format("is {}, which {} cannot do where the beam may yield; leave "
+                                       "it out, set model.section = \"elastic\", or use nystrom",
+                                       what, method.name));
   };
   if (input.solver.step) refuse("solver.step", "given: a fixed step");
   if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
@@ -108,7 +103,7 @@ void check_yielding_exponential(const Case& input, const Used& used) {
 
 // The table asked for, or the method's first; nothing for a method without tables.
 std::optional<std::string> table_used(const Case& input) {
-  const std::vector<std::string> names = tables_of(input.solver.method);
+  const std::vector<std::string> names = tables_of(descriptor_of(input.solver.method));
   const std::optional<std::string>& asked = input.solver.table;
   if (!asked) return names.empty() ? std::nullopt : std::optional(names.front());
   if (std::find(names.begin(), names.end(), *asked) == names.end()) {
@@ -175,23 +170,6 @@ double energy_tolerance(const Case& input, const Used& used) {
                     most_tolerated_energy);
 }
 
-// A full check costs about one evaluation of the forces and is to take at most some hundredths of
-// the steps between two.
-long audit_interval(Method method) {
-  switch (method) {
-    case Method::central_difference:
-      return 256;
-    case Method::adams:
-    case Method::bdf:
-      return 64;
-    case Method::dirk:
-    case Method::imex:
-      return 4;
-    default:
-      return 32;
-  }
-}
-
 std::unique_ptr<BeamMesh> make_rigid_mesh(const Case& input) {
   for (const EndSupport end : input.scene.beam.ends) {
     if (end == EndSupport::free) continue;
@@ -219,11 +197,6 @@ std::unique_ptr<BeamMesh> make_cell_mesh(const Case& input) {
                                     half ? CellMesh::Extent::half : CellMesh::Extent::whole);
 }
 
-bool sections_may_yield(const Case& input) {
-  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
-         std::isfinite(input.scene.beam.yield_stress);
-}
-
 std::unique_ptr<BeamMesh> make_hermite_mesh(const Case& input) {
   const bool half = uses_symmetry(input);
   const int elements = input.model.elements;
@@ -240,7 +213,7 @@ std::unique_ptr<BeamMesh> make_hermite_mesh(const Case& input) {
       static_cast<std::size_t>(input.model.sections_per_element),
       half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole,
       HermiteMesh::Options{grading_of(input),
-                           input.model.hinges == HingeUse::automatic && sections_may_yield(input)});
+                           input.model.hinges == HingeUse::automatic && may_yield(input)});
 }
 
 std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
@@ -258,21 +231,20 @@ std::unique_ptr<BeamMesh> make_mesh(const Case& input) {
 // Whether an elastic beam on this mesh is integrated in its natural modes. Explicit methods see the
 // same motion in either unknowns, but a step in modes needs no mass solve.
 bool in_modes(const Case& input, const BeamMesh& mesh) {
-  switch (input.solver.method) {
-    case Method::exponential:
+  switch (descriptor_of(input.solver.method).modes) {
+    case MethodDescriptor::Modes::always:
       return true;
-    case Method::central_difference:
-    case Method::erk:
-    case Method::nystrom:
+    case MethodDescriptor::Modes::where_cheaper:
       return mesh.prefers_modes() && input.solver.mass_solver == MassSolverKind::tridiagonal;
-    default:
+    case MethodDescriptor::Modes::never:
       return false;
   }
+  return false;
 }
 
 SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {
   const Beam& beam = input.scene.beam;
-  if (!sections_may_yield(input)) return SectionField(n, beam.bending_stiffness());
+  if (!may_yield(input)) return SectionField(n, beam.bending_stiffness());
   const Fibres fibres = input.model.section == SectionKind::layers
                             ? Fibres::layered(input.model.layers)
                             : Fibres::continuous();
@@ -280,6 +252,11 @@ SectionField make_sections(const Case& input, std::size_t n, SectionField::Stora
 }
 
 }  // namespace
+
+bool may_yield(const Case& input) {
+  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
+         std::isfinite(input.scene.beam.yield_stress);
+}
 
 bool uses_symmetry(const Case& input) {
   return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input.scene);
@@ -323,25 +300,11 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
   check_scales(input, beam);
   used.table = table_used(input);
-  const bool central = input.solver.method == Method::central_difference;
-  used.events =
-      input.solver.events.value_or(central ? EventHandling::interpolated : EventHandling::located);
-  // To a multistep method a restart at each turn costs more than the turn's error.
-  used.reversals = input.solver.reversals.value_or(
-      is_multistep(input.solver.method) ? ReversalHandling::step_end : ReversalHandling::located);
+  used.events = events_of(input);
+  used.reversals = reversals_of(input);
   used.max_order = max_order_used(input);
-  if (input.solver.method == Method::exponential) check_exponential_events(used);
-  if (input.solver.method == Method::exponential && beam.sections().can_yield()) {
-    check_yielding_exponential(input, used);
-  }
-  if (is_multistep(input.solver.method) && input.solver.step) {
-    throw InvalidCase(
-        "solver.step",
-        fmt::format("is {} s, but {} chooses step and order together and has no fixed step; leave "
-                    "it out (solver.max_step bounds the step), or use another method",
-                    *input.solver.step, to_string(input.solver.method)));
-  }
-  if (central) {
+  check_method(input, used, beam.sections().can_yield());
+  if (descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed) {
     used.step = input.solver.step.value_or(default_central_step(used));
     check_central_step(input, used);
   } else {
@@ -358,6 +321,10 @@ Used describe(const Case& input, const StruckBeam& beam) {
 
 AuditLimits audit_limits(const Used& used) { return {used.energy_tolerance, tolerated_momentum}; }
 
+std::unique_ptr<Integrator> make_integrator(const Case& input, const Used& used, StruckBeam& beam) {
+  return descriptor_of(input.solver.method).make(input, used, beam);
+}
+
 LoopOptions loop_options(const Case& input, const Used& used) {
   LoopOptions options;
   options.end_time = input.end_time;
@@ -366,7 +333,7 @@ LoopOptions loop_options(const Case& input, const Used& used) {
     options.kink_tolerance = kink_share * input.solver.rtol * input.scene.striker.velocity;
   }
   options.largest_indentation = input.scene.beam.thickness;
-  options.audit_interval = audit_interval(input.solver.method);
+  options.audit_interval = descriptor_of(input.solver.method).audit_interval;
   options.shortest_contact = M_PI / used.joined_frequency;
   return options;
 }

@@ -11,6 +11,9 @@
 
 namespace subimpact {
 
+/// Whether a section of the beam may ever yield.
+bool may_yield(const Case& input);
+
 /// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
 

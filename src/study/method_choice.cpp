@@ -1,7 +1,6 @@
 #include "study/method_choice.h"
 
-#include <cmath>
-
+#include "case/methods.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -19,14 +18,9 @@ Case with_method(const Case& input, const std::string& name) {
     chosen.solver.table = input.solver.table;
     chosen.solver.max_order = input.solver.max_order;
   }
-  const bool fixed = chosen.solver.method == Method::central_difference;
+  const bool fixed = descriptor_of(chosen.solver.method).steps == MethodDescriptor::Steps::fixed;
   if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
   return chosen;
-}
-
-bool may_yield(const Case& input) {
-  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
-         std::isfinite(input.scene.beam.yield_stress);
 }
 
 }  // namespace subimpact

@@ -1,0 +1,241 @@
+#include "case/methods.h"
+
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "integrate/arkode_ark.h"
+#include "integrate/arkode_erk.h"
+#include "integrate/central_difference.h"
+#include "integrate/cvode.h"
+#include "integrate/exponential.h"
+#include "integrate/flying.h"
+#include "integrate/nystrom.h"
+#include "integrate/nystrom_tables.h"
+#include "system/beam_flight.h"
+#include "system/modal_beam.h"
+
+namespace subimpact {
+namespace {
+
+using IntegratorPointer = std::unique_ptr<Integrator>;
+
+constexpr int usual_adams_order = 12;
+// Orders above 2 are unstable on undamped oscillations, but only for steps that tolerances of 1e-7
+// and below do not take; there order 5 is 20 times as accurate as order 2 with a quarter of the
+// evaluations.
+constexpr int usual_bdf_order = 5;
+
+// A Nystroem evaluation advances a step twice as far as one of a Runge-Kutta method.
+constexpr double erk_radians = 0.11;
+constexpr double nystrom_radians = 0.22;
+
+// Options that all of SUNDIALS' one-step methods share.
+template <class Options>
+Options one_step_options(const Case& input, const Used& used) {
+  Options options;
+  options.table = *used.table;
+  options.relative_tolerance = input.solver.rtol;
+  options.fixed_step = input.solver.step;
+  options.max_step = input.solver.max_step;
+  options.vector_operations = input.solver.vector_operations == VectorOperationsKind::library
+                                  ? VectorOperations::library
+                                  : VectorOperations::project;
+  return options;
+}
+
+CvodeOptions multistep_options(const Case& input, const Used& used) {
+  CvodeOptions options;
+  options.max_order = *used.max_order;
+  options.relative_tolerance = input.solver.rtol;
+  options.max_step = input.solver.max_step;
+  options.vector_operations = input.solver.vector_operations == VectorOperationsKind::library
+                                  ? VectorOperations::library
+                                  : VectorOperations::project;
+  return options;
+}
+
+std::unique_ptr<Nystrom> make_nystrom(const Case& input, const Used& used, StruckBeam& beam) {
+  NystromOptions options;
+  if (used.table) options.table = *used.table;
+  options.relative_tolerance = input.solver.rtol;
+  options.fixed_step = input.solver.step;
+  options.max_step = input.solver.max_step;
+  return std::make_unique<Nystrom>(beam, options);
+}
+
+// Where the beam may yield only free flight has a closed form; nystrom does the rest.
+IntegratorPointer make_exponential(const Case& input, const Used& used, StruckBeam& beam) {
+  if (beam.sections().can_yield()) {
+    return std::make_unique<Flying>(
+        make_nystrom(input, used, beam), std::make_unique<BeamFlight>(beam),
+        input.solver.max_step.value_or(std::numeric_limits<double>::infinity()));
+  }
+  ExponentialOptions options;
+  options.relative_tolerance = input.solver.rtol;
+  options.fixed_step = input.solver.step;
+  options.max_step = input.solver.max_step;
+  return std::make_unique<Exponential>(std::make_unique<ModalBeam>(beam), options);
+}
+
+template <class Table>
+std::vector<MethodTable> explicit_list(Method method, const std::vector<Table>& tables,
+                                       int (*evaluations)(const Table&)) {
+  std::vector<MethodTable> list;
+  for (const Table& table : tables) {
+    list.push_back(
+        {method, table.name, table.order, table.embedded_order, evaluations(table), table.note});
+  }
+  return list;
+}
+
+std::vector<MethodTable> erk_list() {
+  return explicit_list<ExplicitTable>(Method::erk, explicit_tables(),
+                                      [](const ExplicitTable& t) { return t.evaluations; });
+}
+std::vector<MethodTable> nystrom_list() {
+  return explicit_list<NystromTable>(Method::nystrom, nystrom_tables(),
+                                     [](const NystromTable& t) { return t.evaluations(); });
+}
+std::vector<MethodTable> dirk_list() {
+  return explicit_list<ImplicitTable>(Method::dirk, dirk_tables(),
+                                      [](const ImplicitTable& t) { return t.stages; });
+}
+std::vector<MethodTable> imex_list() {
+  return explicit_list<ImplicitTable>(Method::imex, imex_tables(),
+                                      [](const ImplicitTable& t) { return t.stages; });
+}
+
+std::vector<MethodDescriptor> make_descriptors() {
+  using Steps = MethodDescriptor::Steps;
+  using Modes = MethodDescriptor::Modes;
+  return {
+      {.method = Method::central_difference,
+       .name = "central-difference",
+       .note = "explicit, second order, fixed step: the scheme to reproduce published runs with",
+       .steps = Steps::fixed,
+       .modes = Modes::where_cheaper,
+       .events = EventHandling::interpolated,
+       .audit_interval = 256,
+       .make = [](const Case&, const Used& used, StruckBeam& beam) -> IntegratorPointer {
+         return std::make_unique<CentralDifference>(beam, *used.step);
+       }},
+      {.method = Method::erk,
+       .name = "erk",
+       .note = "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event "
+               "times",
+       .sundials = true,
+       .modes = Modes::where_cheaper,
+       .radians_per_evaluation = erk_radians,
+       .tables = erk_list,
+       .make =
+           [](const Case& input, const Used& used, StruckBeam& beam) {
+             return make_arkode_erk(beam, one_step_options<ErkOptions>(input, used));
+           }},
+      {.method = Method::nystrom,
+       .name = "nystrom",
+       .note = "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of "
+               "its cost",
+       .modes = Modes::where_cheaper,
+       .radians_per_evaluation = nystrom_radians,
+       .tables = nystrom_list,
+       .make = [](const Case& input, const Used& used, StruckBeam& beam) -> IntegratorPointer {
+         return make_nystrom(input, used, beam);
+       }},
+      {.method = Method::exponential,
+       .name = "exponential",
+       .note = "natural modes: an elastic beam under a collocated contact force, free flight in "
+               "closed form where it yields; the fastest",
+       .modes = Modes::always,
+       .needs_located_events = true,
+       .needs_adaptive_steps_to_yield = true,
+       .make = make_exponential},
+      {.method = Method::dirk,
+       .name = "dirk",
+       .note = "diagonally implicit Runge-Kutta with error control (ARKODE): stable at any step, "
+               "but damps what it does not resolve",
+       .implicit = true,
+       .sundials = true,
+       .audit_interval = 4,
+       .tables = dirk_list,
+       .make =
+           [](const Case& input, const Used& used, StruckBeam& beam) {
+             return make_arkode_dirk(beam, one_step_options<ArkOptions>(input, used));
+           }},
+      {.method = Method::imex,
+       .name = "imex",
+       .note = "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler "
+               "systems",
+       .implicit = true,
+       .sundials = true,
+       .audit_interval = 4,
+       .tables = imex_list,
+       .make =
+           [](const Case& input, const Used& used, StruckBeam& beam) {
+             return make_arkode_imex(beam, one_step_options<ArkOptions>(input, used));
+           }},
+      // To a multistep method a restart at each reversal costs more than the reversal's error.
+      {.method = Method::adams,
+       .name = "adams",
+       .note = "Adams-Moulton of variable order (CVODE): two evaluations a step; for tolerances of "
+               "1e-7 and below",
+       .steps = Steps::adaptive_order,
+       .sundials = true,
+       .reversals = ReversalHandling::step_end,
+       .audit_interval = 64,
+       .order = {{adams_order_limit, usual_adams_order}},
+       .make =
+           [](const Case& input, const Used& used, StruckBeam& beam) {
+             return make_cvode_adams(beam, multistep_options(input, used));
+           }},
+      {.method = Method::bdf,
+       .name = "bdf",
+       .note = "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser ones "
+               "orders above 2 (solver.max_order) blow up, as they do on any undamped oscillation",
+       .steps = Steps::adaptive_order,
+       .sundials = true,
+       .reversals = ReversalHandling::step_end,
+       .audit_interval = 64,
+       .order = {{bdf_order_limit, usual_bdf_order}},
+       .make =
+           [](const Case& input, const Used& used, StruckBeam& beam) {
+             return make_cvode_bdf(beam, multistep_options(input, used));
+           }},
+  };
+}
+
+}  // namespace
+
+const std::vector<MethodDescriptor>& methods() {
+  static const std::vector<MethodDescriptor> list = make_descriptors();
+  return list;
+}
+
+const MethodDescriptor& descriptor_of(Method method) {
+  for (const MethodDescriptor& descriptor : methods()) {
+    if (descriptor.method == method) return descriptor;
+  }
+  throw std::logic_error("a method has no descriptor: add a row in methods.cpp");
+}
+
+EventHandling events_of(const Case& input) {
+  return input.solver.events.value_or(descriptor_of(input.solver.method).events);
+}
+
+ReversalHandling reversals_of(const Case& input) {
+  return input.solver.reversals.value_or(descriptor_of(input.solver.method).reversals);
+}
+
+const std::vector<MethodTable>& method_tables() {
+  static const std::vector<MethodTable> tables = [] {
+    std::vector<MethodTable> list;
+    for (const MethodDescriptor& descriptor : methods()) {
+      if (descriptor.tables == nullptr) continue;
+      for (MethodTable& table : descriptor.tables()) list.push_back(std::move(table));
+    }
+    return list;
+  }();
+  return tables;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "ode/integrator.h"
+#include "subimpact/case/case.h"
+#include "subimpact/case/method_tables.h"
+#include "subimpact/simulate/result.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// All that the program has to decide by method, in one row per method. A new method is its own
+/// files, an enumerator of Method and a row in methods.cpp.
+struct MethodDescriptor {
+  Method method;
+  const char* name;  ///< in case files
+  const char* note;  ///< what it is for
+
+  enum class Steps {
+    fixed,           ///< a fixed step, derived from the critical one if none is given
+    adaptive,        ///< adaptive, or fixed where solver.step is given
+    adaptive_order,  ///< step and order chosen together: no fixed step
+  };
+  Steps steps = Steps::adaptive;
+  bool implicit = false;  ///< solves equations to the tolerance, whatever the step
+  bool sundials = false;  ///< by SUNDIALS, so that solver.vector_operations has an effect
+
+  /// Whether an elastic beam is integrated in its natural modes.
+  enum class Modes {
+    never,
+    where_cheaper,  ///< where the mesh says that a step in modes costs less
+    always
+  };
+  Modes modes = Modes::never;
+
+  /// What the method cannot do at all, and what it cannot do where the beam may yield.
+  bool needs_located_events = false;
+  bool needs_adaptive_steps_to_yield = false;
+
+  EventHandling events = EventHandling::located;           ///< default
+  ReversalHandling reversals = ReversalHandling::located;  ///< default
+  long audit_interval = 32;  ///< steps between two full checks of energy and momentum
+
+  struct Order {
+    int limit;
+    int usual;  ///< default of solver.max_order
+  };
+  std::optional<Order> order = {};  ///< of multistep methods
+
+  /// Radians of the highest frequency per evaluation that an adaptive step at rtol 1e-8 advances
+  /// by, a fit to the paper's example; 0: no fit.
+  double radians_per_evaluation = 0.0;
+
+  /// Coefficients that solver.table may name, the default first; none for a method without tables.
+  std::vector<MethodTable> (*tables)() = nullptr;
+  std::unique_ptr<Integrator> (*make)(const Case&, const Used&, StruckBeam&) = nullptr;
+};
+
+/// All methods, in the order in which they are listed.
+const std::vector<MethodDescriptor>& methods();
+const MethodDescriptor& descriptor_of(Method method);
+
+/// Whether a key's default or the case's own value applies.
+EventHandling events_of(const Case& input);
+ReversalHandling reversals_of(const Case& input);
+
+}  // namespace subimpact
