@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact::scenes {
