@@ -23,10 +23,47 @@ function(subimpact_library folder)
     add_library(${target} STATIC ${ARG_SOURCES})
     target_include_directories(${target} PUBLIC ${stage})
     target_link_libraries(${target} PUBLIC ${ARG_USES} ${ARG_LINK} PRIVATE subimpact_flags)
+    set_property(GLOBAL APPEND PROPERTY SUBIMPACT_FLOORS ${target})
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${stage})
     target_link_libraries(${target} INTERFACE ${ARG_USES} ${ARG_LINK})
   endif()
   add_library(subimpact::${folder} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY SUBIMPACT_HEADER_FLOORS ${folder})
+endfunction()
+
+# Target check_headers: each header compiles when it is all that a file includes, twice, with what its
+# floor may see; public ones also with include/ alone. For work on the project; not built by default.
+function(subimpact_check_headers)
+  add_custom_target(check_headers)
+  get_property(floors GLOBAL PROPERTY SUBIMPACT_HEADER_FLOORS)
+  foreach(folder IN LISTS floors)
+    set(stage ${PROJECT_BINARY_DIR}/stage/${folder})
+    file(GLOB_RECURSE headers FOLLOW_SYMLINKS RELATIVE ${stage} ${stage}/*.h)
+    subimpact_header_target(check_headers_${folder} ${headers})
+    target_link_libraries(check_headers_${folder} PRIVATE subimpact::${folder} subimpact_flags)
+  endforeach()
+  # The private headers of sundials/ are for the sources beside them.
+  target_link_libraries(check_headers_integrate
+    PRIVATE $<TARGET_PROPERTY:subimpact_integrate,LINK_LIBRARIES>)
+  target_link_libraries(check_headers_io PRIVATE $<TARGET_PROPERTY:subimpact_io,LINK_LIBRARIES>)
+
+  file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR}/include
+       ${PROJECT_SOURCE_DIR}/include/*.h)
+  subimpact_header_target(check_headers_public ${headers})
+  target_include_directories(check_headers_public PRIVATE ${PROJECT_SOURCE_DIR}/include)
+endfunction()
+
+function(subimpact_header_target target)
+  set(sources)
+  foreach(header IN LISTS ARGN)
+    set(source ${PROJECT_BINARY_DIR}/headers/${target}/${header}.cpp)
+    file(CONFIGURE OUTPUT ${source}
+         CONTENT "#include \"${header}\"\n#include \"${header}\"  // again, on purpose\n")
+    list(APPEND sources ${source})
+  endforeach()
+  add_library(${target} OBJECT EXCLUDE_FROM_ALL ${sources})
+  target_compile_options(${target} PRIVATE -O0)
+  add_dependencies(check_headers ${target})
 endfunction()
