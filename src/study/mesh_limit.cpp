@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/model_factory.h"
 #include "study/parallel.h"
 #include "subimpact/study/mesh_error_bars.h"
 #include "subimpact/study/plan.h"
@@ -15,11 +16,6 @@ constexpr double factors[] = {0.25, 0.5, 1.0, 2.0, 4.0};
 constexpr double elastic_tolerance = 1e-11;
 constexpr double yielding_tolerance = 1e-9;
 constexpr double share_of_extrapolation = 0.5;
-
-bool may_yield(const Case& input) {
-  return input.model.section != SectionKind::elastic &&
-         std::isfinite(input.scene.beam.yield_stress);
-}
 
 Case accurate(Case input) {
   input.solver = {};

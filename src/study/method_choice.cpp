@@ -24,9 +24,4 @@ Case with_method(const Case& input, const std::string& name) {
   return chosen;
 }
 
-bool may_yield(const Case& input) {
-  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
-         std::isfinite(input.scene.beam.yield_stress);
-}
-
 }  // namespace subimpact

@@ -11,7 +11,4 @@ namespace subimpact {
 /// for this method. Throws InvalidCase for an unknown name.
 Case with_method(const Case& input, const std::string& name);
 
-/// Whether sections of the case have a yield stress to reach.
-bool may_yield(const Case& input);
-
 }  // namespace subimpact

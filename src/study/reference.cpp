@@ -6,6 +6,7 @@
 #include <future>
 #include <limits>
 
+#include "case/model_factory.h"
 #include "study/method_choice.h"
 #include "subimpact/study/error_bars.h"
 
