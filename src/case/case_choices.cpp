@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "case/methods.h"
+#include "model/contact_laws.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -25,13 +26,13 @@ std::span<const Named<EndSupport>> names_of(EndSupport) {
 }
 
 std::span<const Named<ContactKind>> names_of(ContactKind) {
-  static constexpr Named<ContactKind> names[] = {
-      {ContactKind::foundation, "foundation", "elasto-plastic columns under a cylindrical nose"},
-      {ContactKind::hertz, "hertz",
-       "elastic, K lambda^1.5: contact.stiffness, or a sphere of striker.nose_radius with the "
-       "moduli and Poisson's ratios of both bodies"},
-      {ContactKind::linear, "linear", "elastic, K lambda: contact.stiffness"},
-  };
+  static const std::vector<Named<ContactKind>> names = [] {
+    std::vector<Named<ContactKind>> rows;
+    for (const BuiltInContactLaw& law : built_in_contact_laws()) {
+      rows.push_back({law.kind, law.name, law.note});
+    }
+    return rows;
+  }();
   return names;
 }
 

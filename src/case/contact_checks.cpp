@@ -2,64 +2,62 @@
 
 #include <fmt/format.h>
 
-#include "case/case_choices.h"
+#include <algorithm>
+#include <string_view>
+
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
 
-constexpr const char* sphere_keys[] = {"contact.striker_modulus", "contact.striker_poisson",
-                                       "contact.beam_poisson"};
+// The keys of which a law may be given more than it uses. The nose's radius describes the striker,
+// whether or not the law depends on it.
+constexpr const char* keys_of_contact[] = {"contact.stiffness", "contact.striker_modulus",
+                                           "contact.striker_poisson", "contact.beam_poisson"};
 
 bool is_given(const Case& input, const char* key) {
   return find_case_key(key)->get(input).has_value();
 }
 
-void refuse_unused(const Case& input, const char* key, const std::string& why) {
+void require(const Case& input, const BuiltInContactLaw& law, const char* name,
+             const char* remedy) {
+  if (is_given(input, name)) return;
+  const CaseKey& key = *find_case_key(name);
+  throw InvalidCase(name, fmt::format("is missing, and contact.law = \"{}\" needs it: {}; allowed: "
+                                      "{}; {}",
+                                      law.name, key.meaning, allowed_values(key), remedy));
+}
+
+void refuse(const Case& input, const char* key, const char* why) {
   if (!is_given(input, key)) return;
   throw InvalidCase(key, fmt::format("is given, but {}; leave it out, or choose another "
                                      "contact.law",
                                      why));
 }
 
-void require(const Case& input, const char* name, const char* remedy) {
-  if (is_given(input, name)) return;
-  const CaseKey& key = *find_case_key(name);
-  throw InvalidCase(name, fmt::format("is missing, and contact.law = \"{}\" needs it: {}; allowed: "
-                                      "{}; {}",
-                                      name_of(input.scene.contact.kind), key.meaning,
-                                      allowed_values(key), remedy));
-}
-
 }  // namespace
 
+const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law) {
+  for (const ContactConstants& way : law.ways) {
+    const bool complete = std::all_of(way.keys.begin(), way.keys.end(),
+                                      [&](const char* key) { return is_given(input, key); });
+    if (complete) return way;
+  }
+  return law.ways.back();
+}
+
+bool uses_key(const ContactConstants& way, const char* key) {
+  return std::any_of(way.keys.begin(), way.keys.end(),
+                     [&](const char* used) { return std::string_view(used) == key; });
+}
+
 void check_contact(const Case& input) {
-  switch (input.scene.contact.kind) {
-    case ContactKind::foundation:
-      require(input, "striker.nose_radius", "give it in m");
-      refuse_unused(input, "contact.stiffness",
-                    "\"foundation\" derives its stiffness from beam and striker.nose_radius");
-      for (const char* key : sphere_keys) {
-        refuse_unused(input, key, "\"foundation\" does not use it");
-      }
-      return;
-    case ContactKind::linear:
-      require(input, "contact.stiffness", "give it in N/m");
-      for (const char* key : sphere_keys) refuse_unused(input, key, "\"linear\" does not use it");
-      return;
-    case ContactKind::hertz:
-      if (is_given(input, "contact.stiffness")) {
-        for (const char* key : sphere_keys) {
-          refuse_unused(input, key, "contact.stiffness already says how stiff the contact is");
-        }
-        return;
-      }
-      constexpr const char* either =
-          "give it, or contact.stiffness in N/m^1.5 in place of a sphere's radius, moduli and "
-          "Poisson's ratios";
-      require(input, "striker.nose_radius", either);
-      for (const char* key : sphere_keys) require(input, key, either);
-      return;
+  if (input.parts.contact_law) return;
+  const BuiltInContactLaw& law = built_in_contact_law(input.scene.contact.kind);
+  const ContactConstants& way = constants_given(input, law);
+  for (const char* key : way.keys) require(input, law, key, way.remedy);
+  for (const char* key : keys_of_contact) {
+    if (!uses_key(way, key)) refuse(input, key, way.why_unused);
   }
 }
 

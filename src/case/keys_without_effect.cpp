@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "case/contact_checks.h"
 #include "case/methods.h"
 #include "subimpact/case/case_keys.h"
 
@@ -40,8 +41,14 @@ bool fixed_step_needs_no_tolerance(const Case& c) {
 }
 bool is_not_sundials(const Case& c) { return !descriptor_of(c.solver.method).sundials; }
 bool is_not_central(const Case& c) { return !is_central(c); }
-bool ignores_the_nose(const Case& c) {
-  return c.scene.contact.kind == ContactKind::linear || c.scene.contact.stiffness.has_value();
+constexpr const char* nose_radius = "striker.nose_radius";
+bool law_ignores_the_nose(const Case& c) {
+  const auto ways = built_in_contact_law(c.scene.contact.kind).ways;
+  return std::none_of(ways.begin(), ways.end(),
+                      [](const ContactConstants& way) { return uses_key(way, nose_radius); });
+}
+bool stiffness_replaces_the_nose(const Case& c) {
+  return !uses_key(constants_given(c, built_in_contact_law(c.scene.contact.kind)), nose_radius);
 }
 
 /// A key that is idle where `is_idle` holds, because of the value of the key `because_of`.
@@ -53,9 +60,8 @@ struct IdleKey {
 
 // The first row that holds gives the reason.
 constexpr IdleKey idle_keys[] = {
-    {"striker.nose_radius", "contact.law",
-     [](const Case& c) { return c.scene.contact.kind == ContactKind::linear; }},
-    {"striker.nose_radius", "contact.stiffness", ignores_the_nose},
+    {nose_radius, "contact.law", law_ignores_the_nose},
+    {nose_radius, "contact.stiffness", stiffness_replaces_the_nose},
     {"model.segments", "model.mesh", has_no_cells},
     {"model.elements", "model.mesh", has_no_elements},
     {"model.sections_per_element", "model.mesh", has_no_elements},

@@ -12,6 +12,7 @@
 #include "case/methods.h"
 #include "integrate/klu_mass_solver.h"
 #include "model/cell_mesh.h"
+#include "model/contact_laws.h"
 #include "model/flexural_frequencies.h"
 #include "model/hermite_mesh.h"
 #include "model/modal_mesh.h"
@@ -244,11 +245,30 @@ bool in_modes(const Case& input, const BeamMesh& mesh) {
 
 SectionField make_sections(const Case& input, std::size_t n, SectionField::Storage storage) {
   const Beam& beam = input.scene.beam;
-  if (!may_yield(input)) return SectionField(n, beam.bending_stiffness());
-  const Fibres fibres = input.model.section == SectionKind::layers
-                            ? Fibres::layered(input.model.layers)
-                            : Fibres::continuous();
-  return SectionField(n, SectionLaw(beam, fibres), storage);
+  if (may_yield(input)) return SectionField(n, SectionLaw(beam, *fibres_of(input)), storage);
+  const auto& own = input.parts.section;
+  return SectionField(n, own ? own->slope() * beam.bending_stiffness() : beam.bending_stiffness());
+}
+
+// E h/2 of the fibre farthest from the axis.
+double outer_stiffness(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  const double of_rectangle = 0.5 * beam.youngs_modulus * beam.thickness;
+  return input.parts.section ? input.parts.section->outer_modulus() * of_rectangle : of_rectangle;
+}
+
+std::string section_name(const Case& input) {
+  if (input.model.mesh == MeshKind::rigid) return "rigid";
+  const auto& own = input.parts.section;
+  if (may_yield(input)) return fibres_of(input)->name();
+  return own ? own->name() + ", elastic" : "elastic";
+}
+
+// That of the beam in bending, with the section it has.
+double first_period(const Case& input) {
+  const double of_rectangle = 2.0 * M_PI / flexural_frequencies(input.scene.beam, 1).front();
+  const auto& own = input.parts.section;
+  return own ? of_rectangle / std::sqrt(own->slope()) : of_rectangle;
 }
 
 }  // namespace
@@ -262,12 +282,29 @@ bool uses_symmetry(const Case& input) {
   return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input.scene);
 }
 
+std::shared_ptr<const ContactLaw> contact_law_of(const Case& input) {
+  return input.parts.contact_law ? input.parts.contact_law : make_contact_law(input.scene);
+}
+
+std::optional<Fibres> fibres_of(const Case& input) {
+  if (input.parts.section) return input.parts.section;
+  switch (input.model.section) {
+    case SectionKind::elastic:
+      return std::nullopt;
+    case SectionKind::layers:
+      return Fibres::layered(input.model.layers);
+    case SectionKind::exact:
+      return Fibres::continuous();
+  }
+  throw std::logic_error("fibres_of: a section of no kind");
+}
+
 StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage,
                             Coordinates coordinates) {
   std::unique_ptr<BeamMesh> mesh = make_mesh(input);
   SectionField sections = make_sections(input, mesh->n_sections(), storage);
   if (coordinates == Coordinates::chosen && !sections.can_yield() && in_modes(input, *mesh)) {
-    mesh = std::make_unique<ModalMesh>(std::move(mesh), input.scene.beam.bending_stiffness());
+    mesh = std::make_unique<ModalMesh>(std::move(mesh), sections.stiffness());
   }
   std::unique_ptr<MassSolver> solver;
   if (input.solver.mass_solver == MassSolverKind::klu) {
@@ -275,7 +312,9 @@ StruckBeam make_struck_beam(const Case& input, SectionField::Storage storage,
   } else {
     solver = std::make_unique<BandedSolver>(mesh->mass());
   }
-  return StruckBeam(input.scene, std::move(mesh), std::move(sections), std::move(solver));
+  return StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), contact_law_of(input),
+                                    input.scene.striker.mass, input.scene.striker.velocity,
+                                    outer_stiffness(input), std::move(solver)});
 }
 
 Used describe(const Case& input, const StruckBeam& beam) {
@@ -292,11 +331,14 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.contact_time = resonance.contact_time;
   used.contact_mass_share = resonance.effective_mass / scene.striker.mass;
   used.critical_step = 2.0 / used.joined_frequency;
-  used.contact_stiffness = beam.contact_law().stiffness();
-  used.contact_exponent = beam.contact_law().exponent();
-  used.yield_indentation = beam.contact_law().yield_indentation();
+  const ContactLaw& law = beam.contact_law();
+  used.contact_law = law.name();
+  used.contact_stiffness = law.scales().stiffness;
+  used.contact_exponent = law.scales().exponent;
+  used.yield_indentation = law.yield_threshold({});
+  used.section = section_name(input);
   used.yield_curvature = scene.beam.yield_curvature();
-  used.first_period = 2.0 * M_PI / flexural_frequencies(scene.beam, 1).front();
+  used.first_period = first_period(input);
   used.initial_energy = 0.5 * scene.striker.mass * scene.striker.velocity * scene.striker.velocity;
   check_scales(input, beam);
   used.table = table_used(input);

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "ode/integrator.h"
 #include "simulate/event_loop.h"
 #include "subimpact/case/case.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/model/contact_law.h"
+#include "subimpact/model/fibres.h"
 #include "subimpact/simulate/result.h"
 #include "system/struck_beam.h"
 
@@ -16,6 +19,11 @@ bool may_yield(const Case& input);
 
 /// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
+
+/// The contact law of a case: its own part, or the one that the scene names.
+std::shared_ptr<const ContactLaw> contact_law_of(const Case& input);
+/// Likewise the fibres of its sections; nothing where it asks for an elastic rectangle.
+std::optional<Fibres> fibres_of(const Case& input);
 
 /// In which unknowns a beam is integrated.
 enum class Coordinates {

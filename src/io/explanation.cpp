@@ -46,10 +46,16 @@ std::string mesh_text(const Case& input, const Used& used) {
 
 std::string section_text(const Case& input, const Used& used) {
   if (input.model.mesh == MeshKind::rigid) return "none: a rigid beam does not bend";
-  if (input.model.section == SectionKind::elastic) return "elastic: sections never yield";
+  if (input.model.section == SectionKind::elastic) {
+    return used.section + ": sections never yield";
+  }
   if (std::isinf(input.scene.beam.yield_stress)) {
     return fmt::format("elastic, although {} was asked: the yield stress is infinite",
                        key_text(input, "model.section"));
+  }
+  if (input.parts.section) {
+    return fmt::format("{}: first yield at a curvature of {:.6g} 1/m", used.section,
+                       used.yield_curvature * input.parts.section->first_yield());
   }
   if (input.model.section == SectionKind::layers) {
     const double n = input.model.layers;
@@ -65,8 +71,10 @@ std::string section_text(const Case& input, const Used& used) {
 // is said.
 std::string contact_stiffness_text(const Case& input, const Used& used) {
   const Contact& contact = input.scene.contact;
-  const char* unit = used.contact_exponent == 1.0 ? "N/m" : "N/m^1.5";
-  if (!contact.stiffness) return fmt::format("{:.7g} {}", used.contact_stiffness, unit);
+  const std::string unit =
+      used.contact_exponent == 1.0 ? "N/m" : fmt::format("N/m^{:.6g}", used.contact_exponent);
+  if (input.parts.contact_law || !contact.stiffness)
+    return fmt::format("{:.7g} {}", used.contact_stiffness, unit);
   return fmt::format("{:.7g} {}, as given{}", used.contact_stiffness, unit,
                      input.scene.striker.nose_radius ? "; striker.nose_radius plays no part" : "");
 }
@@ -114,7 +122,7 @@ std::string explanation(const Case& input, const Used& used,
                             duration_text(input.output.zone_gap * used.first_period),
                             duration_text(input.output.subzone_gap * used.first_period)));
   head("Contact");
-  line("law", key_text(input, "contact.law"));
+  line("law", used.contact_law);
   line("stiffness", contact_stiffness_text(input, used));
   line("stiffest", fmt::format("{:.4g} N/m, as deep as the strike's energy can press; contacts "
                                "then last some {} or more",

@@ -101,12 +101,27 @@ OutcomeKind outcome_kind(const std::string& name) {
   throw ResultsError(fmt::format("summary.json: unknown outcome \"{}\"; run the case again", name));
 }
 
+// "contact_stiffness_N_per_m1.5": the exponent follows the unit's name, if it is not 1.
+void read_contact_stiffness(const Json& json, Used& used) {
+  const std::string start = "contact_stiffness_N_per_m";
+  for (const auto& [name, value] : json.items()) {
+    if (!name.starts_with(start)) continue;
+    const std::string exponent = name.substr(start.size());
+    used.contact_exponent = exponent.empty() ? 1.0 : std::stod(exponent);
+    used.contact_stiffness = number(value);
+    return;
+  }
+  used.contact_stiffness = number(json.at(start + "1.5"));  // says what is missing
+}
+
 Used used_from(const Json& json) {
   Used used;
   used.half_model = json.at("half_model").get<bool>();
   used.n_unknowns = json.at("n_unknowns").get<std::size_t>();
   used.n_sections = json.at("n_sections").get<std::size_t>();
   used.mesh = json.at("mesh").get<std::string>();
+  used.contact_law = json.value("contact_law", "");
+  used.section = json.value("section", "");
   used.highest_frequency = number(json.at("highest_frequency_rad_per_s"));
   used.largest_contact_slope = number(json.value("largest_contact_slope_N_per_m", Json(0.0)));
   used.joined_frequency = number(json.value("joined_frequency_rad_per_s", Json(0.0)));
@@ -119,10 +134,7 @@ Used used_from(const Json& json) {
   if (const Json& order = json.at("max_order"); !order.is_null()) used.max_order = order.get<int>();
   used.position_tolerance = number(json.at("position_tolerance_m"), 0.0);
   used.velocity_tolerance = number(json.at("velocity_tolerance_m_per_s"), 0.0);
-  const bool linear = json.contains("contact_stiffness_N_per_m");
-  used.contact_exponent = linear ? 1.0 : 1.5;
-  used.contact_stiffness =
-      number(json.at(linear ? "contact_stiffness_N_per_m" : "contact_stiffness_N_per_m1.5"));
+  read_contact_stiffness(json, used);
   used.yield_indentation = number(json.at("yield_indentation_m"));
   used.yield_curvature = number(json.at("yield_curvature_per_m"));
   used.first_period = number(json.at("first_period_s"));

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +50,13 @@ Json versions() {
   return json;
 }
 
+// With its unit: N/m^n for the exponent n.
+std::string contact_stiffness_name(const Used& used) {
+  const std::string power =
+      used.contact_exponent == 1.0 ? "" : fmt::format("{:.6g}", used.contact_exponent);
+  return "contact_stiffness_N_per_m" + power;
+}
+
 Json what_was_used(const Case& input, const Used& used) {
   const bool adaptive = !used.step;
   return {
@@ -55,6 +64,8 @@ Json what_was_used(const Case& input, const Used& used) {
       {"table", used.table ? Json(*used.table) : Json(nullptr)},
       {"half_model", used.half_model},
       {"mesh", used.mesh},
+      {"contact_law", used.contact_law},
+      {"section", used.section},
       {"n_unknowns", used.n_unknowns},
       {"n_sections", used.n_sections},
       {"highest_frequency_rad_per_s", number(used.highest_frequency)},
@@ -68,8 +79,7 @@ Json what_was_used(const Case& input, const Used& used) {
       {"events", to_string(used.events)},
       {"reversals", name_of(used.reversals)},
       {"max_order", used.max_order ? Json(*used.max_order) : Json(nullptr)},
-      {used.contact_exponent == 1.0 ? "contact_stiffness_N_per_m" : "contact_stiffness_N_per_m1.5",
-       number(used.contact_stiffness)},
+      {contact_stiffness_name(used), number(used.contact_stiffness)},
       {"yield_indentation_m", number(used.yield_indentation)},
       {"yield_curvature_per_m", number(used.yield_curvature)},
       {"first_period_s", number(used.first_period)},

@@ -1,10 +1,26 @@
-#include "model/fibres.h"
+#include "subimpact/model/fibres.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace subimpact {
+namespace {
+
+bool is_positive(double x) { return x > 0.0 && std::isfinite(x); }
+
+void check(const FibreStrip& strip) {
+  if (!(strip.from >= 0.0 && strip.from < strip.to && strip.to <= 1.0)) {
+    throw std::invalid_argument("section of strips: distances must rise and lie within 0 to 1");
+  }
+  if (!is_positive(strip.width) || !is_positive(strip.modulus) || !is_positive(strip.yield)) {
+    throw std::invalid_argument(
+        "section of strips: width, modulus and yield stress must be positive and finite");
+  }
+}
+
+}  // namespace
 
 Fibres Fibres::continuous() { return Fibres(0); }
 
@@ -15,11 +31,55 @@ Fibres Fibres::layered(int layers) {
   return Fibres(layers / 2);
 }
 
-Fibres::Fibres(int half_layers) : half_layers_(half_layers), whole_{} {
+Fibres::Fibres(int half_layers)
+    : half_layers_(half_layers), whole_{}, name_(half_layers == 0 ? "exact" : "layers") {
   outermost_ = half_layers == 0 ? 1.0 : (half_layers_ - 0.5) / half_layers_;
   first_yield_ = 1.0 / outermost_;
   whole_ = up_to(1.0);
   slope_ = 3.0 * whole_.s2;
+}
+
+Fibres Fibres::strips(std::vector<FibreStrip> strips, std::string name) {
+  if (strips.empty()) throw std::invalid_argument("section of strips: there are none");
+  std::vector<Band> bands;
+  double extent = 0.0;
+  const FibreStrip* outer = &strips.front();
+  for (const FibreStrip& strip : strips) {
+    check(strip);
+    const double per_distance = strip.modulus / strip.yield;  // zeta over distance
+    const double weight = strip.width * strip.yield * strip.yield / strip.modulus / per_distance;
+    bands.push_back({per_distance * strip.from, per_distance * strip.to, weight});
+    extent = std::max(extent, bands.back().to);
+    if (strip.to > outer->to) outer = &strip;
+  }
+  Fibres fibres(std::move(bands), extent);
+  fibres.outermost_ = outer->to * outer->modulus / outer->yield;
+  fibres.outer_yield_ = outer->yield;
+  fibres.outer_modulus_ = outer->modulus;
+  fibres.name_ = std::move(name);
+  return fibres;
+}
+
+Fibres::Fibres(std::vector<Band> bands, double extent)
+    : half_layers_(-1.0),
+      bands_(std::move(bands)),
+      whole_(of_bands_up_to(extent)),
+      slope_(3.0 * whole_.s2),
+      first_yield_(1.0 / extent),
+      outermost_(extent),
+      extent_(extent) {}
+
+Fibres::Moments Fibres::of_bands_up_to(double zeta) const {
+  Moments sum{};
+  for (const Band& band : bands_) {
+    const double a = band.from;
+    const double b = std::min(zeta, band.to);
+    if (!(b > a)) continue;
+    sum.s0 += band.weight * (b - a);
+    sum.s1 += band.weight * 0.5 * (b * b - a * a);
+    sum.s2 += band.weight * (b * b * b - a * a * a) / 3.0;
+  }
+  return sum;
 }
 
 Fibres::Moments Fibres::up_to(double zeta) const {
@@ -27,6 +87,7 @@ Fibres::Moments Fibres::up_to(double zeta) const {
     const double z = std::min(zeta, 1.0);
     return {z, 0.5 * z * z, z * z * z / 3.0};
   }
+  if (half_layers_ < 0.0) return of_bands_up_to(zeta);
   const double p = half_layers_;
   const double n = std::min(std::floor(p * zeta + 0.5), p);  // layers at or below zeta
   return {n / p, 0.5 * n * n / (p * p), n * (4.0 * n * n - 1.0) / (12.0 * p * p * p)};

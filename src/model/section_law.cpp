@@ -164,7 +164,7 @@ void SectionLaw::for_each_zone(const SectionHistory& history, double x, Visit vi
   // Fibres beyond 2/|b - a| flowed on the branch from a to b (beyond 1/|b| on the virgin one) and
   // have been elastic since its end b. Later branches are shorter, so their fibres lie further out.
   const ReversalsInForce points(history, turns_back(history, x));
-  double outer = 1.0;
+  double outer = fibres_.extent();
   double end = x;
   for (std::size_t i = points.size() + 1; i-- > 0;) {
     const double start = i > 0 ? points[i - 1].x : 0.0;
@@ -206,7 +206,8 @@ double SectionLaw::outer_stress(const SectionHistory& history, double curvature)
     stress = constant + slope * outermost;
     return inner >= outermost;  // go on to the zone that holds the outermost fibre
   });
-  return -yield_stress_ * stress;  // eps = -z kappa: a positive curvature compresses z > 0
+  return -yield_stress_ * fibres_.outer_yield() *
+         stress;  // eps = -z kappa: a positive curvature compresses z > 0
 }
 
 }  // namespace subimpact

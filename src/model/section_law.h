@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "model/fibres.h"
+#include "subimpact/model/fibres.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {
@@ -36,12 +36,12 @@ struct SectionBranch {
   double limit;  ///< 1/m: curvature at which the branch ends on an older one; infinite: nowhere
 };
 
-/// Moment of a rectangular section whose fibres are elastic-perfectly plastic, with memory.
+/// Moment of a section whose fibres are elastic-perfectly plastic, with memory.
 ///
 /// The virgin curve is that of the fibres (Fibres). From a reversal point r the branch is
 /// m = m_r +- 2 f(|x - x_r|/2) with f the virgin curve (Masing); a branch that reaches the previous
 /// reversal point continues the older branch, and beyond the largest amplitude the virgin curve
-/// holds again. For fibres that yield at one stress this is no approximation: it is what the sum
+/// holds again. For such fibres this is no approximation: it is what the sum
 /// over the fibres does (a Prandtl-Ishlinskii operator), for the continuous section and for layers
 /// alike. After flow in one sense ends at `edge`, nothing flows within 2 x_1 behind it (x_1: first
 /// yield).
@@ -53,6 +53,8 @@ class SectionLaw {
  public:
   /// `fibres` of a section of `beam`; the yield stress must be finite.
   SectionLaw(const Beam& beam, Fibres fibres);
+
+  const Fibres& fibres() const { return fibres_; }
 
   /// dM/dkappa while nothing flows, N m2 (that of the fibres: slightly below E I for layers).
   double stiffness() const { return stiffness_; }
@@ -83,8 +85,8 @@ class SectionLaw {
   double branch_moment(const SectionBranch& branch, double x) const;
   double branch_work(const SectionBranch& branch, double from, double to) const;
   bool inside_window(const SectionHistory& history, double x) const;
-  // Visits the zones of fibres from the outermost inwards: visit(a, b, constant, slope), stress/Y =
-  // constant + slope zeta for a < zeta <= b; stops when it returns false.
+  // Visits the zones of fibres from the first to yield inwards: visit(a, b, constant, slope),
+  // stress/Y = constant + slope zeta for a < zeta <= b; stops when it returns false.
   template <class Visit>
   void for_each_zone(const SectionHistory& history, double x, Visit visit) const;
 

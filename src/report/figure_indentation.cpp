@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/contact_law.h"
+#include "case/model_factory.h"
 #include "report/figure_script.h"
 
 namespace subimpact {
@@ -108,7 +108,7 @@ void mark_point(FigureScript& figure, const Units& units, const Transition* even
 }  // namespace
 
 FigureScript indentation_figure(const Case& input, const Result& result) {
-  const ContactLaw law = ContactLaw::of(input.scene);
+  const auto law = contact_law_of(input);
   const Units units{length_unit(result.max_indentation), force_unit(result.max_force)};
   const double length = units.length.factor, force = units.force.factor;
   const std::vector<std::size_t> yielding = yielding_again(result);
@@ -118,12 +118,13 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
   const AxisRange shown{0.0, 1.06 * result.max_indentation * length};
   std::string rest;
   if (result.sub_impacts.size() > 1) {
-    rest = figure.line(loop(law, units, result, result.sub_impacts[1].start, result.outcome.time),
+    rest = figure.line(loop(*law, units, result, result.sub_impacts[1].start, result.outcome.time),
                        main, shown);
   }
   const double first_end =
       result.sub_impacts.empty() ? 0.0 : end_of(result.sub_impacts.front(), result);
-  const std::string first_loop = figure.line(loop(law, units, result, 0.0, first_end), main, shown);
+  const std::string first_loop =
+      figure.line(loop(*law, units, result, 0.0, first_end), main, shown);
 
   figure.place(main);
   figure << fmt::format("set xlabel 'indentation, {}'\nset ylabel 'contact force, {}' offset 0.5\n",
@@ -156,7 +157,7 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
     const double margin = 0.1 * (s.max_indentation - lowest) * length;
     const AxisRange range{lowest * length - margin, s.max_indentation * length + margin};
     const std::string data =
-        figure.line(loop(law, units, result, s.start, end_of(s, result)), inset, range);
+        figure.line(loop(*law, units, result, s.start, end_of(s, result)), inset, range);
     figure.place(inset);
     figure << fmt::format("set title 'no. {}, at {:.4g} ms' offset 0, -0.7 font ',13'\n",
                           again[k] + 1, s.start * 1e3)

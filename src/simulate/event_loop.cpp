@@ -83,6 +83,7 @@ void EventLoop::advance() {
     interpolate_events();
   }
   check_accepted(suspicious);
+  observer_->on_accepted(time_, *state_, beam_);
 }
 
 void EventLoop::check_step_end(const State& y) {

@@ -10,7 +10,8 @@
 
 namespace subimpact {
 
-/// Watches a run; this one does not look. All states handed over are accepted ones, but for the
+/// Watches a run from inside; this one does not look. Observers of users see less: see Observer and
+/// Observers. All states handed over are accepted ones, but for the
 /// ends of steps.
 class RunObserver {
  public:
@@ -20,6 +21,8 @@ class RunObserver {
   /// events are interpolated, a step with events is shown in pieces, from event to event.
   virtual void on_step(const StepEnds& /*step*/, StruckBeam& /*beam*/, Integrator& /*integrator*/) {
   }
+  /// The state that the loop has accepted as the end of the step, its event applied.
+  virtual void on_accepted(double /*time*/, const State& /*y*/, StruckBeam& /*beam*/) {}
   /// A section turned back within the step last seen.
   virtual void on_turn(const Transition& /*turn*/) {}
   /// An event, once with the equations before it and once with those after it.

@@ -55,6 +55,11 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
     integrate_force(step, beam, integrator);
     follow_peak(beam.indentation(step.y1), beam);
     look_for_peak(step, beam, integrator);
+    const double force = beam.contact_force(step.y1);
+    if (!(force >= 0.0)) {
+      audit_.check(step.t1, step.y1);  // a blow-up is called by its name
+      check_push(step.t1, force);
+    }
   }
 }
 
@@ -131,6 +136,10 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
                   "a contact began and ended without a force between the bodies");
     }
   }
+  if (event.kind == EventKind::contact_begins && !result_.first_contact_yield &&
+      beam.contact_branch() == ContactBranch::plastic) {
+    result_.first_contact_yield = event.time;
+  }
   add_event_row(event, y, beam);
 }
 
@@ -183,13 +192,16 @@ void Recorder::keep(const HistoryRow& row, const State& y, StruckBeam& beam) {
 
 void Recorder::check_push(HistoryRow& row) const {
   if (row.force >= 0.0) return;
-  if (!(row.force >= -audit_.tolerated_energy() * largest_force_)) {
-    audit_.fail(row.time, OutcomeKind::inaccurate,
-                fmt::format("within a contact the force is {:.3g} N: the bodies would pull at each "
-                            "other",
-                            row.force));
-  }
+  check_push(row.time, row.force);
   row.force = 0.0;  // the law's own force there
+}
+
+void Recorder::check_push(double time, double force) const {
+  if (force >= -audit_.tolerated_energy() * largest_force_) return;
+  audit_.fail(time, OutcomeKind::inaccurate,
+              fmt::format("within a contact the force is {:.3g} N: the bodies would pull at each "
+                          "other",
+                          force));
 }
 
 void Recorder::add_section_rows(double time, const State& y, StruckBeam& beam) {

@@ -35,6 +35,7 @@ class Recorder final : public RunObserver {
   void look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
   // Contact only pushes: a force below zero by no more than the tolerance is none.
   void check_push(HistoryRow& row) const;
+  void check_push(double time, double force) const;
   void add_event_row(const Transition& event, const State& y, StruckBeam& beam);
   void add_row(double time, const State& y, StruckBeam& beam);
   void keep(const HistoryRow& row, const State& y, StruckBeam& beam);

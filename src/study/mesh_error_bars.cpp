@@ -148,7 +148,8 @@ Result simulate_with_all_error_bars(const Case& input, const Progress& progress)
   };
   if (result.outcome.kind == OutcomeKind::stopped) stop = true;
   if (!stop) compare(simulate(in_time.input, half(1.0)), "time", in_time.description, safety);
-  if (!stop && input.model.section == SectionKind::layers && may_yield(input)) {
+  if (!stop && input.model.section == SectionKind::layers && !input.parts.section &&
+      may_yield(input)) {
     Case exact = companion_of(input).input;
     exact.solver = input.solver;
     exact.model.section = SectionKind::exact;

@@ -24,6 +24,7 @@ StruckBeam held_together(const Case& input, double stiffness) {
   Case trial = with_method(input, "central-difference");
   trial.model.section = SectionKind::elastic;
   trial.scene.contact = {};
+  trial.parts.contact_law = nullptr;
   trial.scene.contact.kind = ContactKind::linear;
   trial.scene.contact.stiffness = stiffness;
   trial.scene.striker.nose_radius.reset();

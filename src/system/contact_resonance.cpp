@@ -105,6 +105,7 @@ double largest_eigenvalue(JoinedBodies& bodies) {
 
 ContactResonance contact_resonance(const StruckBeam& beam, double largest_indentation) {
   const ContactLaw& law = beam.contact_law();
+  const auto [stiffness, exponent] = law.scales();
   const double mass = beam.striker_mass();
   const double velocity = beam.scales().velocity;
   ContactResonance result;
@@ -118,8 +119,8 @@ ContactResonance contact_resonance(const StruckBeam& beam, double largest_indent
   const double beam_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
   result.highest_frequency = std::max(beam_frequency, std::sqrt(largest_eigenvalue(bodies)));
   result.contact_time =
-      std::pow(result.effective_mass / (law.stiffness() * std::pow(velocity, law.exponent() - 1.0)),
-               1.0 / (law.exponent() + 1.0));
+      std::pow(result.effective_mass / (stiffness * std::pow(velocity, exponent - 1.0)),
+               1.0 / (exponent + 1.0));
   return result;
 }
 

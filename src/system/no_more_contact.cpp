@@ -35,8 +35,8 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
     largest = std::max(largest, std::abs(curvatures_[i]));
     bar_.push_back(mesh.section_weights()[i] * curvatures_[i]);
   }
-  plastic_reach_ =
-      largest * material.youngs_modulus * 0.5 * material.thickness / material.yield_stress;
+  plastic_reach_ = largest * material.youngs_modulus * 0.5 * material.thickness /
+                   material.yield_stress * sections.law().fibres().extent();
 }
 
 bool NoMoreContact::is_proven(StruckBeam& beam, const State& y) {

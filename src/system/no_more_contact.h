@@ -21,8 +21,9 @@ namespace subimpact {
 ///
 ///   - |sum W kbar M| <= sqrt(2 C U_e) <= sqrt(2 C (E - D)), since M^2/(2 k) is at most the elastic
 ///     energy of a section (both by Cauchy and Schwarz);
-///   - the plastic part of d changes by no more than a D, a = max|kbar| modulus h/(2 Y), since a
-///     fibre that flows by d eps takes Y |d eps| of energy.
+///   - the plastic part of d changes by no more than a D, a = max|kbar| modulus h/(2 Y) (times
+///     Fibres::extent, 1 for a rectangle), since a fibre that flows by d eps takes Y |d eps| of
+///     energy.
 ///
 /// Over 0 <= D <= E their sum is at most f = sqrt(2 C E), or a E + C/(2 a) if 2 a^2 E > C. Hence
 ///

@@ -4,18 +4,26 @@
 #include <cmath>
 #include <utility>
 
+#include "model/contact_laws.h"
+
 namespace subimpact {
 
 StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
                        std::unique_ptr<MassSolver> mass_solver)
-    : mesh_(std::move(mesh)),
-      sections_(std::move(sections)),
-      contact_law_(ContactLaw::of(scene)),
-      mass_solver_(std::move(mass_solver)),
+    : StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), make_contact_law(scene),
+                                 scene.striker.mass, scene.striker.velocity,
+                                 0.5 * scene.beam.youngs_modulus * scene.beam.thickness,
+                                 std::move(mass_solver)}) {}
+
+StruckBeam::StruckBeam(StruckBeamParts parts)
+    : mesh_(std::move(parts.mesh)),
+      sections_(std::move(parts.sections)),
+      contact_law_(std::move(parts.contact_law)),
+      mass_solver_(std::move(parts.mass_solver)),
       n_(mesh_->n_unknowns()),
-      striker_mass_(scene.striker.mass),
-      striker_velocity_(scene.striker.velocity),
-      stress_reach_(0.5 * scene.beam.youngs_modulus * scene.beam.thickness),
+      striker_mass_(parts.striker_mass),
+      striker_velocity_(parts.striker_velocity),
+      outer_stiffness_(parts.outer_stiffness),
       highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
@@ -26,10 +34,10 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
       kinks_(*influence_),
       velocity_change_(n_),
       position_change_(n_) {
-  const double exponent = contact_law_.exponent();
-  const double contact_time = std::pow(
-      striker_mass_ / (contact_law_.stiffness() * std::pow(striker_velocity_, exponent - 1.0)),
-      1.0 / (exponent + 1.0));
+  const auto [stiffness, exponent] = contact_law_->scales();
+  const double contact_time =
+      std::pow(striker_mass_ / (stiffness * std::pow(striker_velocity_, exponent - 1.0)),
+               1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
   if (sections_.can_yield()) return;
   modal_stiffness_ = mesh_->modal_stiffness();
@@ -51,9 +59,9 @@ State StruckBeam::initial_state() const {
 
 double StruckBeam::force(double indentation) const {
   if (contact_evaluation_ == Evaluation::switching) {
-    return contact_law_.force(contact_history_, indentation);
+    return contact_law_->force(contact_history_, indentation);
   }
-  return contact_law_.branch_force(contact_branch_, contact_history_, indentation);
+  return contact_law_->branch_force(contact_branch_, contact_history_, indentation);
 }
 
 void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces) {
@@ -109,9 +117,9 @@ void StruckBeam::force(std::span<const double> positions, Part part, std::span<d
 
 double StruckBeam::force_slope(double indentation) const {
   const ContactBranch branch = contact_evaluation_ == Evaluation::switching
-                                   ? contact_law_.branch(contact_history_, indentation)
+                                   ? contact_law_->branch(contact_history_, indentation)
                                    : contact_branch_;
-  return contact_law_.branch_slope(branch, contact_history_, indentation);
+  return contact_law_->branch_slope(branch, contact_history_, indentation);
 }
 
 void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
@@ -144,13 +152,13 @@ double StruckBeam::indentation_rate(const State& y) const {
 void StruckBeam::apply(const Guard& guard, const State& y) {
   switch (guard.kind) {
     case EventKind::contact_begins:
-      contact_branch_ = ContactBranch::elastic;
+      contact_branch_ = contact_law_->first_branch(contact_history_);
       break;
     case EventKind::contact_yields:
       contact_branch_ = ContactBranch::plastic;
       break;
     case EventKind::contact_unloads:
-      contact_history_ = contact_law_.commit(contact_history_, indentation(y));
+      contact_history_ = contact_law_->commit(contact_history_, indentation(y));
       contact_branch_ = ContactBranch::elastic;
       break;
     case EventKind::contact_ends:
@@ -163,7 +171,7 @@ void StruckBeam::apply(const Guard& guard, const State& y) {
 
 bool StruckBeam::commit(const State& y) {
   if (contact_branch_ == ContactBranch::plastic || contact_evaluation_ == Evaluation::switching) {
-    contact_history_ = contact_law_.commit(contact_history_, indentation(y));
+    contact_history_ = contact_law_->commit(contact_history_, indentation(y));
   }
   if (!sections_.can_yield()) return false;
   read_motion(y, start_);
@@ -173,7 +181,7 @@ bool StruckBeam::commit(const State& y) {
 }
 
 void StruckBeam::follow_branch(const State& y) {
-  contact_branch_ = contact_law_.branch(contact_history_, indentation(y));
+  contact_branch_ = contact_law_->branch(contact_history_, indentation(y));
 }
 
 void StruckBeam::read_motion(const State& y, SectionMotion& at) const {
@@ -200,9 +208,9 @@ Energies StruckBeam::energies(const State& y) {
   const bool advances =
       contact_branch_ == ContactBranch::plastic || contact_evaluation_ == Evaluation::switching;
   const ContactHistory reached =
-      advances ? contact_law_.commit(contact_history_, lambda) : contact_history_;
-  sum.contact_plastic = contact_law_.dissipated_energy(reached);
-  if (in_contact()) sum.contact_elastic = contact_law_.recoverable_energy(reached, lambda);
+      advances ? contact_law_->commit(contact_history_, lambda) : contact_history_;
+  sum.contact_plastic = contact_law_->dissipated_energy(reached);
+  if (in_contact()) sum.contact_elastic = contact_law_->recoverable_energy(reached, lambda);
   return sum;
 }
 
@@ -233,7 +241,7 @@ StruckBeam::Bending StruckBeam::bending(const State& y) {
 double StruckBeam::back_stress(const State& y) {
   const std::size_t section = mesh_->struck_section();
   return sections_.outer_stress(section, mesh_->curvature(section, beam_positions(y)),
-                                stress_reach_);
+                                outer_stiffness_);
 }
 
 }  // namespace subimpact

@@ -7,32 +7,18 @@
 #include <vector>
 
 #include "model/beam_mesh.h"
-#include "model/contact_law.h"
 #include "model/section_field.h"
 #include "numerics/mass_solver.h"
 #include "numerics/trajectory_root.h"
 #include "ode/second_order_ode.h"
+#include "subimpact/model/contact_law.h"
+#include "subimpact/system/energies.h"
 #include "subimpact/system/events.h"
 #include "system/beam_jacobian.h"
 #include "system/section_influence.h"
 #include "system/section_kinks.h"
 
 namespace subimpact {
-
-/// Every joule has a place (J); their sum is the initial energy m v0^2/2.
-struct Energies {
-  double striker = 0.0;          ///< U_m = m v_m^2/2
-  double beam_kinetic = 0.0;     ///< U_k = v^T Mass v/2
-  double bending_elastic = 0.0;  ///< U_e
-  double bending_plastic = 0.0;  ///< U_p
-  double contact_elastic = 0.0;  ///< U_c
-  double contact_plastic = 0.0;  ///< D_c
-
-  double total() const {
-    return striker + beam_kinetic + bending_elastic + bending_plastic + contact_elastic +
-           contact_plastic;
-  }
-};
 
 /// An event that may happen next.
 struct Guard {
@@ -66,6 +52,17 @@ struct StepEnds {
   double length() const { return t1 - t0; }
 };
 
+/// What a struck beam is made of.
+struct StruckBeamParts {
+  std::unique_ptr<BeamMesh> mesh;
+  SectionField sections;
+  std::shared_ptr<const ContactLaw> contact_law;
+  double striker_mass;      ///< kg
+  double striker_velocity;  ///< v0, m/s
+  double outer_stiffness;   ///< E h/2 of the outermost fibre, N/m, for sections that never yield
+  std::unique_ptr<MassSolver> mass_solver;
+};
+
 /// The struck beam as a hybrid system: smooth motion within a mode, events between modes, memory
 /// changed only by `commit` and `apply`.
 ///
@@ -82,6 +79,8 @@ class StruckBeam final : public MechanicalSystem {
  public:
   enum class Evaluation { smooth, switching };
 
+  explicit StruckBeam(StruckBeamParts parts);
+  /// With the striker and the contact law of a scene.
   StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
              std::unique_ptr<MassSolver> mass_solver);
 
@@ -98,7 +97,7 @@ class StruckBeam final : public MechanicalSystem {
 
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
-  const ContactLaw& contact_law() const { return contact_law_; }
+  const ContactLaw& contact_law() const { return *contact_law_; }
   const MassSolver& mass_solver() const { return *mass_solver_; }
   /// Evaluations of the acceleration: of the forces, each with a mass solve.
   long n_accelerations() const { return n_accelerations_; }
@@ -123,7 +122,7 @@ class StruckBeam final : public MechanicalSystem {
   double indentation(const State& y) const;
   double indentation_rate(const State& y) const;
   double residual_indentation() const {
-    return contact_law_.residual_indentation(contact_history_);
+    return contact_law_->residual_indentation(contact_history_);
   }
   double contact_force(const State& y) const { return contact_force_at(indentation(y)); }
   double contact_force_at(double indentation) const { return force(indentation); }
@@ -219,12 +218,12 @@ class StruckBeam final : public MechanicalSystem {
 
   std::unique_ptr<BeamMesh> mesh_;
   SectionField sections_;
-  ContactLaw contact_law_;
+  std::shared_ptr<const ContactLaw> contact_law_;
   std::unique_ptr<MassSolver> mass_solver_;
   std::size_t n_;
   double striker_mass_;
   double striker_velocity_;
-  double stress_reach_;  // E h/2
+  double outer_stiffness_;  // E h/2
   // Of an elastic beam in natural modes, else empty: stiffnesses, and what a mode's acceleration is
   // made of.
   std::span<const double> modal_stiffness_;

@@ -28,7 +28,7 @@ GuardValue StruckBeam::contact_guard(EventKind kind, double indentation, double 
     case EventKind::contact_ends:
       return {residual_indentation() - indentation, -rate};
     case EventKind::contact_yields:
-      return {indentation - contact_law_.yield_threshold(contact_history_), rate};
+      return {indentation - contact_law_->yield_threshold(contact_history_), rate};
     default:
       return {-rate, 0.0};  // unloads
   }

@@ -4,10 +4,13 @@
 /// is a key of the case file; case_keys() (see case_keys.h) lists them with units, defaults and
 /// ranges.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "subimpact/model/contact_law.h"
+#include "subimpact/model/fibres.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/simulate/options.h"
 
@@ -97,6 +100,15 @@ struct OutputOptions {
   }
 };
 
+/// Laws of a caller's own, in place of those that keys of the case name. No case file can hold
+/// them.
+struct CaseParts {
+  /// Null: the law of scene.contact, whose keys play no part otherwise.
+  std::shared_ptr<const ContactLaw> contact_law;
+  /// Empty: the section of model.section, which otherwise only says whether it may yield.
+  std::optional<Fibres> section;
+};
+
 struct Case {
   std::string title;
   Scene scene;
@@ -106,6 +118,7 @@ struct Case {
   SolverOptions solver;
   AccuracyOptions accuracy;
   OutputOptions output;
+  CaseParts parts;  ///< none: the built-in laws
 };
 
 }  // namespace subimpact

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "subimpact/case/case.h"
+#include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
@@ -19,15 +19,20 @@ class InvalidCase : public std::runtime_error {
   std::string key;
 };
 
-/// Called now and then with the simulated time, s; for progress displays. Returning false stops the
-/// run, which then ends as it does at its end time but with the outcome `stopped`.
-using Progress = std::function<bool(double time)>;
-
 /// What would be modelled: everything derived from the case, nothing run. Throws InvalidCase.
 Used explain(const Case& input);
 
 /// Runs a case. Throws InvalidCase; any other failure is reported in the outcome, with all results
-/// up to it.
-Result simulate(const Case& input, const Progress& progress = {});
+/// up to it. `observer`, if any, is shown every accepted step and event.
+///
+/// Thread-safe: runs in several threads at once share nothing, and each gives the results, bit for
+/// bit, that it gives alone. Laws in `input.parts` that several runs share are called from all of
+/// them, so their functions must be pure; observers and progress functions are called in the thread
+/// of their own run.
+Result simulate(const Case& input, const Progress& progress = {}, Observer* observer = nullptr);
+/// The same, with an observer alone.
+inline Result simulate(const Case& input, Observer& observer) {
+  return simulate(input, {}, &observer);
+}
 
 }  // namespace subimpact

@@ -77,6 +77,8 @@ struct Used {
   std::size_t n_unknowns = 0;  ///< of the beam
   std::size_t n_sections = 0;
   std::string mesh;                    ///< in words
+  std::string contact_law;             ///< its name
+  std::string section;                 ///< name of the bending law; "elastic" where it never yields
   double highest_frequency = 0.0;      ///< rad/s, bound
   double largest_contact_slope = 0.0;  ///< N/m, dF/dlambda that the strike's energy allows
   /// rad/s, of beam and striker joined by a spring of that slope; at least highest_frequency.
@@ -93,7 +95,7 @@ struct Used {
   double velocity_tolerance = 0.0;  ///< m/s
   double contact_stiffness = 0.0;   ///< K, N/m^contact_exponent
   double contact_exponent = 1.5;    ///< of the indentation in the contact force
-  double yield_indentation = 0.0;   ///< lambda_s, m
+  double yield_indentation = 0.0;   ///< m, at which a contact without history first yields
   double yield_curvature = 0.0;     ///< 1/m
   double first_period = 0.0;        ///< T1 of the beam in bending, s
   double initial_energy = 0.0;      ///< J

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <string>
+
+namespace subimpact {
+
+/// What the contact remembers: the largest indentation that it has ever seen (m).
+struct ContactHistory {
+  double max_indentation = 0.0;
+};
+
+/// The pieces of the force-indentation relation; each is smooth on its own.
+enum class ContactBranch {
+  separated,  ///< no force
+  elastic,    ///< un- and reloading, reversible
+  plastic     ///< virgin loading: the indentation grows beyond all earlier ones
+};
+
+/// The power law K lambda^n that a contact follows when it first closes, at least in size. Scales
+/// of time and tolerances of the run come from it, so it need not be exact.
+struct ContactScales {
+  double stiffness;  ///< K, N/m^n
+  double exponent;   ///< n, at least 1
+};
+
+/// Force F (N) between the striker's nose and the beam's surface as a function of the indentation
+/// lambda (m), the striker's displacement less that of the struck point.
+///
+/// A law of one's own derives from this class and goes into `Case::parts.contact_law`; the built-in
+/// laws come in through the same door. With the largest indentation so far lambda_m (the history),
+/// the residual indentation lambda_r and the yield threshold lambda_y,
+///
+///     separated  lambda <= lambda_r               F = 0
+///     elastic    lambda_r < lambda <= lambda_y    F = elastic_force(history, lambda)
+///     plastic    lambda > lambda_y, growing       F = plastic_force(lambda)
+///
+/// A law that never yields has an infinite yield threshold and a residual indentation of zero. One
+/// that yields from the first touch on has the threshold lambda_m.
+///
+/// **What must hold.** The run ends at events where one branch takes over from another, and its
+/// accounts of energy and impulse are closed with the law's own, so a law that does not keep to
+/// these rules ends the run as `inaccurate`:
+///
+///   - the functions are pure: they depend on their arguments alone, change nothing, and may be
+///     called from several threads at once;
+///   - F is continuous: elastic_force is 0 at lambda_r; it equals plastic_force at lambda_y, both
+///     for the history before yielding goes on and for the history {lambda} after it;
+///   - contact pushes: F > 0 in the elastic and plastic range;
+///   - 0 <= lambda_r <= lambda_y, and neither falls while lambda_m grows;
+///   - the slopes are the derivatives of the forces;
+///   - the energies are the work of the force: d(recoverable)/d lambda = F on the elastic branch;
+///     along the plastic branch recoverable + dissipated grow by F d lambda, and dissipated never
+///     falls.
+///
+/// Forces are asked for a little beyond their range too, inside steps whose end is then moved to
+/// the branch's end: there they should go on smoothly, whatever their sign. One evaluation of the
+/// equations of motion asks for one force.
+///
+/// The history is changed only by the run, at accepted steps and events, never inside an
+/// evaluation. A force that depends on velocities does not fit this interface.
+class ContactLaw {
+ public:
+  virtual ~ContactLaw() = default;
+
+  /// For summaries: "Walton and Braun, k1 = 1e7 N/m".
+  virtual std::string name() const = 0;
+  virtual ContactScales scales() const = 0;
+
+  /// lambda_r, m: where the force ends on unloading, and begins on reloading.
+  virtual double residual_indentation(ContactHistory history) const = 0;
+  /// lambda_y, m: the indentation above which the contact yields (further).
+  virtual double yield_threshold(ContactHistory history) const = 0;
+
+  virtual double elastic_force(ContactHistory history, double indentation) const = 0;  ///< N
+  virtual double elastic_slope(ContactHistory history,
+                               double indentation) const = 0;  ///< dF/dlambda, N/m
+  virtual double plastic_force(double indentation) const = 0;  ///< N
+  virtual double plastic_slope(double indentation) const = 0;  ///< N/m
+
+  /// Work (J) that the contact gives back on unloading from here. On the plastic branch `history`
+  /// is that of the indentation itself.
+  virtual double recoverable_energy(ContactHistory history, double indentation) const = 0;
+  /// Work (J) that plastic indentation has consumed so far.
+  virtual double dissipated_energy(ContactHistory history) const = 0;
+
+  /// The largest slope dF/dlambda (N/m) that any history shows up to an indentation: the step limit
+  /// of central differences follows from it. By default that of unloading from there.
+  virtual double largest_slope(double indentation) const {
+    return elastic_slope({indentation}, indentation);
+  }
+
+  // --- what follows from these -------------------------------------------------------------------
+
+  /// The branch on which `indentation` lies, given the history.
+  ContactBranch branch(ContactHistory history, double indentation) const;
+  double branch_force(ContactBranch branch, ContactHistory history, double indentation) const;
+  double branch_slope(ContactBranch branch, ContactHistory history, double indentation) const;
+  /// Force of the branch that holds at this indentation.
+  double force(ContactHistory history, double indentation) const {
+    return branch_force(branch(history, indentation), history, indentation);
+  }
+  /// The branch on which a contact begins that closes with this history.
+  ContactBranch first_branch(ContactHistory history) const;
+
+  /// The history after the indentation has been reached.
+  static ContactHistory commit(ContactHistory history, double indentation) {
+    return {indentation > history.max_indentation ? indentation : history.max_indentation};
+  }
+
+  /// The largest indentation (m) that work `energy` (J) can press into the surface.
+  double indentation_at(double energy) const;
+
+ protected:
+  ContactLaw() = default;
+  ContactLaw(const ContactLaw&) = default;
+  ContactLaw& operator=(const ContactLaw&) = default;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace subimpact {
+
+/// A strip of a section, the same above and below the neutral axis, of one width and material.
+/// Distances are fractions of half the beam's thickness, the rest of the beam's own values.
+struct FibreStrip {
+  double from = 0.0;     ///< distance from the neutral axis, 0 to 1
+  double to = 1.0;       ///< likewise, above `from`
+  double width = 1.0;    ///< over Beam::width
+  double modulus = 1.0;  ///< over Beam::youngs_modulus
+  double yield = 1.0;    ///< yield stress over Beam::yield_stress
+};
+
+/// The bending law of a section: how the fibres of one half of it are spread.
+///
+/// A section of one's own is a list of strips (`strips`) and goes into `Case::parts.section`: any
+/// section that is symmetric about its neutral axis, of elastic-perfectly plastic materials. The
+/// sections that a case file can name come in through the same door: `continuous`, the rectangle,
+/// and `layered`, the rectangle as p equal layers a half whose stress is taken at mid-layer.
+///
+/// Model: every fibre is linear elastic-perfectly plastic, strains are linear over the thickness.
+/// With the curvature x = kappa/kappa_y and the moment m = M/M_y in units of the rectangular beam
+/// of one material, kappa_y = 2 Y/(E h) and M_y = Y b h^2/6, a fibre at the distance z from the
+/// neutral axis, of modulus E_z and yield stress Y_z, yields at x = 1/zeta with
+///
+///     zeta = (2 z/h) (E_z/E) (Y/Y_z),   weight  w dzeta = (dA/(b h/2)) (E/E_z) (Y_z/Y)^2
+///
+/// (zeta = 2 z/h and w = 1 for the rectangle). All that the law needs of the distribution are its
+/// cumulative moments S_i(zeta) = integral of w zeta^i from 0 to zeta. The virgin curve is
+///
+///     m(x) = 3 [x S_2(z_e) + S_1 - S_1(z_e)],  z_e = 1/x
+///
+/// (fibres below z_e are elastic, the others carry their yield stress). Un- and reloading follow
+/// from it by Masing's rules, which are exact for such fibres. The rectangle has m = x up to 1 and
+/// 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a first yield at x = 2p/(2p - 1):
+/// properties of that law, not errors of this code.
+///
+/// Mass and rotary inertia remain those of Beam: choose its density so that the mass per length is
+/// that of the section. Shear deformation is left out, so a core that is soft in shear is not
+/// covered.
+class Fibres {
+ public:
+  struct Moments {
+    double s0, s1, s2;
+  };
+
+  static Fibres continuous();
+  /// `layers` over the whole thickness: even, at least 2; throws std::invalid_argument otherwise.
+  static Fibres layered(int layers);
+  /// A section made of strips, which may lie side by side at the same distance (their widths add
+  /// up) or leave gaps. `name` is for summaries. Throws std::invalid_argument for no strips, for
+  /// distances outside 0 to 1 and for a width, modulus or yield stress that is not positive and
+  /// finite.
+  static Fibres strips(std::vector<FibreStrip> strips, std::string name);
+
+  const std::string& name() const { return name_; }
+
+  /// S_0, S_1, S_2 up to and including zeta >= 0 (constant above extent()).
+  Moments up_to(double zeta) const;
+
+  double slope() const { return slope_; }              ///< dm/dx while elastic
+  double first_yield() const { return first_yield_; }  ///< x at which the first fibre yields
+  double outermost() const { return outermost_; }      ///< zeta of the fibre farthest from the axis
+  double extent() const { return extent_; }            ///< no fibre has a zeta above it
+  /// Yield stress and modulus of the fibre farthest from the axis, over those of the beam.
+  double outer_yield() const { return outer_yield_; }
+  double outer_modulus() const { return outer_modulus_; }
+
+  double moment(double x) const;   ///< virgin curve, odd in x
+  double tangent(double x) const;  ///< dm/dx of the virgin curve
+  double work(double x) const;     ///< integral of the virgin curve from 0 to x
+
+  /// Elastic energy, in units of M_y kappa_y per length, of the fibres from zeta `a` to `b` whose
+  /// stress is (constant + slope * zeta) times their yield stress: 3/2 the integral of its square.
+  double energy(double a, double b, double constant, double slope) const;
+
+ private:
+  // The fibres between two zeta, of constant weight.
+  struct Band {
+    double from, to, weight;
+  };
+
+  explicit Fibres(int half_layers);  // 0: continuous
+  Fibres(std::vector<Band> bands, double extent);
+  Moments of_bands_up_to(double zeta) const;
+
+  double half_layers_;       // 0: continuous; negative: bands
+  std::vector<Band> bands_;  // of strips, else empty
+  Moments whole_;
+  double slope_;
+  double first_yield_;
+  double outermost_;
+  double extent_ = 1.0;
+  double outer_yield_ = 1.0;
+  double outer_modulus_ = 1.0;
+  std::string name_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "subimpact/system/energies.h"
+#include "subimpact/system/events.h"
+
+namespace subimpact {
+
+class StruckBeam;
+
+/// Called now and then with the simulated time, s; for progress displays. Returning false stops the
+/// run, which then ends as it does at its end time but with the outcome `stopped`.
+using Progress = std::function<bool(double time)>;
+
+/// A point's motion across the beam, positive in the direction of the strike.
+struct PointMotion {
+  double displacement;  ///< m
+  double velocity;      ///< m/s
+};
+
+/// Striker and beam at one instant of a run. Valid only within the call that hands it over.
+class RunView {
+ public:
+  RunView(double time, const std::vector<double>& state, StruckBeam& beam)
+      : time_(time), state_(state), beam_(beam) {}
+
+  double time() const { return time_; }  ///< s
+  PointMotion striker() const;
+  PointMotion struck_point() const;  ///< of the beam's axis under the striker
+  bool in_contact() const;
+  double indentation() const;           ///< lambda, m: striker less struck point; negative: a gap
+  double residual_indentation() const;  ///< lambda_r, m
+  double contact_force() const;         ///< F, N, on the beam in the direction of the strike
+  /// U_m to D_c, J. Costs about as much as one evaluation of the equations of motion.
+  Energies energies() const;
+
+ private:
+  double time_;
+  const std::vector<double>& state_;
+  StruckBeam& beam_;
+};
+
+/// Watches a run: derive from this class, override what is of interest, and hand the object to
+/// simulate().
+///
+///     struct Lightest final : subimpact::Observer {
+///       void on_step(const subimpact::RunView& now) override {
+///         largest = std::max(largest, now.contact_force());
+///       }
+///       double largest = 0.0;
+///     };
+///
+/// The calls come in the order of time, in the thread that runs simulate(). States are those that
+/// the run has accepted; nothing that is shown is taken back, unless the run ends as `inaccurate`
+/// or `unstable`, when Outcome::first_failure says how far to trust it. A run without an observer
+/// costs nothing for this interface. An exception that leaves an observer ends the run and leaves
+/// simulate(); to end a run with results, let the progress function return false.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  /// The end of every accepted step. Steps end at events too: this comes after after_event then,
+  /// with the same state.
+  virtual void on_step(const RunView& /*end*/) {}
+
+  /// An event of the contact, once with the equations of motion before it and once with those after
+  /// it; the state is the same. The first touch at t = 0 is one. With interpolated events
+  /// (solver.events) both calls come before the end of the step that holds the event.
+  virtual void before_event(const Transition& /*event*/, const RunView& /*at*/) {}
+  virtual void after_event(const Transition& /*event*/, const RunView& /*at*/) {}
+
+  /// A section that flowed turned back within the step that ends next.
+  virtual void on_reversal(const Transition& /*reversal*/) {}
+};
+
+}  // namespace subimpact

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "simulate/event_loop.h"
+#include "subimpact/simulate/observer.h"
+
+namespace subimpact {
+
+/// The program's own recorder with a user's observer behind it.
+class Observers final : public RunObserver {
+ public:
+  /// Both must outlive this.
+  Observers(RunObserver& recorder, Observer& guest) : recorder_(recorder), guest_(guest) {}
+
+  void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) override;
+  void on_accepted(double time, const State& y, StruckBeam& beam) override;
+  void on_turn(const Transition& turn) override;
+  void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
+  void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
+
+ private:
+  RunObserver& recorder_;
+  Observer& guest_;
+};
+
+}  // namespace subimpact
