@@ -79,7 +79,7 @@ std::span<const Named<StopRule>> names_of(StopRule) {
 std::span<const Named<Method>> names_of(Method) {
   static constexpr Named<Method> names[] = {
       {Method::central_difference, "central-difference",
-       "explicit, second order, fixed step: the scheme to reproduce published runs with"},
+       "explicit, second order, fixed step: the scheme of the published runs"},
       {Method::erk, "erk",
        "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event times"},
       {Method::nystrom, "nystrom",
@@ -95,12 +95,12 @@ std::span<const Named<Method>> names_of(Method) {
       {Method::imex, "imex",
        "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler systems"},
       {Method::adams, "adams",
-       "Adams-Moulton of variable order (CVODE): two evaluations a step; for tolerances of 1e-7 "
+       "Adams-Moulton of variable order (CVODE): two evaluations per step; for tolerances of 1e-7 "
        "and "
        "below"},
       {Method::bdf, "bdf",
-       "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser ones orders "
-       "above 2 (solver.max_order) blow up, as they do on any undamped oscillation"},
+       "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser tolerances "
+       "orders above 2 (solver.max_order) blow up, as they do on any undamped oscillation"},
   };
   return names;
 }
@@ -123,7 +123,7 @@ std::span<const Named<EventHandling>> names_of(EventHandling) {
 
 std::span<const Named<ReversalHandling>> names_of(ReversalHandling) {
   static constexpr Named<ReversalHandling> names[] = {
-      {ReversalHandling::located, "located", "found within steps, whose ends are put right"},
+      {ReversalHandling::located, "located", "located within steps, whose ends are corrected"},
       {ReversalHandling::step_end, "step-end", "section memory advances at step ends only"},
   };
   return names;
