@@ -10,13 +10,12 @@
 namespace subimpact::app {
 
 void CaseOptions::add_to(CLI::App& command) {
-  command.add_option("CASE", file, "Case file (TOML); `subimpact keys` lists what it may hold")
-      ->required();
+  command.add_option("CASE", file, "Case file (TOML); `subimpact keys` lists its keys")->required();
   command.add_option("--method", method,
-                     "Time integration method, in place of the case's; see `subimpact methods`");
+                     "Time integration method, instead of solver.method; see `subimpact methods`");
   command
       .add_option("--set", settings,
-                  "table.key=value, in place of what the case says; may be repeated")
+                  "table.key=value, instead of the value in the case file; may be repeated")
       ->allow_extra_args(false);
 }
 

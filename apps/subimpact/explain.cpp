@@ -10,7 +10,7 @@ namespace subimpact::app {
 
 void add_explain(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand(
-      "explain", "Say what a case will be modelled as, and what it will cost; run nothing");
+      "explain", "Show how a case will be modelled and what it will cost, without running it");
   auto options = std::make_shared<CaseOptions>();
   options->add_to(*command);
   command->footer(

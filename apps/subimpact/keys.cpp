@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "commands.h"
+#include "subimpact/io/case_schema.h"
 #include "subimpact/io/report.h"
 
 namespace subimpact::app {
@@ -8,9 +11,15 @@ namespace subimpact::app {
 void add_keys(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand(
       "keys", "List the keys of a case file: units, allowed values, defaults");
-  command->footer("Example:\n  subimpact keys");
-  command->callback([&status] {
-    fmt::print("{}", key_listing());
+  const auto as_schema = std::make_shared<bool>(false);
+  command->add_flag("--schema", *as_schema,
+                    "Print a JSON schema (draft 2020-12) of the case file instead, for editors");
+  command->footer(
+      "Examples:\n  subimpact keys\n  subimpact keys --schema > subimpact.schema.json\n\n"
+      "A case file that begins with `#:schema ./subimpact.schema.json` is then completed and\n"
+      "checked by editors that use Taplo (in VS Code: the extension Even Better TOML).");
+  command->callback([&status, as_schema] {
+    fmt::print("{}", *as_schema ? case_schema() : key_listing());
     status = done;
   });
 }

@@ -77,7 +77,7 @@ void add_plan(CLI::App& program, int& status) {
   options->input.add_to(*command);
   command
       ->add_option("--error", options->error,
-                   "Largest error of an event time that is wanted, of mesh, layers and time "
+                   "Wanted bound on the error of every event time, from mesh, layers and time "
                    "together, with its unit: 1us")
       ->check(time_with_unit)
       ->required();
@@ -85,9 +85,9 @@ void add_plan(CLI::App& program, int& status) {
                       "Directory for meshes.csv, mesh_limit.csv and plan.csv; made if missing. "
                       "Without it nothing is written");
   command->footer(
-      "Meshes from a quarter to four times the case's size tell the limit of fine meshes, with its "
-      "uncertainty; combinations are held against that limit. Timed runs run alone: leave the "
-      "machine to them.\n"
+      "The limit of fine meshes and its uncertainty come from meshes of a quarter to four times "
+      "the case's size; every combination is compared with that limit. Runs are timed one at a "
+      "time: leave the machine otherwise idle.\n"
       "Examples:\n"
       "  subimpact plan case.toml --error 1us\n"
       "  subimpact plan case.toml --error 0.05us --set model.section=elastic --out out/plan\n"

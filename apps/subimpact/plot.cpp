@@ -37,19 +37,19 @@ void add_plot(CLI::App& program, int& status) {
   CLI::App* command =
       program.add_subcommand("plot", "Draw the figures of a finished run (SVG and PNG)");
   auto options = std::make_shared<PlotOptions>();
-  command->add_option("DIR", options->run, "Directory that `subimpact run` left its files in")
-      ->required();
+  command->add_option("DIR", options->run, "Output directory of `subimpact run`")->required();
   command->add_option("--out", options->directory,
                       "Directory for the figures; made if missing. Default: DIR");
   command->footer(
       "Draws response, first-sub-impact, indentation, energies, timeline and, if the run kept "
       "sections (output.sections), bending; needs gnuplot. The gnuplot scripts stay beside the "
-      "figures, to be changed and run again.\n"
+      "figures, ready to be edited and run again.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
       "  subimpact plot out/first\n"
       "  subimpact plot out/first --out figures\n"
-      "Exit status: 0 done; 2 bad command line, files that are no run's, or gnuplot missing.");
+      "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
+      "missing.");
   command->callback([options, &status] { status = plot(*options); });
 }
 

@@ -32,8 +32,7 @@ void add_report(CLI::App& program, int& status) {
   CLI::App* command =
       program.add_subcommand("report", "Write a finished run up as one page of HTML");
   auto options = std::make_shared<ReportOptions>();
-  command->add_option("DIR", options->run, "Directory that `subimpact run` left its files in")
-      ->required();
+  command->add_option("DIR", options->run, "Output directory of `subimpact run`")->required();
   command->add_option("--out", options->directory,
                       "Directory for report.html and its figures; made if missing. Default: DIR");
   command->footer(
@@ -42,7 +41,8 @@ void add_report(CLI::App& program, int& status) {
       "Examples:\n"
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
       "  subimpact report out/first\n"
-      "Exit status: 0 done; 2 bad command line, files that are no run's, or gnuplot missing.");
+      "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
+      "missing.");
   command->callback([options, &status] { status = report(*options); });
 }
 

@@ -120,9 +120,9 @@ void add_run(CLI::App& program, int& status) {
       "in the current directory");
   command
       ->add_flag("--error-bars{all}", options->error_bars,
-                 "State the error of every start and end, from companion runs: of the integration "
-                 "in time, of the mesh, of layers in place of the exact section; takes some five "
-                 "times as long. --error-bars=time: in time alone, about twice as long")
+                 "Estimate the error of every start and end from refined runs: of the integration "
+                 "in time, of the mesh, of layers instead of the exact section; takes some five "
+                 "times as long. --error-bars=time: of time alone, about twice as long")
       ->check(CLI::IsMember({"all", "time"}));
   command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
   command->footer(

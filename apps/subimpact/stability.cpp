@@ -174,8 +174,8 @@ void add_stability(CLI::App& program, int& status) {
       ->check(positive_seconds)
       ->capture_default_str();
   command->footer(
-      "Nothing is timed, so all cores are used. Parts are printed and written one by one; Ctrl-C "
-      "keeps those that are finished.\n"
+      "All cores are used, since nothing is timed. Parts are printed and written one by one; after "
+      "Ctrl-C the finished parts remain.\n"
       "Examples:\n"
       "  subimpact stability case.toml --out out/stability\n"
       "  subimpact stability case.toml --parts critical --methods central-difference,erk\n"

@@ -83,8 +83,8 @@ class Session {
         command_.directory);
     if (!studies.back().interrupted) return done;
     fmt::print(stderr,
-               "subimpact: interrupted; finished points are kept, and the same command goes "
-               "on from there\n");
+               "subimpact: interrupted; finished points are kept, and the same command "
+               "continues from there\n");
     return interrupted;
   }
 
@@ -140,7 +140,7 @@ int run_work_precision(WorkPrecisionCommand command) {
 
 void add_work_precision(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand(
-      "work-precision", "Chart cost against error for every method; say which setting to use");
+      "work-precision", "Chart cost against error for every method, and recommend settings");
   auto options = std::make_shared<WorkPrecisionCommand>();
   options->input.add_to(*command);
   command
@@ -163,9 +163,10 @@ void add_work_precision(CLI::App& program, int& status) {
       ->capture_default_str();
   command->footer(
       "Each method is swept from coarse to fine, rtol in decades or fixed steps in halves, against "
-      "a reference computed by two methods at rtol 1e-12. Runs end at the horizon up to which that "
-      "reference is sure to 1e-4 us. Timed runs run alone: leave the machine to them. Interrupted "
-      "(Ctrl-C), it charts what is finished; repeated with the same --out it goes on.\n"
+      "a reference computed by two methods at rtol 1e-12. Runs end at the horizon, up to which the "
+      "error of the reference is below 1e-4 us. Runs are timed one at a time: leave the machine "
+      "otherwise idle. After Ctrl-C the finished points are charted; the same command with "
+      "the same --out continues.\n"
       "Examples:\n"
       "  subimpact work-precision case.toml --out out/chart\n"
       "  subimpact work-precision case.toml --methods central-difference,erk:dop853,nystrom\n"

@@ -107,7 +107,7 @@ std::span<const Named<EventHandling>> names_of(EventHandling) {
 
 std::span<const Named<ReversalHandling>> names_of(ReversalHandling) {
   static constexpr Named<ReversalHandling> names[] = {
-      {ReversalHandling::located, "located", "found within steps, whose ends are put right"},
+      {ReversalHandling::located, "located", "located within steps, whose ends are corrected"},
       {ReversalHandling::step_end, "step-end", "section memory advances at step ends only"},
   };
   return names;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -92,16 +91,17 @@ struct RemoveOptional<std::optional<T>> {
 
 struct Range {
   const char* words = "";
-  std::function<bool(double)> holds;
+  Limits limits;
 };
 
 const Range any_value;
-const Range positive{"finite and above 0", [](double x) { return x > 0.0 && std::isfinite(x); }};
-const Range not_negative{"finite, 0 or above",
-                         [](double x) { return x >= 0.0 && std::isfinite(x); }};
+const Range positive{"finite and above 0", {.exclusive_minimum = 0.0}};
+const Range positive_or_infinite{"above 0, or inf", {.exclusive_minimum = 0.0, .infinity = true}};
+const Range not_negative{"finite, 0 or above", {.minimum = 0.0}};
+const Range positive_share{"above 0, up to 1", {.exclusive_minimum = 0.0, .maximum = 1.0}};
 
 Range between(const char* words, double low, double high) {
-  return {words, [low, high](double x) { return x >= low && x <= high; }};
+  return {words, {.minimum = low, .maximum = high}};
 }
 
 // A cell's second difference carries a rounding error of some 1e-16 N^2 of the curvature, and a
@@ -111,11 +111,10 @@ const Range segment_range = between(
     5, 100001);
 // Rounding of curvatures grows as the inverse square of an element's length.
 const Range refinement_range = between("from 1 (equal elements) to 1000", 1.0, 1000.0);
-const Range reach_range{"above 0, up to 1", [](double x) { return x > 0.0 && x <= 1.0; }};
 const Range element_range = between("from 4 to 20000", 4, 20000);
 // At 10000 layers the stiffness is within 1e-8 of that of the exact section.
 const Range layer_range{"even, from 2 to 10000 (for more, section = \"exact\" is their limit)",
-                        [](double n) { return n >= 2 && n <= 10000 && std::fmod(n, 2.0) == 0.0; }};
+                        {.minimum = 2.0, .maximum = 10000.0, .multiple_of = 2}};
 
 constexpr const char* required = nullptr;  // as a default: the key has none
 constexpr const char* as_in_case = "";     // as a default: that of the struct Case
@@ -131,7 +130,7 @@ CaseKey row(const char* name, const char* unit, const Range& range, const char* 
   key.type = Member<Value>::type;
   key.unit = unit;
   key.range = range.words;
-  key.in_range = range.holds;
+  key.limits = range.limits;
   key.meaning = meaning;
   key.get = [field](const Case& from) -> std::optional<KeyValue> {
     if constexpr (optional) {
@@ -183,8 +182,6 @@ std::vector<Choice> table_choices() {
 
 // clang-format off
 std::vector<CaseKey> make_case_keys() {
-  const Range yield{"above 0, or inf", [](double x) { return x > 0.0; }};
-  const Range modulus{"above 0, or inf", [](double x) { return x > 0.0; }};
   const Range poisson = between("from 0 to 0.5", 0.0, 0.5);
   const Range fraction = between("from 0 to 1", 0.0, 1.0);
   const Range tolerance = between("from 1e-14 to 0.1", 1e-14, 0.1);
@@ -196,28 +193,28 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.thickness", "m", positive, "thickness, in the direction of the strike", required, AT(scene.beam.thickness)),
     row("beam.density", "kg/m3", positive, "density", required, AT(scene.beam.density)),
     row("beam.youngs_modulus", "Pa", positive, "Young's modulus", required, AT(scene.beam.youngs_modulus)),
-    row("beam.yield_stress", "Pa", yield, "yield stress of beam and contact; inf: neither yields", as_in_case, AT(scene.beam.yield_stress)),
+    row("beam.yield_stress", "Pa", positive_or_infinite, "yield stress of beam and contact; inf: neither yields", as_in_case, AT(scene.beam.yield_stress)),
     row("beam.theory", "", any_value, "beam theory", as_in_case, AT(scene.beam.theory)),
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
 
     row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass)),
-    row("striker.nose_radius", "m", positive, "radius of its nose: of a cylinder for contact.law = \"foundation\", of a sphere for \"hertz\"", "none; \"foundation\" needs it: give it", AT(scene.striker.nose_radius)),
+    row("striker.nose_radius", "m", positive, "radius of the nose: a cylinder for contact.law = \"foundation\", a sphere for \"hertz\"", "none; \"foundation\" needs one", AT(scene.striker.nose_radius)),
     row("striker.velocity", "m/s", positive, "velocity at the first touch", required, AT(scene.striker.velocity)),
     row("striker.position", "", fraction, "struck point, as a fraction of the length", as_in_case, AT(scene.striker.position)),
 
     row("contact.law", "", any_value, "relation of contact force and indentation", as_in_case, AT(scene.contact.kind)),
-    row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from a sphere's radius and moduli; linear needs it", AT(scene.contact.stiffness)),
-    row("contact.striker_modulus", "Pa", modulus, "Young's modulus of a spherical nose, for \"hertz\" without stiffness; inf: rigid", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_modulus)),
-    row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.striker_poisson)),
-    row("contact.beam_poisson", "", poisson, "Poisson's ratio of the beam, for \"hertz\" without stiffness", "none: with contact.stiffness it is not needed", AT(scene.contact.beam_poisson)),
+    row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from the radius of the sphere and the moduli; linear: none, it needs one", AT(scene.contact.stiffness)),
+    row("contact.striker_modulus", "Pa", positive_or_infinite, "Young's modulus of a spherical nose, for \"hertz\" without stiffness; inf: rigid", "none; not needed with contact.stiffness", AT(scene.contact.striker_modulus)),
+    row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.striker_poisson)),
+    row("contact.beam_poisson", "", poisson, "Poisson's ratio of the beam, for \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.beam_poisson)),
 
     row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\", or \"hermite\" if model.elements is given", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
     row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
-    row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points of an element, at which the bending law is asked", as_in_case, AT(model.sections_per_element)),
+    row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points per element, where the bending law is evaluated", as_in_case, AT(model.sections_per_element)),
     row("model.hinges", "", any_value, "sections of elements where the slope may jump", as_in_case, AT(model.hinges)),
-    row("model.strike_refinement", "", refinement_range, "how many times shorter elements are at the strike than far from it, with mesh = \"hermite\"", as_in_case, AT(model.strike_refinement)),
-    row("model.refined_length", "", reach_range, "over which, on either side of the strike, elements grow to their full length, as a fraction of the beam's", as_in_case, AT(model.refined_length)),
+    row("model.strike_refinement", "", refinement_range, "size of the elements far from the strike over the size of those at the strike, with mesh = \"hermite\"", as_in_case, AT(model.strike_refinement)),
+    row("model.refined_length", "", positive_share, "distance on either side of the strike over which elements grow to their full size, as a fraction of the beam's length", as_in_case, AT(model.refined_length)),
     row("model.section", "", any_value, "bending law of the sections", as_in_case, AT(model.section)),
     row("model.layers", "", layer_range, "number of layers over the thickness, with section = \"layers\"", as_in_case, AT(model.layers)),
     row("model.symmetry", "", any_value, "use of the scene's symmetry about mid-span", as_in_case, AT(model.symmetry)),
@@ -232,13 +229,13 @@ std::vector<CaseKey> make_case_keys() {
     with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),
     row("solver.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(solver.mass_solver)),
     row("solver.events", "", any_value, "treatment of an event inside a step", "central-difference: \"interpolated\"; others: \"located\"", AT(solver.events)),
-    row("solver.reversals", "", any_value, "treatment of sections that begin to flow or turn back", "adams, bdf: \"step-end\"; others: \"located\"", AT(solver.reversals)),
+    row("solver.reversals", "", any_value, "treatment of section events (first flow, reversal, closing of a loop) inside a step", "adams, bdf: \"step-end\"; others: \"located\"", AT(solver.reversals)),
     row("solver.pair_detection", "", any_value, "search for contacts that open and close within one step", as_in_case, AT(solver.pair_detection)),
     row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", "adams: 12; bdf: 5", AT(solver.max_order)),
     row("solver.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(solver.vector_operations)),
-    row("solver.beyond_critical", "", any_value, "lets a fixed step exceed the stability limit, to see it fail", as_in_case, AT(solver.beyond_critical)),
+    row("solver.beyond_critical", "", any_value, "allows a fixed step above the stability limit, to study how runs fail there", as_in_case, AT(solver.beyond_critical)),
 
-    row("accuracy.energy", "", between("above 0, up to 1", std::numeric_limits<double>::min(), 1.0), "largest error of the energy, relative to the initial energy, of a run that counts as completed", "from method and rtol, 1e-3 at most", AT(accuracy.energy)),
+    row("accuracy.energy", "", positive_share, "largest error of the energy, relative to the initial energy, with which a run counts as completed", "from method and rtol, 1e-3 at most", AT(accuracy.energy)),
 
     row("output.interval", "s", not_negative, "time between history rows; 0: none", as_in_case, AT(output.interval)),
     row("output.zone_gap", "", positive, "separation that ends a zone, in first flexural periods", as_in_case, AT(output.zone_gap)),
@@ -291,6 +288,14 @@ void check_gaps(const Case& input) {
 }
 
 }  // namespace
+
+bool Limits::hold(double x) const {
+  if (std::isnan(x) || (std::isinf(x) && !infinity)) return false;
+  if (minimum && x < *minimum) return false;
+  if (exclusive_minimum && x <= *exclusive_minimum) return false;
+  if (maximum && x > *maximum) return false;
+  return !multiple_of || std::fmod(x, *multiple_of) == 0.0;
+}
 
 const std::vector<CaseKey>& case_keys() {
   static const std::vector<CaseKey> keys = make_case_keys();

@@ -129,7 +129,7 @@ class Doubts {
     if (blunt || !doubtful_beside(nose)) {
       length("striker.nose_radius", nose, blunt, l, "length", false);
     } else {
-      add_length("striker.nose_radius", nose, ", beside lengths of the beam that are doubtful");
+      add_length("striker.nose_radius", nose, ", like the lengths of the beam");
     }
   }
 
@@ -174,7 +174,7 @@ class Doubts {
         beam_.youngs_modulus <= stiffest && Y < smallest_yield * beam_.youngs_modulus;
     if (Y >= weakest && !by_strain) return;
     add(given("beam.yield_stress", Y, "Pa") +
-        (Y < weakest ? std::string(", weaker than lead (some 1e7 Pa) by far")
+        (Y < weakest ? std::string(", far weaker than lead (some 1e7 Pa)")
                      : fmt::format(", reached at a strain of {:.1e} (metals: some 1e-3)",
                                    Y / beam_.youngs_modulus)) +
         proposal(Y, {{"MPa", 1e6}, {"GPa", 1e9}}, {1e6, 2e10}));

@@ -64,7 +64,7 @@ bool is_choice(const CaseKey& key, const std::string& name) {
 std::optional<std::string> number_problem(const CaseKey& key, double number,
                                           const KeyValue& value) {
   const bool fits = key.type != KeyType::count || std::abs(number) <= 2147483647.0;
-  if (fits && (!key.in_range || key.in_range(number))) return std::nullopt;
+  if (fits && key.limits.hold(number)) return std::nullopt;
   return refusal(key, to_text(value));
 }
 

@@ -112,7 +112,7 @@ std::vector<MethodDescriptor> make_descriptors() {
   return {
       {.method = Method::central_difference,
        .name = "central-difference",
-       .note = "explicit, second order, fixed step: the scheme to reproduce published runs with",
+       .note = "explicit, second order, fixed step: the scheme of the published runs",
        .steps = Steps::fixed,
        .modes = Modes::where_cheaper,
        .events = EventHandling::interpolated,
@@ -177,8 +177,8 @@ std::vector<MethodDescriptor> make_descriptors() {
       // To a multistep method a restart at each reversal costs more than the reversal's error.
       {.method = Method::adams,
        .name = "adams",
-       .note = "Adams-Moulton of variable order (CVODE): two evaluations a step; for tolerances of "
-               "1e-7 and below",
+       .note = "Adams-Moulton of variable order (CVODE): two evaluations per step; for tolerances "
+               "of 1e-7 and below",
        .steps = Steps::adaptive_order,
        .sundials = true,
        .reversals = ReversalHandling::step_end,
@@ -190,8 +190,9 @@ std::vector<MethodDescriptor> make_descriptors() {
            }},
       {.method = Method::bdf,
        .name = "bdf",
-       .note = "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser ones "
-               "orders above 2 (solver.max_order) blow up, as they do on any undamped oscillation",
+       .note = "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser "
+               "tolerances orders above 2 (solver.max_order) blow up, as they do on any undamped "
+               "oscillation",
        .steps = Steps::adaptive_order,
        .sundials = true,
        .reversals = ReversalHandling::step_end,

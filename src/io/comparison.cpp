@@ -52,7 +52,7 @@ std::string comparison_table(const Comparison& comparison) {
       to_string(comparison.reference_input.solver.method), comparison.reference_input.solver.rtol,
       counted(reference.sub_impacts.size(), "sub-impact"), reference.trust->largest_error * us);
   if (reference.trust->first_undecided) {
-    fmt::format_to(out, " before sub-impact {}, from where on it is not certain itself",
+    fmt::format_to(out, " before sub-impact {}; from there on the reference itself is uncertain",
                    *reference.trust->first_undecided + 1);
   }
   fmt::format_to(out, "\n");

@@ -21,8 +21,8 @@ std::string read_whole_file(const std::filesystem::path& path) {
   std::ostringstream text;
   if (!file || !(text << file.rdbuf())) {
     throw ResultsError(
-        fmt::format("{}: cannot be read ({}); give the directory that `subimpact run` "
-                    "left its files in",
+        fmt::format("{}: cannot be read ({}); give the output directory of "
+                    "`subimpact run`",
                     path.string(), errno != 0 ? std::strerror(errno) : "it is empty"));
   }
   return std::move(text).str();

@@ -22,12 +22,12 @@ std::string key_text(const Case& input, const char* name) {
 
 std::string symmetry_text(const Case& input, const Used& used) {
   if (input.model.mesh == MeshKind::rigid)
-    return "none to use: a rigid body has two unknowns at most";
+    return "not applicable: a rigid body has at most two unknowns";
   if (used.half_model)
-    return "used: struck at mid-span and both ends alike, so one half is modelled";
+    return "used: the strike is at mid-span and both ends are alike, so one half is modelled";
   if (input.model.symmetry == SymmetryUse::off)
     return "not used, as asked (model.symmetry = \"off\")";
-  return "none to use: the scene is not symmetric about mid-span, so the whole beam is modelled";
+  return "not used: the scene is not symmetric about mid-span, so the whole beam is modelled";
 }
 
 std::string mesh_text(const Case& input, const Used& used) {
@@ -50,7 +50,7 @@ std::string section_text(const Case& input, const Used& used) {
     return used.section + ": sections never yield";
   }
   if (std::isinf(input.scene.beam.yield_stress)) {
-    return fmt::format("elastic, although {} was asked: the yield stress is infinite",
+    return fmt::format("elastic, although {} was requested: the yield stress is infinite",
                        key_text(input, "model.section"));
   }
   if (input.parts.section) {
@@ -76,7 +76,7 @@ std::string contact_stiffness_text(const Case& input, const Used& used) {
   if (input.parts.contact_law || !contact.stiffness)
     return fmt::format("{:.7g} {}", used.contact_stiffness, unit);
   return fmt::format("{:.7g} {}, as given{}", used.contact_stiffness, unit,
-                     input.scene.striker.nose_radius ? "; striker.nose_radius plays no part" : "");
+                     input.scene.striker.nose_radius ? "; striker.nose_radius has no effect" : "");
 }
 
 std::string method_text(const Case& input, const Used& used) {
@@ -196,7 +196,7 @@ std::string method_listing() {
   fmt::format_to(
       out,
       "\nTables (solver.table): order(order of the error estimate), stages or right-hand "
-      "sides a step\n");
+      "sides per step\n");
   for (const MethodTable& table : method_tables()) {
     fmt::format_to(out, "  {:<10} {:<20} {:>6} {:>3}  {}\n", to_string(table.method), table.name,
                    fmt::format("{}({})", table.order, table.embedded_order), table.evaluations,

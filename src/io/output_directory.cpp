@@ -25,7 +25,7 @@ void write_file(const fs::path& path, const std::string& content) {
   if (!file) fail(std::strerror(errno));
   file << content;
   file.close();
-  if (!file) fail(errno != 0 ? std::strerror(errno) : "the disk took only a part of it");
+  if (!file) fail(errno != 0 ? std::strerror(errno) : "only part of the data was written");
   std::error_code error;
   fs::rename(partial, path, error);
   if (error) fail(error.message());
@@ -38,7 +38,7 @@ void prepare_output_directory(const fs::path& directory) {
     throw OutputError(
         fmt::format("{}: this output directory cannot be made ({}); choose another "
                     "with --out",
-                    directory.string(), error ? error.message() : "something else has that name"));
+                    directory.string(), error ? error.message() : "a file has that name"));
   }
   const fs::path probe = directory / ".subimpact-probe";
   errno = 0;

@@ -229,8 +229,8 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
     throw ResultsError(fmt::format("{}: is not the summary of a run ({}); run the case again",
                                    path.string(), error.what()));
   } catch (const InvalidCase& error) {
-    throw ResultsError(
-        fmt::format("{}: its case does not hold: {} {}", path.string(), error.key, error.what()));
+    throw ResultsError(fmt::format("{}: the case in this file is not valid: {} {}", path.string(),
+                                   error.key, error.what()));
   }
 }
 
@@ -333,8 +333,8 @@ FinishedRun read_results(const std::filesystem::path& directory) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(directory, ignored)) {
     throw ResultsError(
-        fmt::format("{}: is no directory; give the one that `subimpact run` left "
-                    "its files in (--out)",
+        fmt::format("{}: is not a directory; give the output directory of "
+                    "`subimpact run` (--out)",
                     directory.string()));
   }
   FinishedRun run;

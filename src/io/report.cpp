@@ -65,7 +65,7 @@ void add_trust(const Result& result, fmt::memory_buffer& text) {
   };
   for (const Trust::Part& part : trust.parts) {
     line("error of " + part.name,
-         fmt::format("{} (companion: {})",
+         fmt::format("{} (refined run: {})",
                      trust_text(result, part.largest_error, part.first_undecided, part.reason),
                      part.companion));
   }
@@ -169,8 +169,9 @@ std::string run_summary(const Case& input, const Result& result) {
        result.max_momentum_error
            ? fmt::format("energy to {:.1e}, momentum to {:.1e}, relative", result.max_energy_error,
                          *result.max_momentum_error)
-           : fmt::format("energy to {:.1e}, relative; momentum is not kept: supports take it up",
-                         result.max_energy_error));
+           : fmt::format(
+                 "energy to {:.1e}, relative; momentum is not conserved: the supports take it up",
+                 result.max_energy_error));
   if (result.trust) add_trust(result, text);
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));

@@ -173,26 +173,6 @@ Json trust_in_times(const std::optional<Trust>& trust) {
 
 }  // namespace
 
-std::string_view to_string(OutcomeKind kind) {
-  switch (kind) {
-    case OutcomeKind::completed:
-      return "completed";
-    case OutcomeKind::stopped:
-      return "stopped";
-    case OutcomeKind::inaccurate:
-      return "inaccurate";
-    case OutcomeKind::unstable:
-      return "unstable";
-    case OutcomeKind::chattering:
-      return "chattering";
-    case OutcomeKind::solver_failed:
-      return "solver-failed";
-    case OutcomeKind::left_validity:
-      return "left-validity";
-  }
-  return "unknown";
-}
-
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
   std::vector<ZoneSummary> zones;
   for (const SubImpact& s : sub_impacts) {

@@ -80,12 +80,13 @@ std::string advice_text(const std::vector<Advice>& advice) {
   const auto out = std::back_inserter(text);
   for (const Advice& item : advice) {
     if (!item.point) {
-      fmt::format_to(out, "  {:<9} no setting that was run reaches it\n", error_text(item.wanted));
+      fmt::format_to(out, "  {:<9} not reached by any setting that was run\n",
+                     error_text(item.wanted));
       continue;
     }
     fmt::format_to(out, "  {:<9} {}\n", error_text(item.wanted), setting_text(*item.point));
     if (!item.steady) continue;
-    fmt::format_to(out, "            by luck: finer settings miss it; steadily from {} on\n",
+    fmt::format_to(out, "            by chance: finer settings miss it; reliably from {} on\n",
                    setting_text(*item.steady));
   }
   return fmt::to_string(text);

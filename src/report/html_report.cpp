@@ -181,10 +181,10 @@ void add_trust(Page& page, const Result& result) {
     return;
   }
   const Trust& trust = *result.trust;
-  page.add("<p>By comparison with companion runs, each of which changes one thing:</p>");
+  page.add("<p>From refined runs, each of which changes one thing:</p>");
   page.add(
-      "<div class=\"wide\"><table class=\"keys\"><thead><tr><th>error of</th><th>companion</th>"
-      "<th>times good to</th><th>holds</th></tr></thead><tbody>");
+      "<div class=\"wide\"><table class=\"keys\"><thead><tr><th>error of</th><th>refined run</th>"
+      "<th>times within</th><th>valid</th></tr></thead><tbody>");
   for (const Trust::Part& part : trust.parts) {
     page.add(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", escaped(part.name),
@@ -198,7 +198,7 @@ void add_trust(Page& page, const Result& result) {
   }
   page.add("</tbody></table></div>");
   if (trust.first_undecided) {
-    page.add("<p>All taken together, sub-impact {} is the first that is not certain.</p>",
+    page.add("<p>With all errors added, sub-impact {} is the first that is uncertain.</p>",
              *trust.first_undecided + 1);
   }
 }
@@ -206,12 +206,13 @@ void add_trust(Page& page, const Result& result) {
 void add_conservation(Page& page, const Result& result) {
   page.heading("Conservation");
   page.add(
-      "<p>Of the initial {:.6g} J nothing is lost or made up beyond {:.1e} of it at any row. {}"
+      "<p>At every row the total energy equals the initial {:.6g} J to within {:.1e}, relative. {}"
       "</p>",
       result.used.initial_energy, result.max_energy_error,
-      result.max_momentum_error ? fmt::format("Total momentum is kept to {:.1e} of its value.",
-                                              *result.max_momentum_error)
-                                : std::string("Momentum is taken up by the supports."));
+      result.max_momentum_error
+          ? fmt::format("Total momentum is conserved to within {:.1e}, relative.",
+                        *result.max_momentum_error)
+          : std::string("The supports take momentum up."));
   if (result.history.empty()) return;
   const HistoryRow& last = result.history.back();
   page.add(

@@ -52,7 +52,7 @@ std::string critical_step_table(const std::vector<CriticalStep>& rows) {
     method = row.method;
     for (const Resonance& range : resonances(method)) {
       fmt::format_to(out,
-                     "{}: grows for omega h from {:.4f} to {:.4f} too, by up to {:.1e} a step\n",
+                     "{}: grows for omega h from {:.4f} to {:.4f} too, by up to {:.1e} per step\n",
                      method, range.from, range.to, range.growth - 1.0);
     }
   }

@@ -58,11 +58,11 @@ Trust::Part judge(const std::vector<SubImpact>& all, const ErrorPart& part) {
   if (n < all.size() || n < part.n_companion) {
     trust.first_undecided = n;
     trust.reason = fmt::format(
-        "the companion run has {} in all, this one {}; from here on they do not correspond",
+        "the refined run has {} in all, this run {}; from here on they do not correspond",
         counted(part.n_companion, "sub-impact"), all.size());
   } else if (!part.failure.empty()) {
     trust.first_undecided = n;
-    trust.reason = "the companion run did not complete: " + part.failure;
+    trust.reason = "the refined run did not complete: " + part.failure;
   }
   return trust;
 }

@@ -38,12 +38,12 @@ std::pair<std::size_t, std::string> count_known(const Result& result, double lar
   for (std::size_t i = 0; i < n; ++i) {
     const SubImpact& s = result.sub_impacts[i];
     if (result.trust->first_undecided == i) {
-      return {i, fmt::format("the reference does not decide sub-impact {}", i + 1)};
+      return {i, fmt::format("the reference does not resolve sub-impact {}", i + 1)};
     }
     if (!s.end) return {i, fmt::format("sub-impact {} has not ended at the case's end", i + 1)};
     const double error = std::max(*s.start_error, *s.end_error);
     if (error > largest_error) {
-      return {i, fmt::format("the reference knows sub-impact {} to {:.1e} us only", i + 1,
+      return {i, fmt::format("the reference gives sub-impact {} only to within {:.1e} us", i + 1,
                              1e6 * error)};
     }
   }

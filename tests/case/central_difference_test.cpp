@@ -84,11 +84,7 @@ TEST_P(ForcedBeyondCritical, JustBelowItIsStable) {
 INSTANTIATE_TEST_SUITE_P(, ForcedBeyondCritical,
                          testing::Values(SectionKind::elastic, SectionKind::exact,
                                          SectionKind::layers),
-                         [](const auto& info) {
-                           return std::string(info.param == SectionKind::elastic ? "elastic"
-                                              : info.param == SectionKind::exact ? "exact"
-                                                                                 : "layers");
-                         });
+                         NamedAsPrinted{});
 
 TEST(WithoutRotaryInertia, TheCriticalStepIsTheEulerBernoulliGrids) {
   Case input = central(SectionKind::elastic, 1e-4);

@@ -128,11 +128,7 @@ TEST_P(Conservation, IsReportedInTheHistoryRows) {
 INSTANTIATE_TEST_SUITE_P(, Conservation,
                          testing::Values(SectionKind::elastic, SectionKind::exact,
                                          SectionKind::layers),
-                         [](const auto& info) {
-                           return std::string(info.param == SectionKind::elastic ? "elastic"
-                                              : info.param == SectionKind::exact ? "exact"
-                                                                                 : "layers");
-                         });
+                         NamedAsPrinted{});
 
 }  // namespace
 }  // namespace subimpact

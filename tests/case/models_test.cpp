@@ -46,11 +46,7 @@ TEST_P(HalfAndWholeModel, GiveTheSameEvents) {
 INSTANTIATE_TEST_SUITE_P(, HalfAndWholeModel,
                          testing::Values(SectionKind::elastic, SectionKind::exact,
                                          SectionKind::layers),
-                         [](const auto& info) {
-                           return std::string(info.param == SectionKind::elastic ? "elastic"
-                                              : info.param == SectionKind::exact ? "exact"
-                                                                                 : "layers");
-                         });
+                         NamedAsPrinted{});
 
 State final_state(const Case& input, SectionField::Storage storage) {
   StruckBeam beam = make_struck_beam(input, storage);
@@ -75,10 +71,7 @@ TEST_P(StoredSections, LazilyOrEagerlyGiveIdenticalBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, StoredSections, testing::Values(SectionKind::exact, SectionKind::layers),
-                         [](const auto& info) {
-                           return std::string(info.param == SectionKind::exact ? "exact"
-                                                                               : "layers");
-                         });
+                         NamedAsPrinted{});
 
 TEST(AMirroredStrike, GivesTheSameEvents) {
   Case input = paper_case(SectionKind::exact, 0.5e-3);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "paper_scene.h"
+#include "print.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {

@@ -24,7 +24,8 @@ class Supports : public testing::TestWithParam<std::array<EndSupport, 2>> {};
 INSTANTIATE_TEST_SUITE_P(, Supports,
                          testing::Values(std::array{pinned, pinned}, std::array{clamped, clamped},
                                          std::array{clamped, free_end},
-                                         std::array{pinned, clamped}));
+                                         std::array{pinned, clamped}),
+                         NamedAsPrinted{});
 
 TEST_P(Supports, KeepTheEnergyAndSayThatMomentumIsNotKept) {
   const auto [first, second] = GetParam();

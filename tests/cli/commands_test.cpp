@@ -52,6 +52,14 @@ TEST(Keys, AreListedByTable) {
   }
 }
 
+TEST(Keys, ArePrintedAsASchema) {
+  const Finished finished = run_program({"keys", "--schema"});
+  EXPECT_EQ(finished.status, 0);
+  for (const char* piece : {"json-schema.org/draft/2020-12", "\"youngs_modulus\"", "\"hermite\""}) {
+    expect_in(finished.output, piece);
+  }
+}
+
 TEST(WorkPrecision, ChartsWhatItRanAndAdvises) {
   const TemporaryDirectory directory;
   const std::vector<std::string> command = {"work-precision", SUBIMPACT_PAPER_CASE,

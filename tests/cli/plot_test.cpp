@@ -71,7 +71,7 @@ TEST(Plot, OfWhatIsNoRunEndsWithStatus2AndSaysWhatIsMissing) {
   const TemporaryDirectory directory;
   const Finished nowhere = run_program({"plot", "nowhere"}, directory.path);
   EXPECT_EQ(nowhere.status, 2);
-  expect_in(nowhere.errors, "nowhere: is no directory");
+  expect_in(nowhere.errors, "nowhere: is not a directory");
   const Finished empty = run_program({"plot", "."}, directory.path);
   EXPECT_EQ(empty.status, 2);
   expect_in(empty.errors, "summary.json: cannot be read");

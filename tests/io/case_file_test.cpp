@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "print.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
 

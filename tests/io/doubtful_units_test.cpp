@@ -84,7 +84,7 @@ const Slip slips[] = {
      {{"beam.youngs_modulus is 7.196e+13 Pa", "stiffer than diamond"}}},
     {"YieldStressInMPa",
      {"beam.yield_stress=150"},
-     {{"beam.yield_stress is 150 Pa", "weaker than lead", "if MPa was meant, write 1.5e+08"}}},
+     {{"beam.yield_stress is 150 Pa", "far weaker than lead", "if MPa was meant, write 1.5e+08"}}},
     {"YieldStressInGPa",
      {"beam.yield_stress=0.15"},
      {{"beam.yield_stress is 0.15 Pa", "if GPa was meant, write 1.5e+08"}}},

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include "print.h"
 #include "small_case.h"
 #include "subimpact/io/case_file.h"
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 
+#include "print.h"
 #include "sample_result.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
@@ -105,7 +106,7 @@ TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
 
 TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
   const TemporaryDirectory directory;
-  expect_in(refusal_of(directory.path / "nowhere"), "nowhere: is no directory");
+  expect_in(refusal_of(directory.path / "nowhere"), "nowhere: is not a directory");
   expect_in(refusal_of(directory.path), "summary.json: cannot be read (No such file");
   write_results(directory.path, read_case_text(small_case_text(), "small.toml").value,
                 sample_result());

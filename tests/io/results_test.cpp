@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "print.h"
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"

@@ -12,6 +12,7 @@
 #include "model/flexural_frequencies.h"
 #include "order_table.h"
 #include "paper_scene.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {
@@ -29,10 +30,7 @@ class CellMeshOfBothTheories : public testing::TestWithParam<BeamTheory> {
 
 INSTANTIATE_TEST_SUITE_P(Theories, CellMeshOfBothTheories,
                          testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
-                         [](const auto& info) {
-                           return info.param == BeamTheory::rayleigh ? "rayleigh"
-                                                                     : "euler_bernoulli";
-                         });
+                         NamedAsPrinted{});
 
 TEST_P(CellMeshOfBothTheories, HighestFrequencyIsAnUpperBoundForAnyNumberOfCells) {
   for (const std::size_t n : {5u, 6u, 9u, 20u, 51u}) {
@@ -125,13 +123,6 @@ TEST(CellMesh, RayleighFrequenciesAreOfSecondOrderButForTheRotaryInertiaOfTheOut
 
 using Support = std::tuple<BeamTheory, std::array<EndSupport, 2>>;
 
-std::string support_name(const testing::TestParamInfo<Support>& info) {
-  const auto [theory, ends] = info.param;
-  std::string name = theory == BeamTheory::rayleigh ? "rayleigh" : "euler_bernoulli";
-  for (const EndSupport end : ends) name += end == EndSupport::pinned ? "_pinned" : "_clamped";
-  return name;
-}
-
 class SupportedCells : public testing::TestWithParam<Support> {
  protected:
   Beam beam() const {
@@ -149,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      std::array{EndSupport::clamped, EndSupport::clamped},
                                      std::array{EndSupport::clamped, EndSupport::pinned},
                                      std::array{EndSupport::pinned, EndSupport::clamped})),
-    support_name);
+    NamedAsPrinted{});
 
 TEST_P(SupportedCells, FrequenciesConvergeAtSecondOrder) {
   const std::vector<double> exact = flexural_frequencies(beam(), n_modes);

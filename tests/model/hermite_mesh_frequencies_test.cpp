@@ -11,20 +11,12 @@
 #include "model/hermite_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {
 
 using Support = std::tuple<BeamTheory, std::array<EndSupport, 2>>;
-
-std::string support_name(const testing::TestParamInfo<Support>& info) {
-  const auto [theory, ends] = info.param;
-  std::string name = theory == BeamTheory::rayleigh ? "rayleigh" : "euler_bernoulli";
-  for (const EndSupport end : ends) {
-    name += end == EndSupport::free ? "_free" : end == EndSupport::pinned ? "_pinned" : "_clamped";
-  }
-  return name;
-}
 
 class ElementsOnSupports : public testing::TestWithParam<Support> {
  protected:
@@ -52,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      std::array{EndSupport::pinned, EndSupport::free},
                                      std::array{EndSupport::clamped, EndSupport::free},
                                      std::array{EndSupport::clamped, EndSupport::pinned})),
-    support_name);
+    NamedAsPrinted{});
 
 TEST_P(ElementsOnSupports, FrequenciesConvergeAtFourthOrder) {
   constexpr std::size_t n_modes = 5;

@@ -11,6 +11,7 @@
 #include "model/hermite_mesh.h"
 #include "model/hermite_modes.h"
 #include "paper_scene.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {
@@ -26,8 +27,9 @@ constexpr EndSupport free_end = EndSupport::free;
 constexpr EndSupport pinned = EndSupport::pinned;
 constexpr EndSupport clamped = EndSupport::clamped;
 
-std::string name(EndSupport end) {
-  return end == free_end ? "free" : end == pinned ? "pinned" : "clamped";
+std::ostream& operator<<(std::ostream& out, const Chain& chain) {
+  return out << chain.ends[0] << ' ' << chain.ends[1]
+             << (chain.extent == Extent::half ? " half" : " whole");
 }
 
 class ModesOfElements : public testing::TestWithParam<std::tuple<Chain, BeamTheory, std::size_t>> {
@@ -170,13 +172,6 @@ TEST_P(ModesOfElements, SatisfyTheEquationsOfMotion) {
   EXPECT_LT(worst, 1e-12);
 }
 
-std::string test_name(const testing::TestParamInfo<ModesOfElements::ParamType>& info) {
-  const auto& [chain, theory, n] = info.param;
-  return name(chain.ends[0]) + "_" + name(chain.ends[1]) + "_" +
-         (chain.extent == Extent::half ? "half_" : "whole_") +
-         (theory == BeamTheory::rayleigh ? "rayleigh_" : "euler_bernoulli_") + std::to_string(n);
-}
-
 TEST(HermiteModes, OfUnequalElementsAndOfACantileverAreDecomposed) {
   Beam beam = paper_beam();
   const HermiteMesh unequal(beam, 0.33, 10, 2, Extent::whole);
@@ -199,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Chain{{pinned, clamped}, Extent::whole}),
                      testing::Values(BeamTheory::rayleigh, BeamTheory::euler_bernoulli),
                      testing::Values(4, 5, 40, 41, 160)),
-    test_name);
+    NamedAsPrinted{});
 
 INSTANTIATE_TEST_SUITE_P(Half, ModesOfElements,
                          testing::Combine(testing::Values(Chain{{free_end, free_end}, Extent::half},
@@ -208,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Half, ModesOfElements,
                                           testing::Values(BeamTheory::rayleigh,
                                                           BeamTheory::euler_bernoulli),
                                           testing::Values(4, 6, 40, 216, 600)),
-                         test_name);
+                         NamedAsPrinted{});
 
 }  // namespace
 }  // namespace subimpact

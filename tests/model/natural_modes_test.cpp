@@ -8,6 +8,7 @@
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
 #include "paper_scene.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {
@@ -18,7 +19,10 @@ struct Chain {
   BeamTheory theory;
 };
 
-void PrintTo(const Chain& chain, std::ostream* out) { *out << chain.n_cells << " cells"; }
+std::ostream& operator<<(std::ostream& out, const Chain& chain) {
+  return out << chain.n_cells << (chain.extent == CellMesh::Extent::half ? " half " : " whole ")
+             << chain.theory;
+}
 
 class ModesOfCells : public testing::TestWithParam<Chain> {
  protected:
@@ -97,11 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Chain{101, CellMesh::Extent::whole, BeamTheory::euler_bernoulli},
                     Chain{501, CellMesh::Extent::half, BeamTheory::rayleigh},
                     Chain{501, CellMesh::Extent::whole, BeamTheory::euler_bernoulli}),
-    [](const auto& info) {
-      return std::to_string(info.param.n_cells) +
-             (info.param.extent == CellMesh::Extent::half ? "_half" : "_whole") +
-             (info.param.theory == BeamTheory::rayleigh ? "_rayleigh" : "_euler_bernoulli");
-    });
+    NamedAsPrinted{});
 
 class ModalCoordinates : public testing::Test {
  protected:

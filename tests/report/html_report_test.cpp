@@ -166,7 +166,7 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   EXPECT_EQ(xml_problem(page), "");
   for (const char* piece : {"the same with rtol = 1e-10", "2.0e-03 µs", "for all sub-impacts",
                             "the same with 103 cells", "before sub-impact 2", "they &lt;part&gt;",
-                            "sub-impact 2 is the first that is not certain"}) {
+                            "sub-impact 2 is the first that is uncertain"}) {
     expect_in(page, piece);
   }
 }

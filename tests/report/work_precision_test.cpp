@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "print.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
 

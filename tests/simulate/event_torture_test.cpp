@@ -5,6 +5,7 @@
 #include <random>
 
 #include "lumped.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "paper_scene.h"
+#include "print.h"
 #include "subimpact/study/match.h"
 #include "yielding_limit.h"
 

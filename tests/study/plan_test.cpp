@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "elastic_case.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {

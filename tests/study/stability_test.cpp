@@ -9,6 +9,7 @@
 #include <map>
 
 #include "paper_scene.h"
+#include "print.h"
 #include "study/free_vibration.h"
 
 namespace subimpact {

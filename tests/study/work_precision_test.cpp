@@ -7,6 +7,7 @@
 #include <set>
 
 #include "paper_scene.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "beam_under_test.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {

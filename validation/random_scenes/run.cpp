@@ -34,7 +34,6 @@ class Watch {
       return false;
     }
     over_limit_ = seen_.back().seconds > limit_;
-    if (over_limit_) stands_still_ = !moves_since(halfway(), 1e-9);
     return !over_limit_;
   }
 
@@ -51,11 +50,6 @@ class Watch {
   bool moves_since(const Seen& then, double share) const {
     return seen_.back().time - then.time > share * end_time_;
   }
-  const Seen& halfway() const {
-    return *std::find_if(seen_.begin(), seen_.end(),
-                         [&](const Seen& s) { return s.seconds >= 0.5 * seen_.back().seconds; });
-  }
-
   double end_time_, limit_;
   Clock::time_point start_ = Clock::now();
   std::vector<Seen> seen_;

@@ -36,17 +36,28 @@ struct Choice {
   std::string note;
 };
 
+/// The limits of a number, as far as a schema can express them.
+struct Limits {
+  std::optional<double> minimum = std::nullopt;            ///< allowed itself
+  std::optional<double> exclusive_minimum = std::nullopt;  ///< not allowed itself
+  std::optional<double> maximum = std::nullopt;            ///< allowed itself
+  std::optional<int> multiple_of = std::nullopt;
+  bool infinity = false;  ///< whether inf is allowed
+
+  bool hold(double x) const;
+};
+
 /// One key of the case file.
 struct CaseKey {
   std::string name;  ///< with its table: "beam.length"
   KeyType type;
-  std::string unit;   ///< empty: none
-  std::string range;  ///< in words, for numbers and counts, each of a list: "above 0"
-  std::function<bool(double)> in_range;  ///< empty: every value of the type
-  std::vector<Choice> choices;           ///< for choice and pair
-  bool required;                         ///< has no default
-  std::string default_text;              ///< in words or as it would be written; empty if required
-  std::string meaning;                   ///< a noun phrase
+  std::string unit;             ///< empty: none
+  std::string range;            ///< in words, for numbers and counts, each of a list: "above 0"
+  Limits limits;                ///< the same, to check and to write schemas with
+  std::vector<Choice> choices;  ///< for choice and pair
+  bool required;                ///< has no default
+  std::string default_text;     ///< in words or as it would be written; empty if required
+  std::string meaning;          ///< a noun phrase
   /// The case's present value; nothing if it is left open there.
   std::function<std::optional<KeyValue>(const Case&)> get;
   /// Stores a value with which problem_with() has no problem.

@@ -6,7 +6,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "subimpact/case/case.h"
@@ -47,9 +46,6 @@ std::string sections_csv(const std::vector<SectionRow>& sections);
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);
-
-/// The outcome in one word: "completed", "unstable", ...
-std::string_view to_string(OutcomeKind kind);
 
 /// What the sub-impacts of one zone amount to.
 struct ZoneSummary {

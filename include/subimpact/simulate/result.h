@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "subimpact/simulate/options.h"
@@ -54,6 +55,9 @@ enum class OutcomeKind {
   solver_failed,  ///< the integrator could not go on
   left_validity,  ///< the indentation reached the beam's thickness
 };
+
+/// The outcome in one word: "completed", "unstable", ...
+std::string_view to_string(OutcomeKind kind);
 
 /// From the last time at which a check passed to the first at which it failed.
 struct Interval {

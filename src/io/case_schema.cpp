@@ -1,0 +1,127 @@
+#include "subimpact/io/case_schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+using Json = nlohmann::ordered_json;  // editors list the keys in the order of the table
+
+void add_limits(Json& schema, const Limits& limits) {
+  if (limits.minimum) schema["minimum"] = *limits.minimum;
+  if (limits.exclusive_minimum) schema["exclusiveMinimum"] = *limits.exclusive_minimum;
+  if (limits.maximum) schema["maximum"] = *limits.maximum;
+  if (limits.multiple_of) schema["multipleOf"] = *limits.multiple_of;
+}
+
+Json number_schema(const Limits& limits) {
+  Json schema;
+  schema["type"] = limits.infinity ? Json{"number", "null"} : Json("number");
+  add_limits(schema, limits);
+  return schema;
+}
+
+// The notes on the choices stand where the language server Taplo looks for them.
+Json choice_schema(const std::vector<Choice>& choices) {
+  Json names = Json::array(), notes = Json::array();
+  for (const Choice& choice : choices) {
+    names.push_back(choice.name);
+    notes.push_back(choice.note);
+  }
+  return {{"type", "string"}, {"enum", names}, {"x-taplo", {{"docs", {{"enumValues", notes}}}}}};
+}
+
+Json value_schema(const CaseKey& key) {
+  switch (key.type) {
+    case KeyType::text:
+      return {{"type", "string"}};
+    case KeyType::flag:
+      return {{"type", "boolean"}};
+    case KeyType::number:
+      return number_schema(key.limits);
+    case KeyType::count: {
+      Json schema = {{"type", "integer"}};
+      add_limits(schema, key.limits);
+      return schema;
+    }
+    case KeyType::choice:
+      return choice_schema(key.choices);
+    case KeyType::pair:
+      return {{"type", "array"},
+              {"items", choice_schema(key.choices)},
+              {"minItems", 2},
+              {"maxItems", 2}};
+    case KeyType::numbers:
+      return {{"type", "array"}, {"items", number_schema(key.limits)}};
+  }
+  return Json::object();
+}
+
+std::string description(const CaseKey& key) {
+  const std::string unit = key.unit.empty() ? "" : fmt::format(" ({})", key.unit);
+  const std::string range = key.range.empty() ? "" : fmt::format("; {}", key.range);
+  const std::string otherwise =
+      key.required ? "; required" : fmt::format("; default: {}", key.default_text);
+  return key.meaning + unit + range + otherwise;
+}
+
+// Nothing where the default follows from other keys or has no form in JSON.
+Json default_value(const CaseKey& key) {
+  const std::optional<KeyValue> value = key.get(Case{});
+  if (key.required || !value || to_text(*value) != key.default_text) return nullptr;
+  if (const auto* x = std::get_if<double>(&*value); x != nullptr && !std::isfinite(*x)) {
+    return nullptr;
+  }
+  return std::visit([](const auto& plain) { return Json(plain); }, *value);
+}
+
+Json key_schema(const CaseKey& key) {
+  Json schema = {{"description", description(key)}};
+  schema.update(value_schema(key));
+  if (const Json value = default_value(key); !value.is_null()) schema["default"] = value;
+  return schema;
+}
+
+Json object_schema() {
+  return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+}
+
+void require(Json& object, const std::string& name) {
+  Json& required = object["required"];
+  if (std::find(required.begin(), required.end(), name) == required.end()) {
+    required.push_back(name);
+  }
+}
+
+void add_key(Json& object, const CaseKey& key) {
+  object["properties"][key.leaf()] = key_schema(key);
+  if (key.required) require(object, key.leaf());
+}
+
+}  // namespace
+
+std::string case_schema() {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "subimpact case"},
+                 {"description", "A strike of a rigid mass on a beam, in SI units"}};
+  schema.update(object_schema());
+  for (const CaseKey& key : case_keys()) {
+    if (key.table().empty()) {
+      add_key(schema, key);
+      continue;
+    }
+    Json& tables = schema["properties"];
+    if (!tables.contains(key.table())) tables[key.table()] = object_schema();
+    add_key(tables[key.table()], key);
+    if (key.required) require(schema, key.table());
+  }
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace subimpact
