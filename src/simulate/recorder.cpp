@@ -55,12 +55,15 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
     integrate_force(step, beam, integrator);
     follow_peak(beam.indentation(step.y1), beam);
     look_for_peak(step, beam, integrator);
-    const double force = beam.contact_force(step.y1);
-    if (!(force >= 0.0)) {
-      audit_.check(step.t1, step.y1);  // a blow-up is called by its name
-      check_push(step.t1, force);
-    }
   }
+}
+
+void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
+  if (!in_contact_) return;
+  const double force = beam.contact_force(y);
+  if (force >= 0.0) return;
+  audit_.check(time, y);  // a blow-up is called by its name
+  check_push(time, force);
 }
 
 void Recorder::integrate_force(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
