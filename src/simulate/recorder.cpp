@@ -14,6 +14,9 @@ namespace {
 // Part of what an impulse may be off by that a step's integral of the force may be off by.
 constexpr double share_of_step = 1.0 / 128.0;
 
+// By how many times the rounding of displacements a contact that is just touching may be open.
+constexpr double tolerated_rounding = 64.0;
+
 }  // namespace
 
 Recorder::Recorder(StruckBeam& beam, double interval, EventHandling events, Audit& audit,
@@ -59,9 +62,11 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
 }
 
 void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
-  if (!in_contact_) return;
+  if (!in_contact_ || steps_in_contact_.back() == 0) return;
   const double force = beam.contact_force(y);
   if (force >= 0.0) return;
+  const double depth = beam.indentation(y) - beam.residual_indentation();
+  if (std::abs(depth) <= tolerated_rounding * beam.negligible_excursion(y)) return;
   audit_.check(time, y);  // a blow-up is called by its name
   check_push(time, force);
 }
