@@ -14,7 +14,7 @@ namespace {
 // Part of what an impulse may be off by that a step's integral of the force may be off by.
 constexpr double share_of_step = 1.0 / 128.0;
 
-// By how many times the rounding of displacements a contact that is just touching may be open.
+// Within so many times the rounding of displacements of its end a contact may pull.
 constexpr double tolerated_rounding = 64.0;
 
 }  // namespace
@@ -66,7 +66,7 @@ void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
   const double force = beam.contact_force(y);
   if (force >= 0.0) return;
   const double depth = beam.indentation(y) - beam.residual_indentation();
-  if (std::abs(depth) <= tolerated_rounding * beam.negligible_excursion(y)) return;
+  if (depth <= tolerated_rounding * beam.negligible_excursion(y)) return;  // not the law's doing
   audit_.check(time, y);  // a blow-up is called by its name
   check_push(time, force);
 }
