@@ -19,12 +19,16 @@ class BrokenRule : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// By Simpson's rule in s with x = from + (to - from) s^3: branches change fastest where they begin.
 template <class F>
 double integral(F f, double from, double to) {
-  const double h = (to - from) / n_panels;
-  double sum = f(from) + f(to);
-  for (int i = 1; i < n_panels; ++i) sum += (i % 2 == 0 ? 2.0 : 4.0) * f(from + i * h);
-  return sum * h / 3.0;
+  constexpr double h = 1.0 / n_panels;
+  double sum = 3.0 * f(to);
+  for (int i = 1; i < n_panels; ++i) {
+    const double s = i * h;
+    sum += (i % 2 == 0 ? 2.0 : 4.0) * 3.0 * s * s * f(from + (to - from) * s * s * s);
+  }
+  return (to - from) * sum * h / 3.0;
 }
 
 // The rules one by one, each for indentations up to `depth`.

@@ -24,6 +24,7 @@ void Observers::on_step(const StepEnds& step, StruckBeam& beam, Integrator& inte
 }
 
 void Observers::on_accepted(double time, const State& y, StruckBeam& beam) {
+  recorder_.on_accepted(time, y, beam);
   guest_.on_step({time, y, beam});
 }
 

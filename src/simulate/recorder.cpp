@@ -14,6 +14,9 @@ namespace {
 // Part of what an impulse may be off by that a step's integral of the force may be off by.
 constexpr double share_of_step = 1.0 / 128.0;
 
+// Within so many times the rounding of displacements of its end a contact may pull.
+constexpr double tolerated_rounding = 64.0;
+
 }  // namespace
 
 Recorder::Recorder(StruckBeam& beam, double interval, EventHandling events, Audit& audit,
@@ -55,12 +58,17 @@ void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integ
     integrate_force(step, beam, integrator);
     follow_peak(beam.indentation(step.y1), beam);
     look_for_peak(step, beam, integrator);
-    const double force = beam.contact_force(step.y1);
-    if (!(force >= 0.0)) {
-      audit_.check(step.t1, step.y1);  // a blow-up is called by its name
-      check_push(step.t1, force);
-    }
   }
+}
+
+void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
+  if (!in_contact_ || steps_in_contact_.back() == 0) return;
+  const double force = beam.contact_force(y);
+  if (force >= 0.0) return;
+  const double depth = beam.indentation(y) - beam.residual_indentation();
+  if (depth <= tolerated_rounding * beam.negligible_excursion(y)) return;  // not the law's doing
+  audit_.check(time, y);  // a blow-up is called by its name
+  check_push(time, force);
 }
 
 void Recorder::integrate_force(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {

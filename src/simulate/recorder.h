@@ -17,6 +17,8 @@ class Recorder final : public RunObserver {
   void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
 
   void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) override;
+  /// Judges that the contact law pushes wherever the surface is pressed in.
+  void on_accepted(double time, const State& y, StruckBeam& beam) override;
   void on_turn(const Transition& turn) override { result_.transitions.push_back(turn); }
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/contact_law.h"
+#include "built_in_law.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
@@ -59,7 +59,7 @@ class ColumnBed {
 
 double largest_difference(std::size_t n_columns, const std::vector<double>& walk, double deepest) {
   const Scene scene = paper_scene();
-  const ContactLaw law = ContactLaw::of(scene);
+  const PowerContact law = law_of(scene);
   ColumnBed bed(scene, n_columns, deepest);
   ContactHistory history;
   double largest = 0.0;
@@ -74,7 +74,7 @@ double largest_difference(std::size_t n_columns, const std::vector<double>& walk
 }
 
 TEST(ContactLaw, IsTheSumOverAThousandColumnsOnRandomHistories) {
-  const double unit = ContactLaw::of(paper_scene()).yield_indentation();
+  const double unit = law_of(paper_scene()).yield_indentation();
   const double deepest = 12.0 * unit;
   for (unsigned seed = 0; seed < 20; ++seed) {
     const std::vector<double> walk = nested_walk(seed, 1000, -unit, deepest, 5.0 * unit);
@@ -84,7 +84,7 @@ TEST(ContactLaw, IsTheSumOverAThousandColumnsOnRandomHistories) {
 }
 
 TEST(ContactLaw, IsTheLimitOfManyColumnsApproachedAtSecondOrder) {
-  const double unit = ContactLaw::of(paper_scene()).yield_indentation();
+  const double unit = law_of(paper_scene()).yield_indentation();
   const double deepest = 12.0 * unit;
   const std::vector<double> walk = nested_walk(1, 3000, -unit, deepest, 5.0 * unit);
   OrderTable table("columns under the nose against the contact law, N");

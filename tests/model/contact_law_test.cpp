@@ -1,5 +1,3 @@
-#include "model/contact_law.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,22 +5,24 @@
 #include <limits>
 #include <stdexcept>
 
+#include "built_in_law.h"
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "subimpact/model/contact_law_check.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-ContactLaw paper_law() { return ContactLaw::of(paper_scene()); }
+PowerContact paper_law() { return law_of(paper_scene()); }
 
 // Histories in units of the yield indentation: never yielded, just yielded, small and deep plastic
 // ones.
 const double maxima[] = {0.0, 0.5, 1.0, 1.2, 2.0, 3.0, 11.0};
 
 TEST(ContactLaw, HasTheNumbersOfThePapersExample) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   EXPECT_NEAR(law.stiffness(), 2.948976e10, 0.5e4);
   EXPECT_NEAR(law.yield_indentation(), 1.56337e-5, 0.5e-10);
   EXPECT_NEAR(law.force({}, law.yield_indentation()), 1822.90, 0.005);
@@ -32,7 +32,7 @@ TEST(ContactLaw, HasTheNumbersOfThePapersExample) {
 TEST(ContactLaw, OfABeamThatNeverYieldsIsAnElasticFoundation) {
   Scene scene = paper_scene();
   scene.beam.yield_stress = infinity;
-  const ContactLaw law = ContactLaw::of(scene);
+  const PowerContact law = law_of(scene);
   const ContactHistory deep{1e-3};
   EXPECT_EQ(law.residual_indentation(deep), 0.0);
   EXPECT_EQ(law.branch(deep, 2e-3), ContactBranch::elastic);
@@ -42,7 +42,7 @@ TEST(ContactLaw, OfABeamThatNeverYieldsIsAnElasticFoundation) {
 
 TEST(ContactLaw, WithAnotherExponentIsThePowerLawOfThatExponent) {
   for (const double exponent : {1.0, 1.5, 2.0, 2.5}) {
-    const ContactLaw law(3.0, exponent, infinity);
+    const PowerContact law(3.0, exponent, infinity);
     for (const double indentation : {0.1, 1.0, 7.0}) {
       EXPECT_NEAR(law.force({}, indentation), 3.0 * std::pow(indentation, exponent),
                   1e-12 * law.force({}, indentation));
@@ -56,17 +56,17 @@ TEST(ContactLaw, WithAnotherExponentIsThePowerLawOfThatExponent) {
 TEST(ContactLaw, OfASceneIsHertzOrLinearWhereAsked) {
   Scene scene = paper_scene();
   scene.striker.nose_radius.reset();
-  EXPECT_THROW(ContactLaw::of(scene), std::invalid_argument);
+  EXPECT_THROW(law_of(scene), std::invalid_argument);
   scene.contact.kind = ContactKind::hertz;
-  EXPECT_THROW(ContactLaw::of(scene), std::invalid_argument);
+  EXPECT_THROW(law_of(scene), std::invalid_argument);
   scene.contact.stiffness = 1.5e10;
-  EXPECT_EQ(ContactLaw::of(scene).exponent(), 1.5);
-  EXPECT_EQ(ContactLaw::of(scene).stiffness(), 1.5e10);
-  EXPECT_EQ(ContactLaw::of(scene).yield_indentation(), infinity);
+  EXPECT_EQ(law_of(scene).exponent(), 1.5);
+  EXPECT_EQ(law_of(scene).stiffness(), 1.5e10);
+  EXPECT_EQ(law_of(scene).yield_indentation(), infinity);
   scene.contact.kind = ContactKind::linear;
-  EXPECT_EQ(ContactLaw::of(scene).exponent(), 1.0);
-  EXPECT_DOUBLE_EQ(ContactLaw::of(scene).force({}, 2e-5), 3e5);
-  EXPECT_DOUBLE_EQ(ContactLaw::of(scene).recoverable_energy({}, 2e-5), 3.0);
+  EXPECT_EQ(law_of(scene).exponent(), 1.0);
+  EXPECT_DOUBLE_EQ(law_of(scene).force({}, 2e-5), 3e5);
+  EXPECT_DOUBLE_EQ(law_of(scene).recoverable_energy({}, 2e-5), 3.0);
 }
 
 TEST(ContactLaw, OfASphereIsHertzsWithBothBodiesElastic) {
@@ -75,7 +75,7 @@ TEST(ContactLaw, OfASphereIsHertzsWithBothBodiesElastic) {
   scene.beam.youngs_modulus = 2.157463e11;
   scene.striker.nose_radius = 0.01;
   scene.contact = {ContactKind::hertz, {}, 2.157463e11, 0.3, 0.3};
-  EXPECT_NEAR(ContactLaw::of(scene).stiffness(), 1.580559e10, 0.5e4);
+  EXPECT_NEAR(law_of(scene).stiffness(), 1.580559e10, 0.5e4);
   // A rigid ball is twice as stiff as one of the beam's material; so is a rigid beam.
   const double both = hertz_stiffness(0.01, 2e11, 0.3, 2e11, 0.3);
   EXPECT_DOUBLE_EQ(hertz_stiffness(0.01, infinity, 0.3, 2e11, 0.3), 2.0 * both);
@@ -85,7 +85,7 @@ TEST(ContactLaw, OfASphereIsHertzsWithBothBodiesElastic) {
 
 // A mass against a wall under F = K d^n, by small Runge-Kutta steps: duration times v/d_max.
 double duration_constant(double exponent) {
-  const ContactLaw law(1.0, exponent, infinity);
+  const PowerContact law(1.0, exponent, infinity);
   const double d_max = std::pow(0.5 * (exponent + 1.0), 1.0 / (exponent + 1.0));
   const double h = 1e-4;
   double x = 0.0;
@@ -111,7 +111,7 @@ TEST(ContactLaw, OfAPowerHasTheClosedFormsDuration) {
 }
 
 TEST(ContactLaw, ForceIsContinuousWhereBranchesMeet) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   const double unit = law.yield_indentation();
   const double force_unit = law.force({}, unit);
   for (const double maximum : maxima) {
@@ -130,7 +130,7 @@ TEST(ContactLaw, ForceIsContinuousWhereBranchesMeet) {
 }
 
 TEST(ContactLaw, SlopeJumpsWhereContactBeginsAndWhereUnloadingBegins) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   const ContactHistory history{3.0 * law.yield_indentation()};
   const double residual = law.residual_indentation(history);
   EXPECT_NEAR(law.branch_slope(ContactBranch::elastic, history, residual),
@@ -143,7 +143,7 @@ TEST(ContactLaw, SlopeJumpsWhereContactBeginsAndWhereUnloadingBegins) {
 TEST(ContactLaw, SlopeOfEveryBranchEqualsFiniteDifferencesOfItsForce) {
   for (const double exponent : {1.0, 1.5, 2.2}) {
     const double yields_at = 1.0;
-    const ContactLaw law(2.0, exponent, yields_at);
+    const PowerContact law(2.0, exponent, yields_at);
     for (const double maximum : maxima) {
       const ContactHistory history{maximum};
       for (double indentation = -0.5; indentation < 12.0; indentation += 0.137) {
@@ -164,7 +164,7 @@ TEST(ContactLaw, SlopeOfEveryBranchEqualsFiniteDifferencesOfItsForce) {
 }
 
 TEST(ContactLaw, NeverPulls) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   const double unit = law.yield_indentation();
   for (const double maximum : maxima) {
     for (double x = -5.0; x < 15.0; x += 0.01)
@@ -173,7 +173,7 @@ TEST(ContactLaw, NeverPulls) {
 }
 
 TEST(ContactLaw, HistoryKeepsTheLargestIndentationOnly) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   ContactHistory history;
   double largest = 0.0;
   for (const double indentation : nested_walk(5, 2000, -3e-5, 2e-4, 5e-5)) {
@@ -207,7 +207,7 @@ double work_along(const ContactLaw& law, ContactHistory history, double from, do
 }
 
 TEST(ContactLaw, RecoverablePlusDissipatedEnergyIsTheWorkDoneOnAnyPath) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   const double unit = law.yield_indentation();
   for (unsigned seed = 0; seed < 20; ++seed) {
     ContactHistory history;
@@ -224,7 +224,7 @@ TEST(ContactLaw, RecoverablePlusDissipatedEnergyIsTheWorkDoneOnAnyPath) {
 }
 
 TEST(ContactLaw, WorkOverAnyClosedPathIsNotNegative) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   const double unit = law.yield_indentation();
   for (unsigned seed = 0; seed < 50; ++seed) {
     ContactHistory history;
@@ -245,7 +245,7 @@ TEST(ContactLaw, WorkOverAnyClosedPathIsNotNegative) {
 }
 
 TEST(ContactLaw, DissipatesResidualToThreeHalvesTimesStiffnessAndYieldIndentation) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   const double unit = law.yield_indentation();
   for (const double x : {1.0, 1.1, 2.0, 5.0, 20.0}) {
     const ContactHistory history{x * unit};
@@ -256,7 +256,7 @@ TEST(ContactLaw, DissipatesResidualToThreeHalvesTimesStiffnessAndYieldIndentatio
 }
 
 TEST(ContactLaw, GivesBackTheRestitutionOfTheElastoPlasticLayer) {
-  const ContactLaw law = paper_law();
+  const PowerContact law = paper_law();
   const double unit = law.yield_indentation();
   const struct {
     double x, restitution;
@@ -270,17 +270,28 @@ TEST(ContactLaw, GivesBackTheRestitutionOfTheElastoPlasticLayer) {
   }
 }
 
+TEST(ContactLaw, BreaksNoRuleWhetherItYieldsOrNot) {
+  for (const double exponent : {1.0, 1.5, 2.5}) {
+    for (const double yields_at : {1e-5, 1e-4, infinity}) {
+      for (const double depth : {1e-6, 1e-4, 1e-2}) {
+        const auto broken = broken_rule(PowerContact(1e9, exponent, yields_at), depth);
+        EXPECT_FALSE(broken) << exponent << ' ' << yields_at << ' ' << depth << ' ' << *broken;
+      }
+    }
+  }
+}
+
 TEST(ContactLaw, RefusesWhatIsNoContactLaw) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(ContactLaw(0.0, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(ContactLaw(-1.0, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(ContactLaw(infinity, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(ContactLaw(nan, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(ContactLaw(1.0, 0.9, 1.0), std::invalid_argument);
-  EXPECT_THROW(ContactLaw(1.0, nan, 1.0), std::invalid_argument);
-  EXPECT_THROW(ContactLaw(1.0, 1.5, 0.0), std::invalid_argument);
-  EXPECT_THROW(ContactLaw(1.0, 1.5, nan), std::invalid_argument);
-  EXPECT_NO_THROW(ContactLaw(1.0, 1.0, infinity));
+  EXPECT_THROW(PowerContact(0.0, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(PowerContact(-1.0, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(PowerContact(infinity, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(PowerContact(nan, 1.5, 1.0), std::invalid_argument);
+  EXPECT_THROW(PowerContact(1.0, 0.9, 1.0), std::invalid_argument);
+  EXPECT_THROW(PowerContact(1.0, nan, 1.0), std::invalid_argument);
+  EXPECT_THROW(PowerContact(1.0, 1.5, 0.0), std::invalid_argument);
+  EXPECT_THROW(PowerContact(1.0, 1.5, nan), std::invalid_argument);
+  EXPECT_NO_THROW(PowerContact(1.0, 1.0, infinity));
 }
 
 }  // namespace

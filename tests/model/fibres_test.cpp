@@ -1,4 +1,4 @@
-#include "model/fibres.h"
+#include "subimpact/model/fibres.h"
 
 #include <gtest/gtest.h>
 

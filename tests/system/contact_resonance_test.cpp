@@ -8,6 +8,7 @@
 
 #include "beam_under_test.h"
 #include "dense.h"
+#include "model/power_contact.h"
 
 namespace subimpact {
 namespace {
@@ -50,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(, JoinedBodies, testing::ValuesIn(models()));
 TEST(TheLargestIndentation, TakesTheWholeEnergyOfTheStrike) {
   for (const double yield : {1e-5, 1e-3, std::numeric_limits<double>::infinity()}) {
     for (const double exponent : {1.0, 1.5}) {
-      const ContactLaw law(1e9, exponent, yield);
+      const PowerContact law(1e9, exponent, yield);
       for (const double energy : {1e-6, 1e-2, 10.0}) {
         const double indentation = law.indentation_at(energy);
         const ContactHistory reached{indentation};

@@ -45,7 +45,7 @@ class RunView {
 /// Watches a run: derive from this class, override what is of interest, and hand the object to
 /// simulate().
 ///
-///     struct Lightest final : subimpact::Observer {
+///     struct LargestForce final : subimpact::Observer {
 ///       void on_step(const subimpact::RunView& now) override {
 ///         largest = std::max(largest, now.contact_force());
 ///       }

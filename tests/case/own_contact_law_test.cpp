@@ -1,0 +1,265 @@
+// Contact laws that a caller brings, through the public door.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "built_in_law.h"
+#include "case/model_factory.h"
+#include "paper_scene.h"
+#include "same_results.h"
+#include "simulate/run.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/simulate.h"
+
+namespace subimpact {
+namespace {
+
+Case paper_case() {
+  Case input;
+  input.scene = paper_scene();
+  input.model.segments = 101;
+  input.end_time = 1.5e-3;
+  input.output.interval = 2e-5;
+  return input;
+}
+
+/// The law `foundation` behind a class of the caller's. It calls the same compiled formulas:
+/// written out here, a compiler may fuse their products and sums in another way.
+class OwnFoundation final : public ContactLaw {
+ public:
+  explicit OwnFoundation(const Scene& scene) : law_(law_of(scene)) {}
+
+  std::string name() const override { return "own foundation"; }
+  ContactScales scales() const override { return law_.scales(); }
+  double residual_indentation(ContactHistory history) const override {
+    return law_.residual_indentation(history);
+  }
+  double yield_threshold(ContactHistory history) const override {
+    return law_.yield_threshold(history);
+  }
+  double elastic_force(ContactHistory history, double x) const override {
+    return law_.elastic_force(history, x);
+  }
+  double elastic_slope(ContactHistory history, double x) const override {
+    return law_.elastic_slope(history, x);
+  }
+  double plastic_force(double x) const override { return law_.plastic_force(x); }
+  double plastic_slope(double x) const override { return law_.plastic_slope(x); }
+  double recoverable_energy(ContactHistory history, double x) const override {
+    return law_.recoverable_energy(history, x);
+  }
+  double dissipated_energy(ContactHistory history) const override {
+    return law_.dissipated_energy(history);
+  }
+
+ private:
+  PowerContact law_;
+};
+
+class EveryMethod : public testing::TestWithParam<Method> {};
+
+TEST_P(EveryMethod, GivesTheSameBitsWithTheBuiltInLawAsTheCallersOwn) {
+  Case input = paper_case();
+  input.solver.method = GetParam();
+  if (GetParam() == Method::exponential) input.model.section = SectionKind::elastic;
+  const Result built_in = simulate(input);
+  EXPECT_EQ(built_in.used.contact_law, "foundation");
+  ASSERT_GT(built_in.sub_impacts.size(), 2u);
+  input.parts.contact_law = std::make_shared<OwnFoundation>(input.scene);
+  const Result own = simulate(input);
+  EXPECT_EQ(own.used.contact_law, "own foundation");
+  EXPECT_EQ(own.used.critical_step, built_in.used.critical_step);
+  EXPECT_EQ(own.used.contact_time, built_in.used.contact_time);
+  EXPECT_EQ(own.used.yield_indentation, built_in.used.yield_indentation);
+  expect_same(built_in, own);
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryMethod,
+                         testing::Values(Method::erk, Method::nystrom, Method::exponential,
+                                         Method::central_difference, Method::dirk),
+                         [](const auto& info) {
+                           std::string name(to_string(info.param));
+                           for (char& c : name) c = c == '-' ? '_' : c;
+                           return name;
+                         });
+
+TEST(AnOwnContactLaw, MakesTheKeysOfTheSceneUnnecessary) {
+  Case input = paper_case();
+  input.parts.contact_law = std::make_shared<OwnFoundation>(input.scene);
+  const Result with_nose = simulate(input);
+  input.scene.striker.nose_radius.reset();
+  expect_same(with_nose, simulate(input));
+  input.parts.contact_law = nullptr;
+  EXPECT_THROW(simulate(input), InvalidCase);
+}
+
+/// Loading along k1, un- and reloading along k2: yields from the first touch on.
+class TwoLines final : public ContactLaw {
+ public:
+  TwoLines(double k1, double k2) : k1_(k1), k2_(k2) {}
+  std::string name() const override { return "two lines"; }
+  ContactScales scales() const override { return {k1_, 1.0}; }
+  double residual_indentation(ContactHistory history) const override {
+    return (1.0 - k1_ / k2_) * history.max_indentation;
+  }
+  double yield_threshold(ContactHistory history) const override { return history.max_indentation; }
+  double elastic_force(ContactHistory history, double x) const override {
+    return k2_ * (x - residual_indentation(history));
+  }
+  double elastic_slope(ContactHistory, double) const override { return k2_; }
+  double plastic_force(double x) const override { return k1_ * x; }
+  double plastic_slope(double) const override { return k1_; }
+  double recoverable_energy(ContactHistory history, double x) const override {
+    const double depth = std::max(x - residual_indentation(history), 0.0);
+    return 0.5 * k2_ * depth * depth;
+  }
+  double dissipated_energy(ContactHistory history) const override {
+    return 0.5 * k1_ * history.max_indentation * residual_indentation(history);
+  }
+
+ private:
+  double k1_, k2_;
+};
+
+Case rigid_case() {
+  Case input;
+  input.scene = paper_scene();
+  input.scene.striker.velocity = 1.0;
+  input.scene.striker.nose_radius.reset();
+  input.model.mesh = MeshKind::rigid;
+  input.end_time = 2e-3;
+  input.output.interval = 1e-5;
+  return input;
+}
+
+TEST(AnOwnContactLaw, ThatYieldsFromTheFirstTouchHasItsRestitution) {
+  const struct {
+    Method method;
+    double tolerance;
+  } ways[] = {{Method::erk, 1e-7},
+              {Method::nystrom, 1e-7},
+              {Method::exponential, 1e-7},
+              {Method::central_difference, 1e-3}};
+  for (const auto& [method, tolerance] : ways) {
+    for (const double ratio : {0.3, 0.8, 0.99}) {
+      Case input = rigid_case();
+      input.solver.method = method;
+      input.parts.contact_law = std::make_shared<TwoLines>(1e7, 1e7 / ratio);
+      const Result result = simulate(input);
+      EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+      ASSERT_EQ(result.sub_impacts.size(), 1u);
+      EXPECT_NEAR(result.beam_mean_velocity - result.striker_velocity, std::sqrt(ratio), tolerance)
+          << to_string(method) << ' ' << ratio;
+      EXPECT_LT(result.first_contact_yield.value(), 1e-9);
+    }
+  }
+}
+
+TEST(AnOwnContactLaw, ThatYieldsFromTheFirstTouchFollowsTheBeamThroughItsSubImpacts) {
+  Case input = paper_case();
+  input.solver.rtol = 1e-10;
+  input.parts.contact_law = std::make_shared<TwoLines>(1e8, 4e8);
+  const Result by_erk = simulate(input);
+  EXPECT_TRUE(by_erk.outcome.completed()) << by_erk.outcome.message;
+  ASSERT_GT(by_erk.sub_impacts.size(), 2u);
+  input.solver.method = Method::nystrom;
+  const Result by_nystrom = simulate(input);
+  ASSERT_EQ(by_nystrom.sub_impacts.size(), by_erk.sub_impacts.size());
+  for (std::size_t i = 0; i < by_erk.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(by_erk.sub_impacts[i].start, by_nystrom.sub_impacts[i].start, 1e-9) << i;
+  }
+}
+
+/// A line with something wrong.
+class WrongLine final : public ContactLaw {
+ public:
+  enum class Fault { none, pulls, jumps, loses_energy, gains_energy, wrong_residual };
+  explicit WrongLine(Fault fault) : fault_(fault) {}
+  std::string name() const override { return "wrong line"; }
+  ContactScales scales() const override { return {k, 1.0}; }
+  double residual_indentation(ContactHistory history) const override {
+    return fault_ == Fault::wrong_residual ? -0.2 * history.max_indentation - 1e-6 : 0.0;
+  }
+  double yield_threshold(ContactHistory) const override { return 1e300; }
+  double elastic_force(ContactHistory, double x) const override {
+    if (fault_ == Fault::pulls) return k * x * (x - 2e-5) / 2e-5;
+    if (fault_ == Fault::jumps) return k * x - 100.0;
+    return k * x;
+  }
+  double elastic_slope(ContactHistory, double x) const override {
+    return fault_ == Fault::pulls ? k * (2.0 * x - 2e-5) / 2e-5 : k;
+  }
+  double plastic_force(double x) const override { return elastic_force({}, x); }
+  double plastic_slope(double x) const override { return elastic_slope({}, x); }
+  double recoverable_energy(ContactHistory, double x) const override {
+    switch (fault_) {
+      case Fault::pulls:
+        return k * (x * x * x / 3.0 - 1e-5 * x * x) / 2e-5;
+      case Fault::jumps:
+        return 0.5 * k * x * x - 100.0 * x;
+      case Fault::loses_energy:
+        return 0.45 * k * x * x;
+      case Fault::gains_energy:
+        return 0.55 * k * x * x;
+      default:
+        return 0.5 * k * x * x;
+    }
+  }
+  double dissipated_energy(ContactHistory) const override { return 0.0; }
+
+ private:
+  static constexpr double k = 1e7;
+  Fault fault_;
+};
+
+TEST(AnOwnContactLaw, ThatBreaksItsContractEndsTheRunAsInaccurate) {
+  using Fault = WrongLine::Fault;
+  for (const Method method : {Method::erk, Method::nystrom, Method::central_difference}) {
+    Case input = rigid_case();
+    input.solver.method = method;
+    input.parts.contact_law = std::make_shared<WrongLine>(Fault::none);
+    EXPECT_TRUE(simulate(input).outcome.completed());
+    for (const Fault fault : {Fault::pulls, Fault::jumps, Fault::loses_energy, Fault::gains_energy,
+                              Fault::wrong_residual}) {
+      for (const double interval : {0.0, 1e-5}) {
+        input.output.interval = interval;
+        input.parts.contact_law = std::make_shared<WrongLine>(fault);
+        const Result result = simulate(input);
+        EXPECT_EQ(result.outcome.kind, OutcomeKind::inaccurate)
+            << to_string(method) << ' ' << static_cast<int>(fault) << ' ' << result.outcome.message;
+        EXPECT_TRUE(result.outcome.first_failure);
+      }
+    }
+  }
+}
+
+// The same without the look at the law beforehand: the accounts of the run find it.
+TEST(AnOwnContactLaw, ThatBreaksItsContractIsCaughtByTheRunToo) {
+  using Fault = WrongLine::Fault;
+  for (const Method method : {Method::erk, Method::nystrom, Method::central_difference}) {
+    for (const Fault fault : {Fault::none, Fault::pulls, Fault::jumps, Fault::loses_energy,
+                              Fault::gains_energy, Fault::wrong_residual}) {
+      Case input = rigid_case();
+      input.solver.method = method;
+      input.parts.contact_law = std::make_shared<WrongLine>(fault);
+      StruckBeam beam = make_struck_beam(input);
+      const Used used = describe(input, beam);
+      const auto integrator = make_integrator(input, used, beam);
+      RunOptions options;
+      options.loop = loop_options(input, used);
+      options.limits = audit_limits(used);
+      options.history_interval = 1e-5;
+      const Result result = simulate(beam, *integrator, options);
+      EXPECT_EQ(result.outcome.kind,
+                fault == Fault::none ? OutcomeKind::completed : OutcomeKind::inaccurate)
+          << to_string(method) << ' ' << static_cast<int>(fault) << ' ' << result.outcome.message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,103 @@
+// Sections that a caller brings, through the public door.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "paper_scene.h"
+#include "same_results.h"
+#include "subimpact/case/simulate.h"
+
+namespace subimpact {
+namespace {
+
+Case paper_case() {
+  Case input;
+  input.scene = paper_scene();
+  input.model.segments = 101;
+  input.end_time = 1e-3;
+  input.output.interval = 2e-5;
+  input.solver.rtol = 1e-9;
+  return input;
+}
+
+TEST(AnOwnSection, IsTheBuiltInOneBitForBitWhereItIsTheSame) {
+  Case input = paper_case();
+  const Result exact = simulate(input);
+  EXPECT_EQ(exact.used.section, "exact");
+  input.parts.section = Fibres::continuous();
+  expect_same(exact, simulate(input));
+  input.parts.section = Fibres::layered(40);
+  const Result own_layers = simulate(input);
+  input.parts.section.reset();
+  input.model.section = SectionKind::layers;
+  expect_same(simulate(input), own_layers);
+}
+
+// The whole rectangle as strips: the same but for rounding, which the strike makes larger.
+TEST(AnOwnSection, OfStripsThatMakeARectangleBendsAsTheRectangleDoes) {
+  Case input = paper_case();
+  const Result exact = simulate(input);
+  input.parts.section =
+      Fibres::strips({{.from = 0.0, .to = 0.3}, {.from = 0.3, .to = 1.0}}, "two strips");
+  const Result strips = simulate(input);
+  EXPECT_EQ(strips.used.section, "two strips");
+  ASSERT_EQ(strips.sub_impacts.size(), exact.sub_impacts.size());
+  EXPECT_EQ(strips.n_yielded_sections, exact.n_yielded_sections);
+  for (std::size_t i = 0; i < exact.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(strips.sub_impacts[i].start, exact.sub_impacts[i].start, 1e-10);
+    EXPECT_NEAR(strips.sub_impacts[i].impulse, exact.sub_impacts[i].impulse, 1e-6);
+  }
+}
+
+// A fibre may be as strong as the whole and half as wide: a beam of half the width has half the
+// stiffness and, at half the density, the same motion.
+TEST(AnOwnSection, OfHalfTheWidthIsABeamOfHalfTheWidth) {
+  Case wide = paper_case();
+  wide.scene.contact = {ContactKind::hertz, 2e10, {}, {}, {}};
+  Case narrow = wide;
+  narrow.scene.beam.width *= 0.5;
+  wide.scene.beam.density *= 0.5;
+  wide.parts.section = Fibres::strips({{.width = 0.5}}, "half the width");
+  wide.scene.beam.theory = narrow.scene.beam.theory = BeamTheory::euler_bernoulli;
+  const Result a = simulate(narrow);
+  const Result b = simulate(wide);
+  EXPECT_NEAR(b.used.first_period, a.used.first_period, 1e-12 * a.used.first_period);
+  ASSERT_EQ(a.sub_impacts.size(), b.sub_impacts.size());
+  for (std::size_t i = 0; i < a.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(a.sub_impacts[i].start, b.sub_impacts[i].start, 1e-10);
+  }
+}
+
+TEST(AnOwnSection, KeepsItsAccountsWhereItYieldsAndWhereItDoesNot) {
+  Case input = paper_case();
+  input.parts.section = Fibres::strips({{.from = 0.0, .to = 0.8, .modulus = 0.1, .yield = 0.15},
+                                        {.from = 0.8, .to = 1.0, .width = 1.2}},
+                                       "sandwich");
+  for (const Method method : {Method::erk, Method::nystrom, Method::exponential}) {
+    input.solver.method = method;
+    input.model.section = method == Method::exponential ? SectionKind::elastic : SectionKind::exact;
+    const Result result = simulate(input);
+    EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+    EXPECT_LT(result.max_energy_error, 1e-5);
+    EXPECT_EQ(result.n_yielded_sections > 0, method != Method::exponential);
+    EXPECT_EQ(result.used.section,
+              method == Method::exponential ? "sandwich, elastic" : "sandwich");
+  }
+}
+
+TEST(AnOwnSection, StopsOnTheProofThatNoContactFollows) {
+  Case input = paper_case();
+  input.end_time = 8e-3;
+  input.stop = StopRule::no_more_contact;
+  input.solver.rtol = 1e-7;
+  input.parts.section = Fibres::strips({{.from = 0.5, .to = 1.0, .yield = 0.5}}, "box");
+  const Result stopped = simulate(input);
+  EXPECT_TRUE(stopped.outcome.completed()) << stopped.outcome.message;
+  input.stop = StopRule::end_time;
+  EXPECT_EQ(simulate(input).sub_impacts.size(), stopped.sub_impacts.size());
+}
+
+}  // namespace
+}  // namespace subimpact
