@@ -241,7 +241,7 @@ class Finder {
       Lanes low = (below ? k - 0.5 : k) * (pi / m_);
       Lanes high = low + 0.5 * pi / m_;
       high = high > pi ? Lanes{} + pi : high;
-      x = (x > low) & (x < high) ? x : 0.5 * (low + high);
+      x = ((x > low) & (x < high)) ? x : 0.5 * (low + high);
       Lanes slope = Lanes{} + m_ * pi / (pi + change);
       Lanes before{};
       Lanes value_before{};
@@ -251,7 +251,7 @@ class Finder {
         low = value < 0.0 ? x : low;
         high = value < 0.0 ? high : x;
         const Lanes secant = (value - value_before) / (x - before);
-        if (i > 0) slope = open & (secant > 0.0) ? secant : slope;
+        if (i > 0) slope = (open & (secant > 0.0)) ? secant : slope;
         before = x;
         value_before = value;
         const Lanes next = x - value / slope;
