@@ -290,7 +290,8 @@ void EventLoop::report(const Guard& guard, double time, const State& y, bool swi
   event.value = beam_.indentation(y);
   if (switch_branch) check_root(guard, time, y);
   watch_for_chattering(time);
-  audit_->check(time, y);
+  const bool audited = observer_->audits_events();
+  if (!audited) audit_->check(time, y);
   ++n_events_;
   observer_->before_event(event, y, beam_);
   if (switch_branch) {
@@ -299,7 +300,7 @@ void EventLoop::report(const Guard& guard, double time, const State& y, bool swi
   } else {
     beam_.set_contact(branch_after(guard.kind), beam_.contact_history());
   }
-  audit_->check(time, y);
+  if (!audited) audit_->check(time, y);
   observer_->after_event(event, y, beam_);
 }
 

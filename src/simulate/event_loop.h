@@ -29,6 +29,8 @@ class RunObserver {
   virtual void before_event(const Transition& /*event*/, const State& /*y*/, StruckBeam& /*beam*/) {
   }
   virtual void after_event(const Transition& /*event*/, const State& /*y*/, StruckBeam& /*beam*/) {}
+  /// Whether the observer itself has both sides of every event audited, so that the loop need not.
+  virtual bool audits_events() const { return false; }
 };
 
 struct LoopOptions {

@@ -16,6 +16,7 @@ class Observers final : public RunObserver {
   void on_turn(const Transition& turn) override;
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
+  bool audits_events() const override { return recorder_.audits_events(); }
 
  private:
   RunObserver& recorder_;

@@ -23,6 +23,9 @@ class Recorder final : public RunObserver {
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
 
+  /// Each row is audited, and with rows there is one on either side of an event.
+  bool audits_events() const override { return interval_ > 0.0; }
+
   /// Closes the accounts at the last state, which `is_good` if every check passed.
   void finish(double time, const State& y, StruckBeam& beam, bool is_good);
 
