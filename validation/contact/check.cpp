@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "model/contact_law.h"
+#include "model/contact_laws.h"
 #include "outcome.h"
 
 namespace subimpact::validation {
@@ -46,8 +46,9 @@ class Columns {
 
 // Largest difference over a walk between random turning points, of the largest force.
 double difference(const Scene& scene, std::size_t n_columns) {
-  const ContactLaw law = ContactLaw::of(scene);
-  const double deepest = 12.0 * law.yield_indentation();
+  const auto law_of_scene = make_contact_law(scene);
+  const ContactLaw& law = *law_of_scene;
+  const double deepest = 12.0 * law.yield_threshold({});
   Columns columns(scene, n_columns, deepest);
   ContactHistory history;
   std::mt19937 random(7);
@@ -71,12 +72,13 @@ double difference(const Scene& scene, std::size_t n_columns) {
 
 Outcome check_contact() {
   const Scene scene = case_of("contact").scene;
-  const ContactLaw law = ContactLaw::of(scene);
+  const auto law_of_scene = make_contact_law(scene);
+  const ContactLaw& law = *law_of_scene;
   Outcome outcome{"sum over columns", {}, {}};
   outcome.rows = {
-      {"stiffness K, N/m^1.5", 2.948976e10, law.stiffness(), Bound::relative, 2e-7},
-      {"yield indentation, mm", 1.56337e-2, 1e3 * law.yield_indentation(), Bound::relative, 3e-6},
-      {"force at first yield, N", 1822.90, law.force({}, law.yield_indentation()), Bound::absolute,
+      {"stiffness K, N/m^1.5", 2.948976e10, law.scales().stiffness, Bound::relative, 2e-7},
+      {"yield indentation, mm", 1.56337e-2, 1e3 * law.yield_threshold({}), Bound::relative, 3e-6},
+      {"force at first yield, N", 1822.90, law.force({}, law.yield_threshold({})), Bound::absolute,
        0.005}};
   const double coarse = difference(scene, 1000);
   const double fine = difference(scene, 4000);
