@@ -119,7 +119,7 @@ TEST(HtmlReport, HoldsCaseWordsTableFiguresMethodErrorBarsAndConservation) {
        {"Beam &lt;A&gt; &amp; &quot;B&quot;", "In words", "Figures", "figure-response",
         "figure-bending", "Figure 6.", "Sub-impacts", "peak force", "Case", "striker.velocity",
         "15.9 m/s", "Method", "erk, table dop853", "Error bars", "--error-bars", "Conservation",
-        "Total momentum is kept", "subimpact 1.2.3, SUNDIALS 6.4.1"}) {
+        "Total momentum is conserved", "subimpact 1.2.3, SUNDIALS 6.4.1"}) {
     expect_in(page, piece);
   }
   std::size_t n_rows = 0;

@@ -125,7 +125,7 @@ TEST(Explanation, SaysThatAnInfiniteYieldStressLeavesNothingToYield) {
   Case input = paper_case();
   input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
   const std::string text = explanation(input, explain(input), estimate_cost(input));
-  expect_in(text, "elastic, although \"layers\" was asked");
+  expect_in(text, "elastic, although \"layers\" was requested");
   expect_in(text, "the contact never yields");
 }
 
