@@ -28,7 +28,7 @@ constexpr double fastest = 1e3;            // m/s: a rifle bullet
 constexpr double most_periods = 300.0;     // end time over the beam's first period
 constexpr double long_run = 0.5;           // s
 constexpr double heavy_striker = 100.0;    // kg
-constexpr double heaviest_in_grams = 1e4;  // kg: what weighs more, nobody gives in g
+constexpr double heaviest_in_grams = 1e4;  // kg: heavier strikers are not given in g
 constexpr double most_beam_masses = 500.0;
 constexpr double one_metre = 1.0;
 

@@ -29,7 +29,7 @@ bool is_central(const Case& c) {
 bool has_fixed_step(const Case& c) { return c.solver.step.has_value(); }
 bool interpolates_events(const Case& c) { return events_of(c) == EventHandling::interpolated; }
 bool central_interpolates(const Case& c) { return is_central(c) && !c.solver.events; }
-// What sections do within a step is put right to within the tolerance, with a fixed step too.
+// Section correction works to the tolerance, with a fixed step too.
 bool locates_reversals(const Case& c) {
   const bool may_yield = !is_rigid(c) && !has_elastic_sections(c) && !never_yields(c);
   return may_yield && !interpolates_events(c) && reversals_of(c) == ReversalHandling::located;

@@ -57,24 +57,12 @@ class Watch {
   bool stands_still_ = false;
 };
 
-const char* name_of(OutcomeKind kind) {
-  switch (kind) {
-    case OutcomeKind::completed:
-      return "completed";
-    case OutcomeKind::stopped:
-      return "wall clock";
-    case OutcomeKind::inaccurate:
-      return "inaccurate";
-    case OutcomeKind::unstable:
-      return "unstable";
-    case OutcomeKind::chattering:
-      return "chattering";
-    case OutcomeKind::solver_failed:
-      return "solver failed";
-    case OutcomeKind::left_validity:
-      return "left validity";
-  }
-  return "";
+// As the tables head their columns.
+std::string name_of(OutcomeKind kind) {
+  if (kind == OutcomeKind::stopped) return "wall clock";
+  std::string name(to_string(kind));
+  std::replace(name.begin(), name.end(), '-', ' ');
+  return name;
 }
 
 std::string setting_of(const Case& input) {

@@ -10,7 +10,7 @@ enum class EventHandling {
 };
 
 enum class ReversalHandling {
-  located,  ///< where sections begin to flow or turn is found, and the step's end put right
+  located,  ///< where sections begin to flow or turn is found, and the step's end corrected
   step_end  ///< history advances at step ends only
 };
 
