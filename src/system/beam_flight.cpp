@@ -59,7 +59,7 @@ double BeamFlight::outlook(const State& y) {
   const double* high = beam_.sections().window_high().data();
   // The highest rate at which a part of the way to a limit is covered, 1/s.
   double fastest =
-      beam_.indentation_rate(y) / (beam_.residual_indentation() - beam_.indentation(y));
+      beam_.indentation_rate(y) / (beam_.contact().residual_indentation() - beam_.indentation(y));
   fastest = std::max(fastest, 0.0);
   const double* kappa = curvatures_.data();
   const double* rates = curvature_rates_.data();
@@ -107,7 +107,7 @@ void BeamFlight::enter(const State& y, std::span<double> z, std::span<double> ra
     high[i] = sections.window_high()[i] - curvatures_[i];
   }
   low.back() = -std::numeric_limits<double>::infinity();
-  high.back() = beam_.residual_indentation() + mesh.struck_point()(shape_);
+  high.back() = beam_.contact().residual_indentation() + mesh.struck_point()(shape_);
 }
 
 void BeamFlight::leave(std::span<const double> z, std::span<const double> rates, State& y) const {

@@ -23,7 +23,7 @@ class BeamFlight final : public FreeFlight {
     return {guards_.data() + i * frequencies_.size(), frequencies_.size()};
   }
   bool possible() const override {
-    return !beam_.in_contact() && beam_.sections().flowing().empty();
+    return !beam_.contact().is_closed() && beam_.sections().flowing().empty();
   }
   double outlook(const State& y) override;
   void enter(const State& y, std::span<double> z, std::span<double> rates, std::span<double> low,

@@ -17,7 +17,7 @@ namespace {
 // The paper's beam from 8 us, just before anything flows, over 52 us and some hundred turns, by
 // fixed steps that are never cut. (What happens at the first touch, F ~ lambda^1.5, is left out: it
 // has an order of its own.)
-State state_after(double step, double kink_tolerance) {
+State state_after(double step, double correction_tolerance) {
   Case input = paper_case(SectionKind::exact, 8e-6);
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-12;
@@ -36,7 +36,7 @@ State state_after(double step, double kink_tolerance) {
   const auto fixed = make_integrator(input, used, beam);
   LoopOptions options = loop_options(input, used);
   options.end_time = 52e-6;
-  options.kink_tolerance = kink_tolerance;
+  options.correction_tolerance = correction_tolerance;
   EventLoop loop(beam, *fixed, nobody, audit, options);
   loop.start_from(beginning.state());
   while (!loop.finished()) loop.advance();
@@ -55,11 +55,11 @@ double largest_difference(const State& a, const State& b) {
 constexpr double never_cut = 1e3;
 constexpr double only_at_ends = std::numeric_limits<double>::infinity();
 
-OrderTable errors(const std::string& title, double kink_tolerance) {
+OrderTable errors(const std::string& title, double correction_tolerance) {
   const State exact = state_after(5e-9, never_cut);
   OrderTable table(title);
   for (const double step : {2e-7, 1e-7, 5e-8}) {
-    const State y = state_after(step, kink_tolerance);
+    const State y = state_after(step, correction_tolerance);
     table.add(1e-6 / step, largest_difference(y, exact));
   }
   table.print();
@@ -86,7 +86,7 @@ TEST(SectionKinks, HardlyEverCutAStep) {
   input.solver.rtol = 1e-8;
   struct Counter : RunObserver {
     long turns = 0;
-    void on_turn(const Transition&) override { ++turns; }
+    void on_reversal(const Transition&) override { ++turns; }
   } counter;
   StruckBeam beam = make_struck_beam(input);
   const Used used = describe(input, beam);

@@ -17,7 +17,7 @@ namespace {
 class FlyingBeam : public testing::TestWithParam<Model> {
  protected:
   FlyingBeam() : beam_(make_beam(GetParam())), n_(beam_.n_positions() - 1) {
-    beam_.set_section_evaluation(StruckBeam::Evaluation::smooth);
+    beam_.set_section_evaluation(Evaluation::smooth);
     enter(beam_, ContactBranch::separated, 0.0);
     State bent = smooth_state(beam_, 3, 1.8, -1e-4, -0.3);
     beam_.commit(bent);
@@ -66,7 +66,7 @@ TEST_P(FlyingBeam, LimitsAreTheElasticWindowsAndTheGap) {
     EXPECT_NEAR(value(i) - low_[i], kappa[i] - beam_.sections().window_low()[i], 1e-9 * kappa_y);
   }
   EXPECT_NEAR(high_.back() - value(kappa.size()),
-              beam_.residual_indentation() - beam_.indentation(y_), 1e-15);
+              beam_.contact().residual_indentation() - beam_.indentation(y_), 1e-15);
 }
 
 TEST_P(FlyingBeam, OutlookIsTheTimeInWhichTheFirstGuardGetsToItsLimitAtItsRate) {
@@ -98,9 +98,9 @@ TEST_P(FlyingBeam, AcceleratesAsTheBeamDoes) {
 }
 
 TEST_P(FlyingBeam, CannotFlyWhileInContactOrFlowing) {
-  beam_.apply({EventKind::contact_begins}, y_);
+  beam_.contact().pass(EventKind::contact_begins, beam_.indentation(y_));
   EXPECT_FALSE(flight_->possible());
-  beam_.apply({EventKind::contact_ends}, y_);
+  beam_.contact().pass(EventKind::contact_ends, beam_.indentation(y_));
   EXPECT_TRUE(flight_->possible());
   State flowing = y_;
   for (std::size_t i = 0; i < n_; ++i) flowing[i] *= 4.0;
