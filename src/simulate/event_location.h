@@ -30,10 +30,7 @@ class EventLocator {
  public:
   EventLocator(StruckBeam& beam, Integrator& integrator, SectionCorrector& corrector,
                bool double_roots)
-      : beam_(beam),
-        integrator_(integrator),
-        corrector_(corrector),
-        double_roots_(double_roots) {}
+      : beam_(beam), integrator_(integrator), corrector_(corrector), double_roots_(double_roots) {}
 
   /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, the pointer then moved to a
   /// state kept here until the next call. Returns the event at the end, if there is one.

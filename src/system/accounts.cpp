@@ -51,8 +51,7 @@ Accounts::Bending Accounts::bending(const State& y) {
 
 double Accounts::back_stress(const State& y) const {
   const std::size_t section = beam_.mesh().struck_section();
-  return sections_.outer_stress(section,
-                                beam_.mesh().curvature(section, beam_.beam_positions(y)),
+  return sections_.outer_stress(section, beam_.mesh().curvature(section, beam_.beam_positions(y)),
                                 beam_.outer_stiffness());
 }
 

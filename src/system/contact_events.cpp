@@ -16,11 +16,8 @@ constexpr double uncertain_share = 0.5;
 using MaybeCrossing = std::optional<Crossing>;
 
 MaybeCrossing crossing_at(EventKind kind, const IndentationStep& step, double lower, double guess) {
-  return Crossing{{kind},
-                  step.t0 + lower * step.length(),
-                  step.t1,
-                  step.t0 + guess * step.length(),
-                  false};
+  return Crossing{
+      {kind}, step.t0 + lower * step.length(), step.t1, step.t0 + guess * step.length(), false};
 }
 
 // A double root: negative at both ends, with a local maximum near or above zero in between.

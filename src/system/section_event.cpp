@@ -72,7 +72,8 @@ std::optional<double> find_reversal(const SectionPath& path, double sense, doubl
 }
 
 bool is_in_window(const SectionField& sections, std::size_t section, double curvature) {
-  return curvature >= sections.window_low()[section] && curvature <= sections.window_high()[section];
+  return curvature >= sections.window_low()[section] &&
+         curvature <= sections.window_high()[section];
 }
 
 }  // namespace
@@ -85,8 +86,7 @@ std::optional<SectionEvent> SectionFollower::follow(const SectionInStep& in, Sec
   const SectionHistory& before = sections_.history(in.section);
   const bool flows_on = in.leaves < in.reverses.value_or(1.0);
   if (flows_on) add_own_flow(sections_, in, path, own_coupling, length);
-  const std::optional<double> reversal =
-      find_reversal(path, in.sense, flows_on ? in.leaves : 0.0);
+  const std::optional<double> reversal = find_reversal(path, in.sense, flows_on ? in.leaves : 0.0);
   if (!flows_on && !reversal) return std::nullopt;
   const double start = flows_on ? in.leaves : *reversal;
 
