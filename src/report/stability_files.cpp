@@ -2,7 +2,6 @@
 #include "io/csv_columns.h"
 #include "io/write_file.h"
 #include "report/gnuplot.h"
-#include "report/stability_figures.h"
 #include "subimpact/report/stability.h"
 
 namespace subimpact {
@@ -19,7 +18,7 @@ void write_critical_steps(const fs::path& directory, const std::vector<CriticalS
       {"predicted_s", &CriticalStep::predicted},
       {"measured_s", &CriticalStep::measured}};
   write_file(directory / "critical_steps.csv", csv_text(columns, rows));
-  draw_figure(directory, "critical_steps", critical_step_figure(rows), {1180, 560});
+  draw_figure(directory, "critical_steps", figure_script("critical_steps"), {1180, 560});
 }
 
 void write_stiff_contact(const fs::path& directory, const std::vector<StiffContact>& rows) {
@@ -28,7 +27,7 @@ void write_stiff_contact(const fs::path& directory, const std::vector<StiffConta
                                          {"predicted_s", &StiffContact::predicted},
                                          {"measured_s", &StiffContact::measured}};
   write_file(directory / "stiff_contact.csv", csv_text(columns, rows));
-  draw_figure(directory, "stiff_contact", stiff_contact_figure(rows), {760, 500});
+  draw_figure(directory, "stiff_contact", figure_script("stiff_contact"), {760, 500});
 }
 
 void write_damping(const fs::path& directory, const std::vector<Damping>& rows,
@@ -42,7 +41,7 @@ void write_damping(const fs::path& directory, const std::vector<Damping>& rows,
                                            {"omega_h", &MultistepGrowth::angle},
                                            {"growth", &MultistepGrowth::growth}};
   write_file(directory / "bdf_growth.csv", csv_text(growth, growths));
-  draw_figure(directory, "damping", damping_figure(rows, growths), {1150, 520});
+  draw_figure(directory, "damping", figure_script("damping"), {1150, 520});
 }
 
 void write_outcomes(const fs::path& directory, const OutcomeMap& map) {
@@ -63,7 +62,7 @@ void write_outcomes(const fs::path& directory, const OutcomeMap& map) {
       {"energy_error", [=](const OutcomePoint& p) { return if_completed(p, p.energy_error); }},
       {"message", &OutcomePoint::message}};
   write_file(directory / "outcomes.csv", csv_text(columns, map.points));
-  draw_figure(directory, "outcomes", outcome_figure(map), {1400, 560});
+  draw_figure(directory, "outcomes", figure_script("outcomes"), {1400, 560});
 }
 
 void write_missed_pairs(const fs::path& directory, const std::vector<MissedPairs>& rows) {
@@ -73,7 +72,7 @@ void write_missed_pairs(const fs::path& directory, const std::vector<MissedPairs
                                         {"right_without", &MissedPairs::right_without},
                                         {"shortest_s", &MissedPairs::shortest}};
   write_file(directory / "missed_pairs.csv", csv_text(columns, rows));
-  draw_figure(directory, "missed_pairs", missed_pairs_figure(rows), {760, 500});
+  draw_figure(directory, "missed_pairs", figure_script("missed_pairs"), {760, 500});
 }
 
 void write_layers(const fs::path& directory, const LayerStudy& study) {
@@ -85,7 +84,7 @@ void write_layers(const fs::path& directory, const LayerStudy& study) {
       {"median_difference_s", [](const LayerPoint& p) { return p.errors.median; }},
       {"max_difference_s", [](const LayerPoint& p) { return p.errors.maximum; }}};
   write_file(directory / "layers.csv", csv_text(columns, study.points));
-  draw_figure(directory, "layers", layer_figure(study), {760, 500});
+  draw_figure(directory, "layers", figure_script("layers"), {760, 500});
 }
 
 }  // namespace subimpact
