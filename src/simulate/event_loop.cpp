@@ -125,7 +125,7 @@ StepEnds EventLoop::step_to_end_time() {
     y1 = &end_state_;
   }
   return {integrator_.start_time(), end, integrator_.start_state(), *y1,
-          integrator_.is_eventless()};
+          integrator_.is_event_free()};
 }
 
 void EventLoop::locate_events() {
@@ -145,7 +145,7 @@ void EventLoop::locate_events() {
     // is looked at again, in case an estimate had the order wrong.
     event.reset();
     dealt_with_.clear();
-    while (beam_.find_crossing({t0, t1, y0, *y1, whole.eventless}, dealt_with_, crossing)) {
+    while (beam_.find_crossing({t0, t1, y0, *y1, whole.event_free}, dealt_with_, crossing)) {
       const StepEnds step{t0, t1, y0, *y1};
       dealt_with_.push_back(crossing.guard);
       if (crossing.in_doubt && !confirm(crossing, step)) continue;
@@ -154,7 +154,7 @@ void EventLoop::locate_events() {
       end_at_event_state(time);
       event = crossing.guard;
     }
-    const double good_until = beam_.find_section_kinks({t0, t1, y0, *y1, whole.eventless});
+    const double good_until = beam_.find_section_kinks({t0, t1, y0, *y1, whole.event_free});
     if (good_until < t1) {
       integrator_.state_at(good_until, event_state_);
       end_at_event_state(good_until);
@@ -165,7 +165,7 @@ void EventLoop::locate_events() {
     if (!relocate(*event, {t0, t1, y0, *y1}, whole.t1, t1)) event.reset();
     break;
   }
-  observer_->on_step({t0, t1, y0, *y1, whole.eventless}, beam_, integrator_);
+  observer_->on_step({t0, t1, y0, *y1, whole.event_free}, beam_, integrator_);
   const bool kinked = !beam_.section_kinks().empty();
   if (kinked) put_sections_right(y1);
   time_ = t1;

@@ -45,7 +45,7 @@ struct StepEnds {
   double t0, t1;
   const State& y0;
   const State& y1;
-  bool eventless = false;  ///< nothing happened in it, whatever its ends may suggest
+  bool event_free = false;  ///< nothing happened in it, whatever its ends may suggest
   /// States within it are those of the step's end followed backwards, see
   /// Integrator::state_before_end.
   bool from_end = false;
@@ -171,7 +171,7 @@ class StruckBeam final : public MechanicalSystem {
   /// and the sections that turned put right as if the step ended there, and all else as it was.
   template <class Look>
   void look_within(const StepEnds& step, double t, State& y, Look look) {
-    find_section_kinks({step.t0, t, step.y0, y, step.eventless});
+    find_section_kinks({step.t0, t, step.y0, y, step.event_free});
     std::vector<SectionField::Memory> before;
     for (const SectionKink& kink : section_kinks()) {
       if (kink.turn) before.push_back(sections_.memory(kink.section));

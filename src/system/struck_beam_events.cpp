@@ -50,7 +50,7 @@ GuardValue StruckBeam::evaluate(const Guard& guard, const State& y) {
 
 bool StruckBeam::find_crossing(const StepEnds& step, const GuardList& without, Crossing& earliest) {
   earliest.guess = std::numeric_limits<double>::infinity();
-  if (step.eventless) return false;
+  if (step.event_free) return false;
   const double lambda0 = indentation(step.y0);
   const double lambda1 = indentation(step.y1);
   const double rate0 = indentation_rate(step.y0);
@@ -116,7 +116,7 @@ bool StruckBeam::find_crossing(const StepEnds& step, const GuardList& without, C
 }
 
 std::optional<double> StruckBeam::first_flow(const StepEnds& step) {
-  if (step.eventless) return std::nullopt;
+  if (step.event_free) return std::nullopt;
   read_motion(step.y1, end_);
   const auto flows = [&](std::size_t i) {
     return !(end_.curvatures[i] >= sections_.window_low()[i] &&

@@ -22,7 +22,7 @@ constexpr double shortest_cut = 1e-3;
 
 double StruckBeam::find_section_kinks(const StepEnds& step) {
   kinks_.clear();
-  if (step.eventless || section_evaluation_ != Evaluation::smooth || !sections_.can_yield()) {
+  if (step.event_free || section_evaluation_ != Evaluation::smooth || !sections_.can_yield()) {
     return step.t1;
   }
   read_motion(step.y1, end_);
