@@ -12,10 +12,10 @@ namespace subimpact {
 ///     z_k'' + omega_k^2 z_k = 0,   low_i < x_i < high_i,   x_i = sum_k g_ik z_k.
 ///
 /// The motion keeps the amplitudes A_k = |(z_k, z_k'/omega_k)|. Hence oscillator k moves x_i by at
-/// most |g_ik| A_k, and bends its path by at most |g_ik| A_k omega_k^2, so that over an interval tau
-/// the path lies within tau^2/8 times that of the straight line through its ends. Of the two bounds
-/// the smaller is used: x_i is sampled every tau from the slow oscillators alone, omega_k tau <
-/// sqrt(8), and in between exceeds the larger of both ends by no more than the margin
+/// most |g_ik| A_k, and bends its path by at most |g_ik| A_k omega_k^2, so that over an interval
+/// tau the path lies within tau^2/8 times that of the straight line through its ends. Of the two
+/// bounds the smaller is used: x_i is sampled every tau from the slow oscillators alone, omega_k
+/// tau < sqrt(8), and in between exceeds the larger of both ends by no more than the margin
 ///
 ///     sum_k |g_ik| A_k min(1, (omega_k tau)^2/8).
 ///
@@ -36,8 +36,8 @@ class EventFreeHorizon {
 
   /// Horizon (s), at most `longest`, from displacements z and their rates; 0 if nothing can be
   /// shown.
-  double from(std::span<const double> z, std::span<const double> rates,
-              std::span<const double> low, std::span<const double> high, double longest);
+  double from(std::span<const double> z, std::span<const double> rates, std::span<const double> low,
+              std::span<const double> high, double longest);
 
  private:
   // The intervals of one length and the samples at their ends.
@@ -46,11 +46,11 @@ class EventFreeHorizon {
     std::size_t n_kept = 0;  // oscillators, the slowest
     // Motion over an interval, of all oscillators.
     std::vector<double> cosine, sine_over_omega, minus_omega_sine;
-    std::vector<double> bounds;         // A_k min(1, (omega_k tau)^2/8)
-    std::vector<double> margins;        // per function; negative: not computed yet
-    std::vector<double> z, rates;       // at the end of the last interval
-    std::vector<double> values;         // of the functions there
-    std::vector<std::size_t> functions; // those sampled on this level
+    std::vector<double> bounds;          // A_k min(1, (omega_k tau)^2/8)
+    std::vector<double> margins;         // per function; negative: not computed yet
+    std::vector<double> z, rates;        // at the end of the last interval
+    std::vector<double> values;          // of the functions there
+    std::vector<std::size_t> functions;  // those sampled on this level
   };
   void set_amplitudes(std::span<const double> z, std::span<const double> rates);
   bool stays_within_limits(std::size_t function) const;
