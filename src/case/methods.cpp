@@ -9,10 +9,9 @@
 #include "integrate/central_difference.h"
 #include "integrate/cvode.h"
 #include "integrate/exponential.h"
-#include "integrate/flying.h"
 #include "integrate/nystrom.h"
 #include "integrate/nystrom_tables.h"
-#include "system/beam_flight.h"
+#include "system/free_flight.h"
 #include "system/modal_beam.h"
 
 namespace subimpact {
@@ -67,8 +66,8 @@ std::unique_ptr<Nystrom> make_nystrom(const Case& input, const Used& used, Struc
 // Where the beam may yield only free flight has a closed form; nystrom does the rest.
 IntegratorPointer make_exponential(const Case& input, const Used& used, StruckBeam& beam) {
   if (beam.sections().can_yield()) {
-    return std::make_unique<Flying>(
-        make_nystrom(input, used, beam), std::make_unique<BeamFlight>(beam),
+    return std::make_unique<FreeFlight>(
+        make_nystrom(input, used, beam), beam,
         input.solver.max_step.value_or(std::numeric_limits<double>::infinity()));
   }
   ExponentialOptions options;

@@ -15,12 +15,12 @@ constexpr int deepest_level = 48;
 constexpr int most_iterations = 30;
 // Newton's method ends when forces change by less than this part of the largest.
 constexpr double solved = 1e-13;
-// A doubt about lambda below this part of the displacements it is made of is rounding.
-constexpr double negligible_doubt = 4.0 * std::numeric_limits<double>::epsilon();
+// An uncertainty of lambda below this part of the displacements that add up to it is rounding.
+constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
 // A cubic off by up to d is off by up to 3.1 d in its slope (of s in [0, 1]); rounded up.
-constexpr double slope_per_doubt = 4.0;
-// The estimate falls by about 2^5 when a step is halved; a longer one is tried below this part.
-constexpr double room_to_grow = 1.0 / 64.0;
+constexpr double slope_error_per_error = 4.0;
+// The estimate falls by about 2^5 when a step is halved; the step is doubled below half of that.
+constexpr double part_for_doubling = 1.0 / 64.0;
 
 // sum |a_i b_i|
 double sum_of_sizes(const double* a, const double* b, std::size_t n) {
@@ -124,27 +124,28 @@ double Exponential::fourth_derivative_bound() const {
   return sum;
 }
 
-bool Exponential::is_decided(const Ends& ends, double h, double doubt) const {
+bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) const {
   // The cubic's distance from the critical displacement, at its ends and at its extrema between
   // them.
   const double critical = oscillators_.critical_displacement();
   const double sign = oscillators_.is_free() ? 1.0 : -1.0;  // the side on which an event lies
   const HermiteCubic path(sign * (ends.lambda0 - critical), sign * ends.rate0,
                           sign * (ends.lambda1 - critical), sign * ends.rate1, h);
-  // A hump between two turns is hidden from whoever looks at the ends.
+  // A local maximum between two extrema does not show at the ends.
   if (path.reversed_at()) {
-    const double hidden = std::max(path(path.first_turn()), path(path.second_turn()));
-    if (hidden >= -doubt) return false;
+    const double maximum = std::max(path(path.first_turn()), path(path.second_turn()));
+    if (maximum >= -uncertainty) return false;
   }
-  if (doubt <= negligible_doubt * size_) return true;
-  // Whoever crosses once for sure need not shorten the step: rising all the way, from end to end
-  // steeper than the cubic's slope can be wrong, to a height that is no doubt.
-  if (path(1.0) > doubt && path.least_slope() > slope_per_doubt * doubt) return true;
+  if (uncertainty <= rounding * size_) return true;
+  // One certain crossing does not shorten the step: lambda rises throughout, more steeply than the
+  // cubic's slope can be wrong, and ends above the uncertainty.
+  if (path(1.0) > uncertainty && path.least_slope() > slope_error_per_error * uncertainty)
+    return true;
   double nearest = path(1.0);
   if (sign * ends.rate0 > 0.0 && sign * ends.rate1 < 0.0) {
     nearest = std::max(nearest, path(path.peak()));
   }
-  return nearest < -doubt;
+  return nearest < -uncertainty;
 }
 
 void Exponential::free_step() {
@@ -156,14 +157,14 @@ void Exponential::free_step() {
   for (;; ++level_) {
     const OscillatorStep& trial = table(level_);
     const double h = trial.length();
-    const double doubt = h * h * h * h / 384.0 * bound_;
+    const double uncertainty = h * h * h * h / 384.0 * bound_;
     trial.advance_freely(y0_, y1_);
     lambda1_ = displacement(y1_.data());
     rate1_ = displacement(y1_.data() + n_);
     t1_ = t0_ + h;
     force_length_ = h;
     if (options_.fixed_step || level_ >= deepest_level ||
-        is_decided({lambda0, rate0, lambda1_, rate1_}, h, doubt)) {
+        resolves_side({lambda0, rate0, lambda1_, rate1_}, h, uncertainty)) {
       return;
     }
     ++work_.rejected_steps;
@@ -194,7 +195,7 @@ bool Exponential::solve(const OscillatorStep& step, const NodeForces& free, Node
       largest = std::max(largest, std::abs(change[i]));
     }
     if (!std::isfinite(largest)) return false;
-    // Newton's method squares the error: the change before tells how far the next one is from here.
+    // Newton's method squares the error, so two changes predict the next one.
     const double gain = largest_before > 0.0 ? largest / largest_before : 1.0;
     const double next = gain < 0.1 ? largest * gain * gain : largest;
     if (next <= solved * size || largest == 0.0) {
@@ -238,14 +239,15 @@ void Exponential::forced_step() {
       if (options_.fixed_step) return;
       const double defect = std::max(std::abs(force_(0.0) - start.value),
                                      std::abs(force_(1.0) - oscillators_.force(lambda1_).value));
-      const double error = defect * trial.reach();
-      double doubt = 0.0;
+      const double error = defect * trial.constant_force_compliance();
+      double uncertainty = 0.0;
       const HermiteCubic path(lambda0, rate0, lambda1_, rate1_, h);
       for (std::size_t i = 0; i < n_force_nodes; ++i) {
-        doubt = std::max(doubt, std::abs(path(gauss_points()[i]) - lambda[i]));
+        uncertainty = std::max(uncertainty, std::abs(path(gauss_points()[i]) - lambda[i]));
       }
-      if (error <= tolerance && is_decided({lambda0, rate0, lambda1_, rate1_}, h, 2.0 * doubt)) {
-        if (error <= room_to_grow * tolerance) level_ = std::max(level_ - 1, first_level_);
+      if (error <= tolerance &&
+          resolves_side({lambda0, rate0, lambda1_, rate1_}, h, 2.0 * uncertainty)) {
+        if (error <= part_for_doubling * tolerance) level_ = std::max(level_ - 1, first_level_);
         return;
       }
     } else if (options_.fixed_step) {

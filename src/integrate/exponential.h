@@ -20,16 +20,16 @@ struct ExponentialOptions {
 ///
 /// A step costs four scalar equations (Newton) and a few passes over the oscillators; no frequency
 /// limits its length, only the smoothness of the force. Free motion is exact. The error estimate is
-/// the defect: by how much the cubic misses the force at the step's two ends, times what such a
-/// force does to lambda over the step; it is held below rtol times the displacement scale. Steps
-/// come from a ladder of lengths that halve, each with tables made when first used.
+/// the defect: the difference between cubic and force at the step's two ends, times the response of
+/// lambda to a constant unit force over the step; it is held below rtol times the displacement
+/// scale. Step lengths are unit/2^level, each with tables made when first used.
 ///
-/// Whoever looks for events in a step sees its ends only, and a cubic in lambda through them. So a
-/// step is also halved until that cubic cannot mistake the side of the critical displacement on
-/// which lambda lies, or shows lambda to cross it just once, faster than the cubic's rate can be
-/// wrong. In contact the cubic is compared with lambda at the Gauss points; in free motion there is
-/// a bound, |lambda''''| <= sum |c_i| A_i omega_i^4 with the amplitudes A_i, which free motion
-/// keeps, so that the cubic is off by at most h^4/384 times that.
+/// An event search uses the step's ends and a cubic in lambda through them. So a step is also
+/// halved until that cubic resolves the side of the critical displacement on which lambda lies, or
+/// shows a single crossing with a rate above the error of the cubic's rate. In contact the cubic's
+/// uncertainty comes from its distance to lambda at the Gauss points; in free motion it has a
+/// bound, |lambda''''| <= sum |c_i| A_i omega_i^4 with the constant amplitudes A_i, so that the
+/// cubic is off by at most h^4/384 times that.
 ///
 /// state_at gives the flow under the step's force: exact but for the cubic. So the order is eight
 /// at the ends of steps (collocation at four Gauss points) and six within them, and for event
@@ -55,7 +55,9 @@ class Exponential final : public Integrator {
   bool solve(const OscillatorStep& step, const NodeForces& free, NodeForces& forces,
              NodeForces& lambda) const;
   double fourth_derivative_bound() const;
-  bool is_decided(const Ends& ends, double h, double doubt) const;
+  // Whether the cubic through the ends, off by up to `uncertainty` (m), resolves the side of the
+  // critical displacement.
+  bool resolves_side(const Ends& ends, double h, double uncertainty) const;
 
   std::unique_ptr<ForcedOscillators> owned_;
   ForcedOscillators& oscillators_;
@@ -66,7 +68,7 @@ class Exponential final : public Integrator {
   std::map<int, std::unique_ptr<OscillatorStep>> tables_;
   int level_ = 0;  // of the next step; step length unit / 2^level
   int first_level_ = 0;
-  double bound_ = -1.0;  // of |lambda''''| in the present free motion; negative: not known yet
+  double bound_ = -1.0;  // of |lambda''''| in the present free motion; negative: not computed
   ForcePolynomial force_;
   double force_length_ = 0.0;
   double lambda1_ = 0.0, rate1_ = 0.0;  // at time()

@@ -114,7 +114,7 @@ OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double leng
       (*columns)[j].resize(n_);
     }
   }
-  Lanes reach{};
+  Lanes response{};
   Lanes compliance[s][s] = {};
   for (std::size_t k = 0; k < n_; k += n_lanes) {
     const Lanes w = load(omega, k);
@@ -131,7 +131,7 @@ OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double leng
       store(l * h * end.velocity[j], velocity_[j], k);
     }
     const Lanes scale = d * l * h * h;
-    reach += scale * at_end[2];
+    response += scale * at_end[2];
     for (std::size_t i = 0; i < s; ++i) {
       const double theta = gauss_points()[i];
       const auto at_node = stumpff(x * theta);
@@ -141,7 +141,7 @@ OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double leng
       for (std::size_t j = 0; j < s; ++j) compliance[i][j] += scale * node.position[j];
     }
   }
-  reach_ = std::abs(sum(reach));
+  constant_force_compliance_ = std::abs(sum(response));
   for (std::size_t i = 0; i < s; ++i) {
     for (std::size_t j = 0; j < s; ++j) compliance_[i][j] = sum(compliance[i][j]);
   }

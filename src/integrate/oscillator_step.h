@@ -45,8 +45,8 @@ class OscillatorStep {
   NodeForces free_displacements(std::span<const double> y) const;
   /// G_ij, m/N.
   double compliance(std::size_t i, std::size_t j) const { return compliance_[i][j]; }
-  /// What a constant unit force does to lambda over the whole step, m/N (its size).
-  double reach() const { return reach_; }
+  /// Size of the response of lambda to a constant unit force over the step, m/N.
+  double constant_force_compliance() const { return constant_force_compliance_; }
   /// The step's end under the forces, or in free motion.
   void advance(std::span<const double> y, const NodeForces& forces, std::span<double> end) const;
   void advance_freely(std::span<const double> y, std::span<double> end) const;
@@ -54,7 +54,7 @@ class OscillatorStep {
  private:
   std::size_t n_;
   double length_;
-  double reach_ = 0.0;
+  double constant_force_compliance_ = 0.0;
   std::array<std::array<double, n_force_nodes>, n_force_nodes> compliance_{};
   using Column = std::vector<double>;
   std::array<Column, n_force_nodes> free_position_, free_velocity_;  // lambda at the Gauss points

@@ -29,8 +29,8 @@ class ForcedOscillators {
   virtual Force force(double lambda) const = 0;
   /// Whether F is zero throughout: free motion.
   virtual bool is_free() const = 0;
-  /// The displacement at which the mode in force begins or ends. Steps are kept short enough near
-  /// it that a cubic through their ends tells on which side lambda is.
+  /// The displacement at which the mode in force begins or ends. Steps near it
+  /// are short enough that a cubic through their ends shows on which side lambda is.
   virtual double critical_displacement() const = 0;
 
   virtual SecondOrderOde::Scales scales() const = 0;

@@ -65,9 +65,9 @@ class Integrator {
   /// error, which is large only where the force changes within the step.
   virtual void state_before_end(double t, State& y) { state_at(t, y); }
 
-  /// Whether the integrator itself has shown that nothing happened in the last step, however long:
-  /// nobody need look for events in it.
-  virtual bool is_eventless() const { return false; }
+  /// Whether the integrator has proven that no event happened in the last step, however long:
+  /// events need not be looked for in it.
+  virtual bool is_event_free() const { return false; }
 
   virtual WorkCounts work() const = 0;
 

@@ -43,7 +43,7 @@ double rounding_of(const EventFunction& function, const StruckBeam& beam, const 
 }
 
 std::optional<Crossing> EventLocator::find_crossing_in(const StepEnds& step) {
-  if (step.eventless) return std::nullopt;
+  if (step.event_free) return std::nullopt;
   return find_crossing(beam_.contact(), indentation_step(beam_, step),
                        {dealt_with_, double_roots_, beam_.displacement_rounding(step.y1)});
 }
@@ -58,7 +58,7 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
   for (;;) {
     std::optional<EventFunction> event;
     dealt_with_.clear();
-    while (auto crossing = find_crossing_in({t0, t1, y0, *y1, whole.eventless})) {
+    while (auto crossing = find_crossing_in({t0, t1, y0, *y1, whole.event_free})) {
       const StepEnds step{t0, t1, y0, *y1};
       dealt_with_.push_back(crossing->function);
       if (crossing->unresolved && !resolve(*crossing, step)) continue;
@@ -67,7 +67,7 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
       y1 = &end_;
       event = crossing->function;
     }
-    corrector_.correct({t0, t1, y0, *y1, whole.eventless}, correction);
+    corrector_.correct({t0, t1, y0, *y1, whole.event_free}, correction);
     if (!(correction.valid_until < t1)) {
       const bool moves = event && !correction.is_empty();
       if (moves && !relocate(*event, {t0, t1, y0, *y1}, whole.t1, t1, correction)) return {};

@@ -116,7 +116,7 @@ StepEnds EventLoop::step_to_end_time() {
     y1 = &end_state_;
   }
   return {integrator_.start_time(), end, integrator_.start_state(), *y1,
-          integrator_.is_eventless()};
+          integrator_.is_event_free()};
 }
 
 void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
@@ -128,7 +128,7 @@ void EventLoop::locate_events() {
   double t1 = whole.t1;
   const State* y1 = &whole.y1;
   const std::optional<EventFunction> event = locator_.find_end(whole, t1, y1, correction_);
-  show_piece({whole.t0, t1, whole.y0, *y1, whole.eventless});
+  show_piece({whole.t0, t1, whole.y0, *y1, whole.event_free});
   const bool is_corrected = !correction_.is_empty();
   if (is_corrected) {
     event_state_ = *y1;

@@ -35,7 +35,7 @@ class ObservedStep {
   /// The state at a time within the step as if the step ended there, section events included.
   void corrected_state_at(double t, State& y, SectionCorrection& correction) const {
     state_at(t, y);
-    corrector_.correct({ends_.t0, t, ends_.y0, y, ends_.eventless}, correction);
+    corrector_.correct({ends_.t0, t, ends_.y0, y, ends_.event_free}, correction);
     correction.add_to(y);
   }
 

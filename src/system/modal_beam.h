@@ -8,7 +8,7 @@
 
 namespace subimpact {
 
-/// A struck beam on a modal mesh, seen as oscillators driven by the contact force; the striker is
+/// A struck beam on a modal mesh, as oscillators driven by the contact force; the striker is
 /// the last of them. Only while no section flows.
 class ModalBeam final : public ForcedOscillators {
  public:

@@ -36,8 +36,8 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
     largest = std::max(largest, std::abs(curvatures_[i]));
     bar_.push_back(mesh.section_weights()[i] * curvatures_[i]);
   }
-  plastic_reach_ = largest * material.youngs_modulus * 0.5 * material.thickness /
-                   material.yield_stress * sections.law().fibres().extent();
+  plastic_compliance_ = largest * material.youngs_modulus * 0.5 * material.thickness /
+                        material.yield_stress * sections.law().fibres().extent();
 }
 
 bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
@@ -66,10 +66,10 @@ bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
       plastic += bar_[i] * (sections.stiffness() * curvatures_[i] - moments_[i]);
     }
   }
-  const double a = plastic_reach_;
-  const double reach = 2.0 * a * a * energy > compliance_ ? a * energy + compliance_ / (2.0 * a)
+  const double a = plastic_compliance_;
+  const double bound = 2.0 * a * a * energy > compliance_ ? a * energy + compliance_ / (2.0 * a)
                                                           : std::sqrt(2.0 * compliance_ * energy);
-  return y[n_] - rigid - plastic + reach < beam.contact().residual_indentation();
+  return y[n_] - rigid - plastic + bound < beam.contact().residual_indentation();
 }
 
 }  // namespace subimpact

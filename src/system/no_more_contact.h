@@ -31,8 +31,8 @@ namespace subimpact {
 ///
 /// d_p the plastic part now: if the striker does not approach the rigid motion, v_m <= R', and the
 /// bracket is below the residual indentation, they never meet. Rigorous for the discrete beam,
-/// whatever its section law and ends; it says no until the gap exceeds what the beam's whole energy
-/// could bend it by.
+/// whatever its section law and ends. The proof fails until the gap exceeds the deflection that the
+/// beam's whole energy could cause.
 class NoMoreContact {
  public:
   /// `beam` must outlive this. Needs the beam's natural modes, once.
@@ -46,7 +46,7 @@ class NoMoreContact {
   std::vector<double> rigid_share_;         // S phi of them
   std::vector<double> bar_;                 // W kbar; empty where the sections cannot yield
   double compliance_ = 0.0;                 // C, m/N
-  double plastic_reach_ = 0.0;              // a, m/J
+  double plastic_compliance_ = 0.0;         // a, m/J
   Accounts accounts_;
   std::vector<double> curvatures_, moments_;
 };

@@ -63,7 +63,7 @@ SectionCorrector::SectionCorrector(const StruckBeam& beam, double tolerance)
 void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correction) {
   correction.events.clear();
   correction.valid_until = step.t1;
-  if (step.eventless || beam_.section_evaluation() != Evaluation::smooth ||
+  if (step.event_free || beam_.section_evaluation() != Evaluation::smooth ||
       !beam_.sections().can_yield()) {
     return;
   }
@@ -164,7 +164,7 @@ double SectionCorrector::bound_of_term(const std::vector<SectionEvent>& events, 
 
 std::optional<double> FirstFlow::find(const StruckBeam& beam, const StepEnds& step) {
   const SectionField& sections = beam.sections();
-  if (step.eventless || !sections.can_yield()) return std::nullopt;
+  if (step.event_free || !sections.can_yield()) return std::nullopt;
   beam.read_motion(step.y1, end_);
   const auto low = sections.window_low();
   const auto high = sections.window_high();

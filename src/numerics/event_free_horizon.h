@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace subimpact {
+
+/// A proven lower bound for the time until one of many event functions of free oscillators reaches
+/// its limits:
+///
+///     z_k'' + omega_k^2 z_k = 0,   low_i < x_i < high_i,   x_i = sum_k g_ik z_k.
+///
+/// The motion keeps the amplitudes A_k = |(z_k, z_k'/omega_k)|. Hence oscillator k moves x_i by at
+/// most |g_ik| A_k, and bends its path by at most |g_ik| A_k omega_k^2, so that over an interval
+/// tau the path lies within tau^2/8 times that of the straight line through its ends. Of the two
+/// bounds the smaller is used: x_i is sampled every tau from the slow oscillators alone, omega_k
+/// tau < sqrt(8), and in between exceeds the larger of both ends by no more than the margin
+///
+///     sum_k |g_ik| A_k min(1, (omega_k tau)^2/8).
+///
+/// Functions that pass are event-free in the interval; the others are unresolved and are looked at
+/// again with tau/4, down to omega_n tau = 1/4, with margins of at most 1/128 of what amplitudes
+/// allow. The horizon is the first interval of that length which a function does not pass. Infinite
+/// tau comes first: functions that the amplitudes keep within limits are never sampled.
+///
+/// omega_k = 0 is a body moving uniformly: exact at any tau.
+class EventFreeHorizon {
+ public:
+  /// `frequencies`: omega, n of them, rad/s, ascending, the last above 0; `functions`: g, row by
+  /// row.
+  EventFreeHorizon(std::vector<double> frequencies, std::vector<double> functions);
+
+  std::span<const double> frequencies() const { return omega_; }
+  std::size_t n_functions() const { return functions_.size() / n_; }
+
+  /// Horizon (s), at most `longest`, from displacements z and their rates; 0 if nothing can be
+  /// shown.
+  double from(std::span<const double> z, std::span<const double> rates, std::span<const double> low,
+              std::span<const double> high, double longest);
+
+ private:
+  // The intervals of one length and the samples at their ends.
+  struct Level {
+    double interval = 0.0;   // tau, s
+    std::size_t n_kept = 0;  // oscillators, the slowest
+    // Motion over an interval, of all oscillators.
+    std::vector<double> cosine, sine_over_omega, minus_omega_sine;
+    std::vector<double> bounds;          // A_k min(1, (omega_k tau)^2/8)
+    std::vector<double> margins;         // per function; negative: not computed yet
+    std::vector<double> z, rates;        // at the end of the last interval
+    std::vector<double> values;          // of the functions there
+    std::vector<std::size_t> functions;  // those sampled on this level
+  };
+  void set_amplitudes(std::span<const double> z, std::span<const double> rates);
+  bool stays_within_limits(std::size_t function) const;
+  bool passes(Level& level, std::size_t function, double before, double after);
+  // Of `n` intervals of a level, begun at its z and rates: the time without an event.
+  double event_free_time(std::size_t level, std::size_t n);
+
+  std::vector<double> omega_, functions_;
+  std::size_t n_;          // oscillators
+  std::size_t n_uniform_;  // of them of frequency 0
+  std::vector<double> amplitudes_;
+  std::span<const double> low_, high_;  // of the present search
+  std::vector<Level> levels_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/natural_modes.h"
+#include "numerics/event_free_horizon.h"
+#include "ode/integrator.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// Another integrator, spared the free flight of a struck beam: stretches without contact in which
+/// no section flows.
+///
+/// Past flow is then a constant moment M_p. The beam vibrates in its elastic modes Phi about the
+/// shape w_e that M_p causes, and the striker moves uniformly:
+///
+///     w = w_e + Phi z,   z_k'' + omega_k^2 z_k = 0,   w_e = Phi diag(omega^-2) Phi^T (-B^T W M_p).
+///
+/// Event functions are the curvatures B Phi z of the sections, limited by their elastic windows,
+/// and the indentation, limited by the residual one. A free flight is one step in closed form, up
+/// to the event-free horizon (EventFreeHorizon); from there the other integrator goes on.
+class FreeFlight final : public Integrator {
+ public:
+  /// `beam` must outlive this; its mesh is not a ModalMesh. `max_step`: longest step, s.
+  FreeFlight(std::unique_ptr<Integrator> other, const StruckBeam& beam, double max_step);
+
+  void restart(double t, const State& y) override;
+  void step() override;
+  void state_at(double t, State& y) override;
+  bool is_event_free() const override { return flying_; }
+  WorkCounts work() const override;
+
+ private:
+  EventFreeHorizon make_horizon() const;
+  // Whether y1_ begins a free flight, and one that lasts for a time if rates stay as they are.
+  bool may_last(double time);
+  // The share of each mode in unknown i.
+  const double* phi_row(std::size_t i) const { return phi_rows_.data() + i * n_; }
+  // Phi^T f, into entries 1 to n of `modal`.
+  void to_modes(std::span<const double> f, std::vector<double>& modal) const;
+  // w_e and the limits of the event functions about it, for past flow as it is now.
+  void find_equilibrium();
+  // Enters free flight at y1_; its event-free horizon, s.
+  double begin();
+  // The state a time t after free flight began.
+  void closed_form(double t, State& y);
+
+  std::unique_ptr<Integrator> other_;
+  const StruckBeam& beam_;
+  NaturalModes modes_;
+  std::size_t n_;                 // modes
+  std::vector<double> phi_rows_;  // Phi row by row
+  EventFreeHorizon horizon_;
+  double max_step_;
+  bool flying_ = false;            // the last step was a free flight
+  bool other_is_current_ = false;  // other_ stands at (t1_, y1_)
+  double other_step_ = 0.0;        // its last step, s
+  int steps_since_horizon_ = 0;    // its steps since a horizon was last computed
+  long flights_ = 0;
+
+  std::vector<double> shape_;        // w_e
+  std::vector<double> equilibrium_;  // Phi^T Mass w_e, as z0_
+  std::vector<double> z0_, rates0_;  // as free flight began: the striker, then the modes
+  std::vector<double> z_, rates_, force_, curvatures_, low_, high_;
+};
+
+}  // namespace subimpact
