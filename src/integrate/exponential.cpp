@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "numerics/gauss.h"
 #include "numerics/hermite.h"
 #include "numerics/lanes.h"
 
@@ -224,7 +225,7 @@ void Exponential::forced_step() {
     const NodeForces free = trial.free_displacements(y0_);
     NodeForces forces;
     for (std::size_t i = 0; i < n_force_nodes; ++i) {
-      forces[i] = start.value + start.slope * rate0 * gauss_points()[i] * h;
+      forces[i] = start.value + start.slope * rate0 * gauss<n_force_nodes>.points[i] * h;
     }
     NodeForces lambda;
     if (solve(trial, free, forces, lambda)) {
@@ -242,7 +243,7 @@ void Exponential::forced_step() {
       double doubt = 0.0;
       const HermiteCubic path(lambda0, rate0, lambda1_, rate1_, h);
       for (std::size_t i = 0; i < n_force_nodes; ++i) {
-        doubt = std::max(doubt, std::abs(path(gauss_points()[i]) - lambda[i]));
+        doubt = std::max(doubt, std::abs(path(gauss<n_force_nodes>.points[i]) - lambda[i]));
       }
       if (error <= tolerance && is_decided({lambda0, rate0, lambda1_, rate1_}, h, 2.0 * doubt)) {
         if (error <= room_to_grow * tolerance) level_ = std::max(level_ - 1, first_level_);
