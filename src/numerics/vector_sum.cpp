@@ -1,7 +1,7 @@
 #include "numerics/vector_sum.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <utility>
 
 #include "numerics/lanes.h"
 
@@ -20,7 +20,8 @@ struct Terms {
 };
 
 template <std::size_t N>
-void write_terms(const Terms<N> terms, double* out, std::size_t n) {
+void write_terms(const double* weights, const double* const* vectors, double* out, std::size_t n) {
+  const Terms<N> terms(weights, vectors);
 #pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0.0;
@@ -31,7 +32,8 @@ void write_terms(const Terms<N> terms, double* out, std::size_t n) {
 }
 
 template <std::size_t N>
-double squares(const Terms<N> terms, std::size_t n) {
+double square_terms(const double* weights, const double* const* vectors, std::size_t n) {
+  const Terms<N> terms(weights, vectors);
   Lanes running{};
   std::size_t i = 0;
   for (; i + n_lanes <= n; i += n_lanes) {
@@ -48,33 +50,37 @@ double squares(const Terms<N> terms, std::size_t n) {
   return total;
 }
 
-// Calls f with the terms, their number known to the compiler.
-template <std::size_t N = 0, class F>
-auto with_terms(std::size_t count, const double* weights, const double* const* vectors, F f) {
-  if constexpr (N < VectorSum::most_terms) {
-    if (count > N) return with_terms<N + 1>(count, weights, vectors, f);
-  }
-  return f(Terms<N>(weights, vectors));
+// Kernels for 0, 1, ... terms.
+template <class Kernel, std::size_t... N>
+constexpr auto kernels_of(Kernel kernel, std::index_sequence<N...>) {
+  return std::array{kernel(std::integral_constant<std::size_t, N>())...};
 }
+
+// More terms than this have too many addresses for the processor's registers.
+constexpr std::size_t most_at_once = 10;
 
 }  // namespace
 
-void VectorSum::add(double weight, const double* vector) {
-  if (weight == 0.0) return;
-  if (is_full()) throw std::length_error("VectorSum: more than 20 vectors");
-  weights_[count_] = weight;
-  vectors_[count_] = vector;
-  ++count_;
-}
-
 void VectorSum::write(double* out, std::size_t n) const {
-  with_terms(count_, weights_.data(), vectors_.data(),
-             [&](const auto& terms) { write_terms(terms, out, n); });
+  static constexpr auto kernels = kernels_of([](auto count) { return &write_terms<count>; },
+                                             std::make_index_sequence<most_at_once + 1>());
+  std::size_t done = std::min(count_, most_at_once);
+  kernels[done](weights_.data(), vectors_.data(), out, n);
+  while (done < count_) {  // the sum so far and some more terms
+    const std::size_t more = std::min(count_ - done, most_at_once - 1);
+    std::array<double, most_at_once> weights{1.0};
+    std::array<const double*, most_at_once> vectors{out};
+    std::copy_n(weights_.begin() + done, more, weights.begin() + 1);
+    std::copy_n(vectors_.begin() + done, more, vectors.begin() + 1);
+    kernels[more + 1](weights.data(), vectors.data(), out, n);
+    done += more;
+  }
 }
 
 double VectorSum::sum_of_squares(std::size_t n) const {
-  return with_terms(count_, weights_.data(), vectors_.data(),
-                    [&](const auto& terms) { return squares(terms, n); });
+  static constexpr auto kernels = kernels_of([](auto count) { return &square_terms<count>; },
+                                             std::make_index_sequence<most_terms + 1>());
+  return kernels[count_](weights_.data(), vectors_.data(), n);
 }
 
 }  // namespace subimpact
