@@ -56,8 +56,8 @@ void compare_solves(const Settings& settings) {
         solver.solve(x);
       }
     };
-    const std::vector<double> seconds = seconds_side_by_side(
-        settings, {[&] { solve_many(banded); }, [&] { solve_many(*klu); }});
+    const std::vector<double> seconds =
+        seconds_side_by_side(settings, {[&] { solve_many(banded); }, [&] { solve_many(*klu); }});
     fmt::print("{:10} {:16.3f} {:12.3f} {:8.2f}\n", n, 1e6 * seconds[0] / n_solves,
                1e6 * seconds[1] / n_solves, seconds[1] / seconds[0]);
   }
