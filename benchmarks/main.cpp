@@ -21,7 +21,7 @@ std::span<const Part> all_parts() {
       {"evaluation",
        "cost of a right-hand side of erk and nystrom against a central-difference step",
        measure_evaluation},
-      {"mass", "tridiagonal mass solver against KLU", measure_mass},
+      {"mass", "banded mass solver against KLU", measure_mass},
       {"reversals", "sections put right at step ends against history advanced there only",
        measure_reversals},
       {"events", "finding every event and stating its error, against the runs alone",

@@ -1,4 +1,4 @@
-// The tridiagonal mass solver against KLU: whole runs, and single solves over the number of
+// The banded mass solver against KLU: whole runs, and single solves over the number of
 // unknowns.
 
 #include <fmt/format.h>
@@ -14,12 +14,12 @@ namespace {
 
 void compare_runs(const Settings& settings) {
   fmt::print("Elastic section, half model of 501 cells, 2 ms.\n\n");
-  fmt::print("{:44} {:>14} {:>10} {:>8}\n", "", "tridiagonal s", "klu s", "ratio");
-  const auto row = [&](const char* name, const Case& with_tridiagonal) {
-    Case with_klu = with_tridiagonal;
+  fmt::print("{:44} {:>14} {:>10} {:>8}\n", "", "banded s", "klu s", "ratio");
+  const auto row = [&](const char* name, const Case& with_banded) {
+    Case with_klu = with_banded;
     with_klu.solver.mass_solver = MassSolverKind::klu;
     const std::vector<double> seconds = seconds_side_by_side(
-        settings, {[&] { run_to_end(with_tridiagonal); }, [&] { run_to_end(with_klu); }});
+        settings, {[&] { run_to_end(with_banded); }, [&] { run_to_end(with_klu); }});
     fmt::print("{:44} {:14.4f} {:10.4f} {:8.2f}\n", name, seconds[0], seconds[1],
                seconds[1] / seconds[0]);
   };
@@ -39,11 +39,11 @@ void compare_runs(const Settings& settings) {
 
 void compare_solves(const Settings& settings) {
   fmt::print("\nOne solve with the mass matrix of the whole beam, factored before.\n\n");
-  fmt::print("{:>10} {:>16} {:>12} {:>8}\n", "unknowns", "tridiagonal us", "klu us", "ratio");
+  fmt::print("{:>10} {:>16} {:>12} {:>8}\n", "unknowns", "banded us", "klu us", "ratio");
   const Beam beam = paper_case(SectionKind::elastic).scene.beam;
   for (const std::size_t n : {251, 501, 2001}) {
     const CellMesh mesh(beam, 0.5, n, CellMesh::Extent::whole);
-    const BandedSolver tridiagonal(mesh.mass());
+    const BandedSolver banded(mesh.mass());
     const auto klu = make_klu_mass_solver(mesh.mass());
     std::vector<double> right_hand_side(n), x(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -56,8 +56,8 @@ void compare_solves(const Settings& settings) {
         solver.solve(x);
       }
     };
-    const std::vector<double> seconds = seconds_side_by_side(
-        settings, {[&] { solve_many(tridiagonal); }, [&] { solve_many(*klu); }});
+    const std::vector<double> seconds =
+        seconds_side_by_side(settings, {[&] { solve_many(banded); }, [&] { solve_many(*klu); }});
     fmt::print("{:10} {:16.3f} {:12.3f} {:8.2f}\n", n, 1e6 * seconds[0] / n_solves,
                1e6 * seconds[1] / n_solves, seconds[1] / seconds[0]);
   }

@@ -82,7 +82,7 @@ void solve(benchmark::State& state, MassSolverKind kind) {
     benchmark::ClobberMemory();
   }
 }
-BENCHMARK_CAPTURE(solve, tridiagonal, MassSolverKind::tridiagonal);
+BENCHMARK_CAPTURE(solve, banded, MassSolverKind::banded);
 BENCHMARK_CAPTURE(solve, klu, MassSolverKind::klu);
 
 // One section law on a branch behind `reversals` turns.

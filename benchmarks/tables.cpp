@@ -15,7 +15,8 @@ namespace {
 
 std::vector<std::pair<Method, std::string>> methods_and_tables() {
   std::vector<std::pair<Method, std::string>> list;
-  for (const ExplicitTable& table : explicit_tables()) list.emplace_back(Method::erk, table.name);
+  for (const CoefficientTable& table : explicit_tables())
+    list.emplace_back(Method::erk, table.name);
   for (const NystromTable& table : nystrom_tables()) {
     list.emplace_back(Method::nystrom, table.name);
   }

@@ -91,7 +91,7 @@ std::span<const Named<Method>> names_of(Method) {
 
 std::span<const Named<MassSolverKind>> names_of(MassSolverKind) {
   static constexpr Named<MassSolverKind> names[] = {
-      {MassSolverKind::tridiagonal, "tridiagonal", "own banded factorisation"},
+      {MassSolverKind::banded, "banded", "own banded factorisation"},
       {MassSolverKind::klu, "klu", "SuiteSparse's general sparse factorisation"},
   };
   return names;

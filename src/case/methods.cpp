@@ -77,32 +77,14 @@ IntegratorPointer make_exponential(const Case& input, const Used& used, StruckBe
   return std::make_unique<Exponential>(std::make_unique<ModalBeam>(beam), options);
 }
 
-template <class Table>
-std::vector<MethodTable> explicit_list(Method method, const std::vector<Table>& tables,
-                                       int (*evaluations)(const Table&)) {
+template <class Tables>
+std::vector<MethodTable> list_of(Method method, const Tables& tables) {
   std::vector<MethodTable> list;
-  for (const Table& table : tables) {
+  for (const CoefficientTable& table : tables) {
     list.push_back(
-        {method, table.name, table.order, table.embedded_order, evaluations(table), table.note});
+        {method, table.name, table.order, table.embedded_order, table.evaluations, table.note});
   }
   return list;
-}
-
-std::vector<MethodTable> erk_list() {
-  return explicit_list<ExplicitTable>(Method::erk, explicit_tables(),
-                                      [](const ExplicitTable& t) { return t.evaluations; });
-}
-std::vector<MethodTable> nystrom_list() {
-  return explicit_list<NystromTable>(Method::nystrom, nystrom_tables(),
-                                     [](const NystromTable& t) { return t.evaluations(); });
-}
-std::vector<MethodTable> dirk_list() {
-  return explicit_list<ImplicitTable>(Method::dirk, dirk_tables(),
-                                      [](const ImplicitTable& t) { return t.stages; });
-}
-std::vector<MethodTable> imex_list() {
-  return explicit_list<ImplicitTable>(Method::imex, imex_tables(),
-                                      [](const ImplicitTable& t) { return t.stages; });
 }
 
 std::vector<MethodDescriptor> make_descriptors() {
@@ -126,7 +108,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .sundials = true,
        .modes = Modes::where_cheaper,
        .radians_per_evaluation = erk_radians,
-       .tables = erk_list,
+       .tables = [] { return list_of(Method::erk, explicit_tables()); },
        .make =
            [](const Case& input, const Used& used, StruckBeam& beam) {
              return make_arkode_erk(beam, one_step_options<ErkOptions>(input, used));
@@ -137,7 +119,7 @@ std::vector<MethodDescriptor> make_descriptors() {
                "its cost",
        .modes = Modes::where_cheaper,
        .radians_per_evaluation = nystrom_radians,
-       .tables = nystrom_list,
+       .tables = [] { return list_of(Method::nystrom, nystrom_tables()); },
        .make = [](const Case& input, const Used& used, StruckBeam& beam) -> IntegratorPointer {
          return make_nystrom(input, used, beam);
        }},
@@ -156,7 +138,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .implicit = true,
        .sundials = true,
        .audit_interval = 4,
-       .tables = dirk_list,
+       .tables = [] { return list_of(Method::dirk, dirk_tables()); },
        .make =
            [](const Case& input, const Used& used, StruckBeam& beam) {
              return make_arkode_dirk(beam, one_step_options<ArkOptions>(input, used));
@@ -168,7 +150,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .implicit = true,
        .sundials = true,
        .audit_interval = 4,
-       .tables = imex_list,
+       .tables = [] { return list_of(Method::imex, imex_tables()); },
        .make =
            [](const Case& input, const Used& used, StruckBeam& beam) {
              return make_arkode_imex(beam, one_step_options<ArkOptions>(input, used));

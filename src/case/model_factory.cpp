@@ -236,7 +236,7 @@ bool in_modes(const Case& input, const BeamMesh& mesh) {
     case MethodDescriptor::Modes::always:
       return true;
     case MethodDescriptor::Modes::where_cheaper:
-      return mesh.prefers_modes() && input.solver.mass_solver == MassSolverKind::tridiagonal;
+      return mesh.prefers_modes() && input.solver.mass_solver == MassSolverKind::banded;
     case MethodDescriptor::Modes::never:
       return false;
   }

@@ -10,18 +10,10 @@
 
 namespace subimpact {
 
-/// An implicit table of `dirk`, or a pair of an implicit and an explicit table of `imex`.
-struct ImplicitTable {
-  std::string name;
-  int order;
-  int embedded_order;
-  int stages;
-  std::string note;  ///< what it is for, and its source
-};
-
-/// The tables, in the order in which users see them; the first is the default.
-const std::vector<ImplicitTable>& dirk_tables();
-const std::vector<ImplicitTable>& imex_tables();
+/// The implicit tables, and the pairs of an implicit and an explicit one, in the order in which
+/// users see them; the first is the default.
+const std::vector<CoefficientTable>& dirk_tables();
+const std::vector<CoefficientTable>& imex_tables();
 
 struct ArkOptions {
   std::string table;

@@ -5,21 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "integrate/coefficient_table.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
 
-/// An explicit embedded Runge-Kutta table that `erk` can use.
-struct ExplicitTable {
-  std::string name;
-  int order;
-  int embedded_order;
-  int evaluations;   ///< right-hand sides an accepted step costs
-  std::string note;  ///< what it is for, and its source
-};
-
-/// The tables, in the order in which users see them; the first is the default.
-const std::vector<ExplicitTable>& explicit_tables();
+/// The explicit embedded tables, in the order in which users see them; the first is the default.
+const std::vector<CoefficientTable>& explicit_tables();
 
 /// Which vector operations SUNDIALS runs on. Debian's library is compiled without optimisation, so
 /// the project brings its own; the library's stay selectable for the comparison.

@@ -1,10 +1,12 @@
 #include "integrate/exponential.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "numerics/gauss.h"
 #include "numerics/hermite.h"
 #include "numerics/lanes.h"
 
@@ -21,41 +23,6 @@ constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
 constexpr double slope_error_per_error = 4.0;
 // The estimate falls by about 2^5 when a step is halved; the step is doubled below half of that.
 constexpr double part_for_doubling = 1.0 / 64.0;
-
-// sum |a_i b_i|
-double sum_of_sizes(const double* a, const double* b, std::size_t n) {
-  Lanes running{};
-  std::size_t i = 0;
-  for (; i + n_lanes <= n; i += n_lanes) {
-    const Lanes term = lanes_at(a + i) * lanes_at(b + i);
-    running += term < 0.0 ? -term : term;
-  }
-  double total = sum(running);
-  for (; i < n; ++i) total += std::abs(a[i] * b[i]);
-  return total;
-}
-
-// Gaussian elimination with row pivoting, in place; the solution replaces b.
-void solve_linear(std::array<NodeForces, n_force_nodes>& a, NodeForces& b) {
-  constexpr std::size_t n = n_force_nodes;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < n; ++i) {
-      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
-    }
-    std::swap(a[k], a[pivot]);
-    std::swap(b[k], b[pivot]);
-    for (std::size_t i = k + 1; i < n; ++i) {
-      const double factor = a[i][k] / a[k][k];
-      for (std::size_t j = k; j < n; ++j) a[i][j] -= factor * a[k][j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (std::size_t k = n; k-- > 0;) {
-    for (std::size_t j = k + 1; j < n; ++j) b[k] -= a[k][j] * b[j];
-    b[k] /= a[k][k];
-  }
-}
 
 }  // namespace
 
@@ -98,7 +65,7 @@ void Exponential::restart(double t, const State& y) {
 }
 
 void Exponential::step() {
-  size_ = sum_of_sizes(oscillators_.displacements().data(), y1_.data(), n_);
+  size_ = dot_of_size(oscillators_.displacements().data(), y1_.data(), n_);
   std::swap(y0_, y1_);
   y1_.resize(y0_.size());
   t0_ = t1_;
@@ -186,7 +153,9 @@ bool Exponential::solve(const OscillatorStep& step, const NodeForces& free, Node
       for (std::size_t j = 0; j < n; ++j) jacobian[i][j] = -at.slope * step.compliance(i, j);
       jacobian[i][i] += 1.0;
     }
-    solve_linear(jacobian, change);
+    const Eigen::Map<const Eigen::Matrix<double, n, n, Eigen::RowMajor>> matrix(jacobian[0].data());
+    Eigen::Map<Eigen::Vector<double, n>> unknowns(change.data());
+    unknowns = matrix.partialPivLu().solve(unknowns).eval();
     double size = 0.0;
     double largest = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -225,7 +194,7 @@ void Exponential::forced_step() {
     const NodeForces free = trial.free_displacements(y0_);
     NodeForces forces;
     for (std::size_t i = 0; i < n_force_nodes; ++i) {
-      forces[i] = start.value + start.slope * rate0 * gauss_points()[i] * h;
+      forces[i] = start.value + start.slope * rate0 * gauss<n_force_nodes>.points[i] * h;
     }
     NodeForces lambda;
     if (solve(trial, free, forces, lambda)) {
@@ -243,7 +212,8 @@ void Exponential::forced_step() {
       double uncertainty = 0.0;
       const HermiteCubic path(lambda0, rate0, lambda1_, rate1_, h);
       for (std::size_t i = 0; i < n_force_nodes; ++i) {
-        uncertainty = std::max(uncertainty, std::abs(path(gauss_points()[i]) - lambda[i]));
+        uncertainty =
+            std::max(uncertainty, std::abs(path(gauss<n_force_nodes>.points[i]) - lambda[i]));
       }
       if (error <= tolerance &&
           resolves_side({lambda0, rate0, lambda1_, rate1_}, h, 2.0 * uncertainty)) {

@@ -1,10 +1,12 @@
 #include "integrate/nystrom.h"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "numerics/vector_sum.h"
 
 namespace subimpact {
 namespace {
@@ -18,80 +20,11 @@ constexpr int most_rejections = 40;
 // A step shorter than this part of the time it starts at advances by little but rounding.
 constexpr double shortest_step = 16.0 * std::numeric_limits<double>::epsilon();
 
-// The nonzero terms of a row of coefficients.
-struct Terms {
-  std::array<double, 20> weight;
-  std::array<const double*, 20> column;
-  std::size_t count = 0;
-
-  Terms(const std::vector<double>& row, std::size_t length,
-        const std::vector<AlignedVector>& stages, double factor) {
-    for (std::size_t j = 0; j < length; ++j) {
-      if (row[j] == 0.0) continue;
-      weight[count] = factor * row[j];
-      column[count] = stages[j].data();
-      ++count;
-    }
-  }
-};
-
-template <std::size_t N>
-void sum_up(const double* base, double h, const double* rate, const Terms& terms, double* out,
-            std::size_t n) {
-  // Copies, which no store to `out` can change.
-  std::array<double, N> weight;
-  std::array<const double*, N> column;
-  std::copy_n(terms.weight.begin(), N, weight.begin());
-  std::copy_n(terms.column.begin(), N, column.begin());
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < n; ++i) {
-    double sum = base[i] + h * rate[i];
-    for (std::size_t k = 0; k < N; ++k) sum += weight[k] * column[k][i];
-    out[i] = sum;
-  }
-}
-
-// out = base + h rate + sum of terms.
-template <std::size_t N = 0>
-void combine(const double* base, double h, const double* rate, const Terms& terms, double* out,
-             std::size_t n) {
-  if constexpr (N <= 17) {
-    if (terms.count == N) return sum_up<N>(base, h, rate, terms, out, n);
-    return combine<N + 1>(base, h, rate, terms, out, n);
-  }
-}
-
-template <std::size_t N>
-double squares(const Terms& terms, std::size_t n) {
-  std::array<double, N> weight;
-  std::array<const double*, N> column;
-  std::copy_n(terms.weight.begin(), N, weight.begin());
-  std::copy_n(terms.column.begin(), N, column.begin());
-  Lanes running{};
-  std::size_t i = 0;
-  for (; i + n_lanes <= n; i += n_lanes) {
-    Lanes here{};
-    for (std::size_t k = 0; k < N; ++k) here += weight[k] * lanes_at(column[k] + i);
-    running += here * here;
-  }
-  double total = sum(running);
-  for (; i < n; ++i) {
-    double here = 0.0;
-    for (std::size_t k = 0; k < N; ++k) here += weight[k] * column[k][i];
-    total += here * here;
-  }
-  return total;
-}
-
-// Sum over the entries of (sum of terms)^2.
-template <std::size_t N = 0>
-double sum_of_squares(const Terms& terms, std::size_t n) {
-  if constexpr (N <= 17) {
-    if (terms.count == N) return squares<N>(terms, n);
-    return sum_of_squares<N + 1>(terms, n);
-  } else {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+// Adds factor * sum_j row[j] stages[j] over the first `length` stages.
+void add_stages(VectorSum& sum, const std::vector<double>& row, std::size_t length,
+                const std::vector<AlignedVector>& stages, double factor) {
+  assert(row.size() >= length && stages.size() >= length);
+  for (std::size_t j = 0; j < length; ++j) sum.add(factor * row[j], stages[j].data());
 }
 
 }  // namespace
@@ -129,22 +62,34 @@ void Nystrom::advance(double h, std::vector<Vector>& stages, State& y) {
   const double* q0 = y0_.data();
   const double* v0 = q0 + n_;
   double* q = y.data();
-  const std::size_t n_stages = table_.n_stages();
-  const std::size_t n_inner = n_stages - (first_same_as_last_ ? 1 : 0);
+  // q0 + time v0 + h^2 sum_j row[j] k_j
+  const auto write_position = [&](double time, const std::vector<double>& row, std::size_t length) {
+    VectorSum position;
+    position.add(1.0, q0);
+    position.add(time, v0);
+    add_stages(position, row, length, stages, h * h);
+    position.write(q, n_);
+  };
+  const std::size_t n_inner = table_.n_stages() - (first_same_as_last_ ? 1 : 0);
   for (std::size_t i = 1; i < n_inner; ++i) {
-    combine(q0, table_.c[i] * h, v0, Terms(table_.a[i], i, stages, h * h), q, n_);
+    write_position(table_.c[i] * h, table_.a[i], i);
     accelerate(q, stages[i]);
   }
-  combine(q0, h, v0, Terms(table_.position, n_inner, stages, h * h), q, n_);
+  write_position(h, table_.position, n_inner);
   if (first_same_as_last_ && &stages == &stages_) accelerate(q, stages.back());
   // The velocity weights of a table that ends on the next step's first stage leave that stage out.
-  combine(v0, 0.0, v0, Terms(table_.velocity, n_inner, stages, h), q + n_, n_);
+  VectorSum velocity;
+  velocity.add(1.0, v0);
+  add_stages(velocity, table_.velocity, n_inner, stages, h);
+  velocity.write(q + n_, n_);
 }
 
 double Nystrom::error_norm(double h) const {
-  const Terms position(table_.position_error, table_.n_stages(), stages_, h * h * position_weight_);
-  const Terms velocity(table_.velocity_error, table_.n_stages(), stages_, h * velocity_weight_);
-  const double sum = sum_of_squares(position, n_) + sum_of_squares(velocity, n_);
+  const std::size_t n_stages = table_.n_stages();
+  VectorSum position, velocity;
+  add_stages(position, table_.position_error, n_stages, stages_, h * h * position_weight_);
+  add_stages(velocity, table_.velocity_error, n_stages, stages_, h * velocity_weight_);
+  const double sum = position.sum_of_squares(n_) + velocity.sum_of_squares(n_);
   return std::sqrt(sum / static_cast<double>(2 * n_));
 }
 

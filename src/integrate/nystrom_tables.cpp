@@ -141,7 +141,13 @@ bool NystromTable::first_same_as_last() const {
 }
 
 const std::vector<NystromTable>& nystrom_tables() {
-  static const std::vector<NystromTable> tables = {dprkn8(), dprkn12()};
+  static const std::vector<NystromTable> tables = [] {
+    std::vector<NystromTable> list = {dprkn8(), dprkn12()};
+    for (NystromTable& table : list) {
+      table.evaluations = static_cast<int>(table.n_stages()) - (table.first_same_as_last() ? 1 : 0);
+    }
+    return list;
+  }();
   return tables;
 }
 

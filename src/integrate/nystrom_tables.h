@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "integrate/coefficient_table.h"
+
 namespace subimpact {
 
 /// An embedded Runge-Kutta-Nystroem table for q'' = a(q): stages
@@ -11,11 +13,7 @@ namespace subimpact {
 ///     q' = q + h v + h^2 sum position_i k_i,    v' = v + h sum velocity_i k_i,
 ///
 /// and differences to the embedded method (order `embedded_order`) for the error estimate.
-struct NystromTable {
-  std::string name;
-  std::string note;  ///< what it is for
-  int order = 0;
-  int embedded_order = 0;
+struct NystromTable : CoefficientTable {
   std::vector<double> c;
   std::vector<std::vector<double>> a;  ///< a[i] has i entries
   std::vector<double> position, velocity;
@@ -24,8 +22,6 @@ struct NystromTable {
   std::size_t n_stages() const { return c.size(); }
   /// Whether the last stage is the acceleration at the step's end, and so the next step's first.
   bool first_same_as_last() const;
-  /// Accelerations an accepted step costs.
-  int evaluations() const { return static_cast<int>(n_stages()) - (first_same_as_last() ? 1 : 0); }
 };
 
 /// All tables; the first is the default.

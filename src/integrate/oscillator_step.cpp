@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "numerics/gauss.h"
 #include "numerics/lanes.h"
 #include "numerics/stumpff.h"
 
@@ -14,7 +15,7 @@ constexpr std::size_t s = n_force_nodes;
 using Basis = std::array<std::array<double, s>, s>;
 
 Basis make_basis() {
-  const auto& x = gauss_points();
+  constexpr auto x = gauss<s>.points;
   Basis basis{};
   for (std::size_t j = 0; j < s; ++j) {
     std::array<double, s> product{1.0};
@@ -81,16 +82,6 @@ void store(const Lanes& values, std::span<double> to, std::size_t i) {
 
 }  // namespace
 
-const std::array<double, s>& gauss_points() {
-  static const std::array<double, s> points = [] {
-    const double outer = std::sqrt(3.0 / 7.0 + 2.0 / 7.0 * std::sqrt(1.2));
-    const double inner = std::sqrt(3.0 / 7.0 - 2.0 / 7.0 * std::sqrt(1.2));
-    return std::array<double, s>{0.5 - 0.5 * outer, 0.5 - 0.5 * inner, 0.5 + 0.5 * inner,
-                                 0.5 + 0.5 * outer};
-  }();
-  return points;
-}
-
 ForcePolynomial::ForcePolynomial(const NodeForces& values) {
   for (std::size_t j = 0; j < s; ++j) {
     for (std::size_t m = 0; m < s; ++m) coefficients_[m] += values[j] * basis()[m][j];
@@ -133,7 +124,7 @@ OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double leng
     const Lanes scale = d * l * h * h;
     response += scale * at_end[2];
     for (std::size_t i = 0; i < s; ++i) {
-      const double theta = gauss_points()[i];
+      const double theta = gauss<s>.points[i];
       const auto at_node = stumpff(x * theta);
       store(d * at_node[0], free_position_[i], k);
       store(d * theta * h * at_node[1], free_velocity_[i], k);

@@ -12,9 +12,6 @@ namespace subimpact {
 constexpr std::size_t n_force_nodes = 4;
 using NodeForces = std::array<double, n_force_nodes>;
 
-/// Gauss points in (0, 1), ascending.
-const std::array<double, n_force_nodes>& gauss_points();
-
 /// The cubic through values at the Gauss points, by its coefficients of s^m/m!, s in [0, 1].
 class ForcePolynomial {
  public:

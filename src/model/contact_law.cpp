@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "numerics/bracketed_root.h"
+
 namespace subimpact {
 namespace {
 
@@ -68,11 +70,7 @@ double ContactLaw::indentation_at(double energy) const {
     high = 2.0 * low;
   }
   for (int i = 0; i < most_doublings && too_little(high); ++i) high *= 2.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (too_little(middle) ? low : high) = middle;
-  }
-  return high;
+  return root_in([&](double x) { return work_up_to(*this, x) - energy; }, low, high);
 }
 
 }  // namespace subimpact

@@ -3,30 +3,23 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numerics/bracketed_root.h"
+#include "numerics/gauss.h"
+
 namespace subimpact {
 namespace {
 
-ElementRule gauss_points(std::size_t n) {
-  switch (n) {
-    case 2: {
-      const double x = std::sqrt(1.0 / 3.0);
-      return {{-x, x}, {0.5, 0.5}, {}};
-    }
-    case 3: {
-      const double x = std::sqrt(0.6);
-      return {{-x, 0.0, x}, {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0}, {}};
-    }
-    case 4: {
-      const double root = std::sqrt(1.2);
-      const double inner = std::sqrt((3.0 - 2.0 * root) / 7.0);
-      const double outer = std::sqrt((3.0 + 2.0 * root) / 7.0);
-      const double part = std::sqrt(30.0) / 72.0;
-      return {
-          {-outer, -inner, inner, outer}, {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part}, {}};
-    }
-    default:
-      throw std::invalid_argument("hermite mesh: 2, 3 or 4 sections an element");
+// In eta = 2 s - 1, from the points up to the middle, which have the most digits.
+template <std::size_t n>
+ElementRule gauss_in_eta() {
+  ElementRule rule;
+  for (std::size_t i = 0; i < n; ++i) {
+    rule.points.push_back(2 * i < n ? 2.0 * gauss<n>.points[i] - 1.0
+                                    : 1.0 - 2.0 * gauss<n>.points[n - 1 - i]);
+    rule.weights.push_back(gauss<n>.weights[i]);
+    rule.of_curvature.push_back({1.0, rule.points.back()});
   }
+  return rule;
 }
 
 // Two points and weights at distances x (shares of the element) from a hinge that, with the hinge's
@@ -44,24 +37,28 @@ Pair pair_with(double near) {
 
 // The pair that integrates x^(-1/2), too.
 Pair pair_beside_hinge() {
-  double low = 1e-3;  // the nearer point too near: too much of the peak
-  double high = 0.2;  // Gauss: 0.211, too little
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    const Pair pair = pair_with(middle);
-    const double integral =
-        pair.near_weight / std::sqrt(pair.near) + pair.far_weight / std::sqrt(pair.far);
-    (integral > 2.0 ? low : high) = middle;
-  }
-  return pair_with(0.5 * (low + high));
+  const double too_near = 1e-3;  // too much of the peak
+  const double too_far = 0.2;    // too little, as at Gauss' 0.211
+  const auto excess = [](double near) {
+    const Pair pair = pair_with(near);
+    return pair.near_weight / std::sqrt(pair.near) + pair.far_weight / std::sqrt(pair.far) - 2.0;
+  };
+  return pair_with(root_in(excess, too_near, too_far));
 }
 
 }  // namespace
 
 ElementRule gauss_rule(std::size_t n) {
-  ElementRule rule = gauss_points(n);
-  for (const double eta : rule.points) rule.of_curvature.push_back({1.0, eta});
-  return rule;
+  switch (n) {
+    case 2:
+      return gauss_in_eta<2>();
+    case 3:
+      return gauss_in_eta<3>();
+    case 4:
+      return gauss_in_eta<4>();
+    default:
+      throw std::invalid_argument("hermite mesh: 2, 3 or 4 sections per element");
+  }
 }
 
 ElementRule rule_beside_hinges(bool at_start, bool at_end) {

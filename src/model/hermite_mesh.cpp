@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "model/hermite_modes.h"
+#include "numerics/bracketed_root.h"
 
 namespace subimpact {
 namespace {
@@ -419,19 +420,17 @@ double HermiteMesh::highest_frequency(double bending_stiffness) const {
   add_stiffness(std::vector<double>(n_sections(), bending_stiffness), stiffness);
   // s lies above the spectrum if s Mass - K is positive definite. No assembly exceeds the highest
   // frequency of its elements by themselves (Irons and Treharne).
-  double above = highest_element_frequency_squared(bending_stiffness);
-  double below = 0.0;
   BandedMatrix shifted(n_unknowns(), 3);
-  while (above - below > bound_tolerance * above) {
-    const double s = 0.5 * (below + above);
+  const auto within_spectrum = [&](double s) {
     for (std::size_t i = 0; i < n_unknowns(); ++i) {
       for (std::size_t j = i; j < std::min(i + 4, n_unknowns()); ++j) {
         shifted.at(i, j) = s * mass_.at(i, j) - stiffness.at(i, j);
       }
     }
-    (shifted.is_positive_definite() ? above : below) = s;
-  }
-  return std::sqrt(above);
+    return !shifted.cholesky_factor();
+  };
+  const double bound = highest_element_frequency_squared(bending_stiffness);
+  return std::sqrt(bisect(within_spectrum, 0.0, bound, bound_tolerance).second);
 }
 
 // Of equal elements, with nothing between them.

@@ -1,12 +1,15 @@
 #include "numerics/banded_matrix.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 #include "numerics/lanes.h"
 
 namespace subimpact {
 
 void BandedMatrix::multiply(std::span<const double> x, std::span<double> result) const {
+  assert(x.size() == size_ && result.size() == size_);
   for (std::size_t i = 0; i < size_; ++i) result[i] = values_[i] * x[i];
   for (std::size_t k = 1; k <= half_bandwidth_; ++k) {
     const double* off = values_.data() + k * size_;
@@ -18,6 +21,7 @@ void BandedMatrix::multiply(std::span<const double> x, std::span<double> result)
 }
 
 double BandedMatrix::quadratic_form(std::span<const double> x) const {
+  assert(x.size() == size_);
   const double* at = x.data();
   const std::size_t width = std::min(half_bandwidth_ + 1, size_);
   const std::size_t whole = (size_ + 1 - width) / n_lanes * n_lanes;
@@ -41,25 +45,20 @@ double BandedMatrix::quadratic_form(std::span<const double> x) const {
   return total;
 }
 
-bool BandedMatrix::is_positive_definite() const {
-  BandedMatrix factor(size_, half_bandwidth_);  // unit lower triangle; D on the diagonal
+std::optional<BandedMatrix> BandedMatrix::cholesky_factor() const {
+  BandedMatrix factor(size_, half_bandwidth_);
   for (std::size_t j = 0; j < size_; ++j) {
-    const std::size_t first = j > half_bandwidth_ ? j - half_bandwidth_ : 0;
-    double pivot = at(j, j);
-    for (std::size_t k = first; k < j; ++k) {
-      pivot -= factor.at(j, k) * factor.at(j, k) * factor.at(k, k);
-    }
-    if (!(pivot > 0.0)) return false;
-    factor.at(j, j) = pivot;
-    for (std::size_t i = j + 1; i <= std::min(j + half_bandwidth_, size_ - 1); ++i) {
-      double sum = at(i, j);
+    const std::size_t last = std::min(j + half_bandwidth_, size_ - 1);
+    for (std::size_t i = j; i <= last; ++i) {
+      double rest = at(i, j);
       for (std::size_t k = i > half_bandwidth_ ? i - half_bandwidth_ : 0; k < j; ++k) {
-        sum -= factor.at(i, k) * factor.at(j, k) * factor.at(k, k);
+        rest -= factor.at(i, k) * factor.at(j, k);
       }
-      factor.at(i, j) = sum / pivot;
+      if (i == j && !(rest > 0.0)) return std::nullopt;
+      factor.at(i, j) = i == j ? std::sqrt(rest) : rest / factor.at(j, j);
     }
   }
-  return true;
+  return factor;
 }
 
 }  // namespace subimpact

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,14 +30,17 @@ class BandedMatrix {
 
   /// result = A x.
   void multiply(std::span<const double> x, std::span<double> result) const;
-  /// Whether a Cholesky factorisation goes through.
-  bool is_positive_definite() const;
+  /// The lower triangular L of A = L L^T, read as at(i, j), i >= j; nothing if A is not positive
+  /// definite.
+  std::optional<BandedMatrix> cholesky_factor() const;
   /// x^T A x.
   double quadratic_form(std::span<const double> x) const;
 
  private:
   std::size_t index(std::size_t i, std::size_t j) const {
-    return i > j ? (i - j) * size_ + j : (j - i) * size_ + i;
+    const std::size_t apart = i > j ? i - j : j - i;
+    assert(apart <= half_bandwidth_ && std::max(i, j) < size_);
+    return apart * size_ + std::min(i, j);
   }
 
   std::size_t size_;

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
+
+#include "numerics/bracketed_root.h"
+#include "numerics/trajectory_root.h"
 
 namespace subimpact {
 
@@ -57,27 +61,15 @@ class HermiteCubic {
 
   /// Where the value rises through zero between `a` (not above) and `b` (above).
   double rise(double a, double b) const {
-    return bisect([this](double s) { return (*this)(s); }, a, b);
+    // From zero the value may fall first; rounding may have taken the sign at an end.
+    if ((*this)(a) == 0.0 && slope(a) < 0.0) a += epsilon * (b - a);
+    if (!((*this)(a) < 0.0)) return a;
+    if (!((*this)(b) > 0.0)) return b;
+    return root_in(*this, a, b);
   }
 
  private:
-  // Root of a function that is <= 0 at a and > 0 at b: false position kept in its bracket.
-  template <class F>
-  static double bisect(F f, double a, double b) {
-    double fa = f(a);
-    double fb = f(b);
-    for (int i = 0; i < 60 && b - a > 1e-14; ++i) {
-      const double middle = 0.5 * (a + b);
-      double s = fb - fa > 0.0 ? a - fa * (b - a) / (fb - fa) : middle;
-      if (i % 3 == 2 || !(s > a && s < b)) s = middle;
-      const double fs = f(s);
-      if (fs == 0.0) return s;
-      (fs < 0.0 ? a : b) = s;
-      (fs < 0.0 ? fa : fb) = fs;
-    }
-    return 0.5 * (a + b);
-  }
-
+  static constexpr double epsilon = std::numeric_limits<double>::epsilon();
   std::pair<double, double> turns() const {
     const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
     const double a = std::clamp((-c2_ - root) / (3.0 * c3_), 0.0, 1.0);
@@ -128,11 +120,14 @@ class HermiteSeptic {
     for (int i = 6; i >= 2; --i) sum = sum * s + i * (i - 1) * c_[i];
     return sum;
   }
-  /// Where the slope vanishes near a guess: Newton's method, kept in [0, 1].
+  /// Where the slope vanishes, given a guess, if it has opposite signs at 0 and at 1.
   double turn(double guess) const {
-    double s = guess;
-    for (int i = 0; i < 4; ++i) s = std::clamp(s - slope(s) / second(s), 0.0, 1.0);
-    return s;
+    const double sign = slope(1.0) > 0.0 ? 1.0 : -1.0;
+    return find_rise(
+        [&](double s) {
+          return GuardValue{sign * slope(s), sign * second(s)};
+        },
+        0.0, 1.0, guess, {1e-15});
   }
 
  private:

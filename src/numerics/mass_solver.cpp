@@ -2,7 +2,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
+#include <cassert>
+#include <optional>
 #include <stdexcept>
 
 #include "numerics/lanes.h"
@@ -12,31 +13,6 @@ namespace {
 
 constexpr std::size_t block_size = n_lanes;
 using Block = Eigen::Matrix<double, block_size, block_size>;
-
-// Lower-banded Cholesky factor, padded with the identity to a whole number of blocks.
-BandedMatrix cholesky_factor(const BandedMatrix& a, std::size_t padded) {
-  const std::size_t bandwidth = a.half_bandwidth();
-  BandedMatrix factor(padded, bandwidth);
-  for (std::size_t j = 0; j < padded; ++j) {
-    if (j >= a.size()) {
-      factor.at(j, j) = 1.0;
-      continue;
-    }
-    double pivot = a.at(j, j);
-    const std::size_t first = j > bandwidth ? j - bandwidth : 0;
-    for (std::size_t k = first; k < j; ++k) pivot -= factor.at(j, k) * factor.at(j, k);
-    if (!(pivot > 0.0)) throw std::invalid_argument("banded solver: matrix not positive definite");
-    factor.at(j, j) = std::sqrt(pivot);
-    for (std::size_t i = j + 1; i <= std::min(j + bandwidth, a.size() - 1); ++i) {
-      double sum = a.at(i, j);
-      for (std::size_t k = i > bandwidth ? i - bandwidth : 0; k < j; ++k) {
-        sum -= factor.at(i, k) * factor.at(j, k);
-      }
-      factor.at(i, j) = sum / factor.at(j, j);
-    }
-  }
-  return factor;
-}
 
 // D x - P z for one block: D is 8 x 8, P is 8 x width, z the `width` entries of `neighbour` from
 // `first` on.
@@ -87,16 +63,16 @@ BandedSolver::BandedSolver(const BandedMatrix& matrix)
       half_bandwidth_(matrix.half_bandwidth()) {
   static_assert(block == block_size);
   if (half_bandwidth_ > 3) throw std::invalid_argument("banded solver: half bandwidth above 3");
+  const std::optional<BandedMatrix> factor = matrix.cholesky_factor();
+  if (!factor) throw std::invalid_argument("banded solver: matrix not positive definite");
   if (half_bandwidth_ == 0) {
-    for (std::size_t i = 0; i < size_; ++i) {
-      if (!(matrix.at(i, i) > 0.0)) {
-        throw std::invalid_argument("banded solver: matrix not positive definite");
-      }
-      coefficients_.push_back(1.0 / matrix.at(i, i));
-    }
+    for (std::size_t i = 0; i < size_; ++i) coefficients_.push_back(1.0 / matrix.at(i, i));
     return;
   }
-  const BandedMatrix factor = cholesky_factor(matrix, n_blocks_ * block);
+  // The factor, filled up to whole blocks with the identity.
+  const auto entry = [&](std::size_t i, std::size_t j) {
+    return i < size_ ? (*factor)(i, j) : i == j ? 1.0 : 0.0;
+  };
   const std::size_t stride = block * (block + half_bandwidth_);
   std::vector<double> down(stride);
   std::vector<double> up(stride);
@@ -106,7 +82,7 @@ BandedSolver::BandedSolver(const BandedMatrix& matrix)
     for (std::size_t j = 0; j < block; ++j) {
       for (std::size_t i = j; i < block; ++i) {
         lower(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            factor(first + i, first + j);
+            entry(first + i, first + j);
       }
     }
     const Block inverse = lower.triangularView<Eigen::Lower>().solve(Block::Identity());
@@ -117,8 +93,8 @@ BandedSolver::BandedSolver(const BandedMatrix& matrix)
       for (std::size_t r = 0; r < block; ++r) {
         const auto row = static_cast<Eigen::Index>(r);
         const auto column = static_cast<Eigen::Index>(c);
-        if (b > 0) before(row, column) = factor(first + r, first - half_bandwidth_ + c);
-        if (b + 1 < n_blocks_) after(row, column) = factor(first + block + c, first + r);
+        if (b > 0) before(row, column) = entry(first + r, first - half_bandwidth_ + c);
+        if (b + 1 < n_blocks_) after(row, column) = entry(first + block + c, first + r);
       }
     }
     const Block coupling_before = inverse * before;
@@ -166,6 +142,7 @@ void BandedSolver::solve_with(double* x) const {
 }
 
 void BandedSolver::solve(std::span<double> x) const {
+  assert(x.size() == size_);
   switch (half_bandwidth_) {
     case 0:
       for (std::size_t i = 0; i < size_; ++i) x[i] *= coefficients_[i];

@@ -31,7 +31,7 @@ class BandedSolver final : public MassSolver {
  public:
   explicit BandedSolver(const BandedMatrix& matrix);
   void solve(std::span<double> x) const override;
-  std::string name() const override { return "tridiagonal"; }
+  std::string name() const override { return "banded"; }
 
  private:
   static constexpr std::size_t block = 8;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 
 #include "numerics/lanes.h"
@@ -23,6 +24,7 @@ struct StumpffLanes {
 };
 
 inline StumpffLanes stumpff(const Lanes& y) {
+  assert(!any(y < 0.0));
   const Lanes y2 = y * y;
   const LaneMask small = y < 1.0;
   const Lanes inverse = 1.0 / (small ? Lanes{} + 1.0 : y2);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cmath>
 
 namespace subimpact {
@@ -23,6 +24,7 @@ struct RootOptions {
 /// interpolant. Returns the last time at which `guard` was evaluated.
 template <class Guard>
 double find_rise(Guard guard, double a, double b, double guess, RootOptions options) {
+  assert(a <= b && options.tolerance >= 0.0 && options.max_iterations > 0);
   double t = guess > a && guess < b ? guess : 0.5 * (a + b);
   double last_size = 2.0 * (b - a);
   for (int i = 1;; ++i) {

@@ -4,22 +4,9 @@
 #include <string>
 
 #include "ode/second_order_ode.h"
+#include "subimpact/ode/work_counts.h"
 
 namespace subimpact {
-
-/// What the integration has cost so far.
-struct WorkCounts {
-  long steps = 0;  ///< accepted steps
-  long rejected_steps = 0;
-  long right_hand_sides = 0;  ///< evaluations of the acceleration asked for by the integrator
-  long partial_steps = 0;     ///< steps retaken to a time inside the last one
-  long mass_solves = 0;       ///< beyond those of the accelerations
-  long jacobians = 0;         ///< evaluations of the tangent stiffness
-  long factorisations = 0;    ///< numerical ones, of Newton matrices
-  long pattern_analyses = 0;  ///< symbolic ones: one a matrix
-  long nonlinear_iterations = 0;
-  long nonlinear_failures = 0;  ///< solves that did not converge
-};
 
 /// An integrator that cannot go on. `what()` says all; the parts are kept for reports.
 class IntegrationFailure : public std::runtime_error {

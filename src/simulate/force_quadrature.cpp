@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/gauss.h"
 #include "numerics/hermite.h"
 
 namespace subimpact {
 namespace {
-
-// Gauss' rule of three points on [0, 1].
-constexpr double gauss_points[] = {0.1127016653792583, 0.5, 0.8872983346207417};
-constexpr double gauss_weights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
 // Halvings of a step: each takes the error down 16 times.
 constexpr int most_halvings = 8;
@@ -24,7 +21,7 @@ double ForceQuadrature::between(const Node& a, const Node& b, const StruckBeam& 
   const HermiteCubic indentation(a.indentation, a.rate, b.indentation, b.rate, h);
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    sum += gauss_weights[i] * beam.contact().force(indentation(gauss_points[i]));
+    sum += gauss<3>.weights[i] * beam.contact().force(indentation(gauss<3>.points[i]));
   }
   return h * sum;
 }

@@ -40,17 +40,12 @@ void warn_of_short_contacts(const Recorder& recorder, double step, Result& resul
 void count_work(const Integrator& integrator, const StruckBeam& beam, const EventLoop& loop,
                 Work& work) {
   const WorkCounts counts = integrator.work();
-  work.steps = counts.steps;
-  work.rejected_steps = counts.rejected_steps;
-  work.partial_steps = counts.partial_steps;
+  static_cast<WorkCounts&>(work) = counts;
   work.right_hand_sides = beam.n_accelerations() + beam.n_forces();
   const bool in_modes = !beam.mesh().modal_stiffness().empty();  // where mass is diagonal
   work.mass_solves =
       in_modes ? 0 : beam.n_accelerations() + loop.n_correction_solves() + counts.mass_solves;
-  work.jacobians = counts.jacobians;
-  work.factorisations = (in_modes ? 0 : 1) + counts.factorisations;
-  work.nonlinear_iterations = counts.nonlinear_iterations;
-  work.nonlinear_failures = counts.nonlinear_failures;
+  work.factorisations += in_modes ? 0 : 1;
   work.roots = loop.n_events();
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "integrate/stability.h"
+#include "numerics/bracketed_root.h"
 #include "study/free_vibration.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
@@ -19,23 +20,20 @@ constexpr int n_steps = 32;  // of a trial
 constexpr double first_angle = 0.05;
 constexpr double last_angle = 30.0;
 constexpr double scan_factor = 1.02;
-constexpr int n_halvings = 30;
+constexpr double limit_tolerance = 2e-11;  // relative
 constexpr double fine_scan = 1e-4;
 
 // The smallest angle whose growth is not tolerated; `last_angle` if there is none.
 double first_unstable(const std::function<double(double)>& growth) {
+  const auto is_stable = [&](double angle) { return !(growth(angle) > 1.0 + tolerated_growth); };
   double stable = 0.0;
   double unstable = first_angle;
-  while (!(growth(unstable) > 1.0 + tolerated_growth)) {
+  while (is_stable(unstable)) {
     stable = unstable;
     unstable *= scan_factor;
     if (unstable > last_angle) return last_angle;
   }
-  for (int i = 0; i < n_halvings; ++i) {
-    const double middle = 0.5 * (stable + unstable);
-    (growth(middle) > 1.0 + tolerated_growth ? unstable : stable) = middle;
-  }
-  return unstable;
+  return bisect(is_stable, stable, unstable, limit_tolerance).second;
 }
 
 std::vector<std::string> explicit_methods() {

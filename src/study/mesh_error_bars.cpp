@@ -10,6 +10,7 @@
 #include "case/model_factory.h"
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
+#include "numerics/richardson.h"
 #include "study/error_part.h"
 #include "study/method_choice.h"
 #include "subimpact/study/match.h"
@@ -36,11 +37,10 @@ struct MeshSequence {
   double coarse_h, h, fine_h;
 
   std::optional<double> limit(double coarse, double here, double fine) const {
-    const double spread = std::pow(h, order) - std::pow(fine_h, order);
-    const double expected = (std::pow(coarse_h, order) - std::pow(h, order)) / spread;
+    const double expected = ratio_of_differences(coarse_h, h, fine_h, order);
     const double found = (coarse - here) / (here - fine);
     if (!(std::abs(found / expected - 1.0) <= order_doubt)) return std::nullopt;
-    return fine + (fine - here) * std::pow(fine_h, order) / spread;
+    return richardson_limit(here, fine, h / fine_h, order);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "case/model_factory.h"
+#include "numerics/richardson.h"
 #include "study/parallel.h"
 #include "subimpact/study/mesh_error_bars.h"
 #include "subimpact/study/plan.h"
@@ -70,15 +71,14 @@ struct Extrapolated {
 Extrapolated extrapolate(double t1, double t2, double t3, double ratio, double order) {
   Extrapolated result;
   const double last = t3 - t2;
-  const double gain = 1.0 / (std::pow(ratio, order) - 1.0);
-  result.value = t3 + last * gain;
+  result.value = richardson_limit(t2, t3, ratio, order);
   if (last == 0.0) return {t3, 0.0, order};
-  result.order = std::log(std::abs((t2 - t1) / last)) / std::log(ratio);
+  result.order = observed_order(t1, t2, t3, ratio);
   if (!((t2 - t1) / last > 0.0) || result.order < 0.5 * order) {
     result.uncertainty = std::abs(last);
     return result;
   }
-  const double observed = t3 + last / (std::pow(ratio, result.order) - 1.0);
+  const double observed = richardson_limit(t2, t3, ratio, result.order);
   result.uncertainty =
       std::abs(observed - result.value) + share_of_extrapolation * std::abs(result.value - t3);
   return result;

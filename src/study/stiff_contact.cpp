@@ -6,6 +6,7 @@
 
 #include "case/model_factory.h"
 #include "integrate/central_difference.h"
+#include "numerics/bracketed_root.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/study/stability.h"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr int n_steps = 600;
 constexpr double blown_up = 1e6;  // of the energy at the start; bounded motion stays near it
-constexpr int n_bisections = 14;
+constexpr double limit_tolerance = 1e-4;  // relative
 constexpr double decades[] = {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0};
 
 // Beam and striker, held together by a spring that pulls as well as it pushes.
@@ -72,13 +73,9 @@ std::vector<StiffContact> stiff_contact(const Case& input) {
     StruckBeam beam = held_together(trial, row.stiffness);
     row.predicted =
         2.0 / contact_resonance(beam, std::numeric_limits<double>::infinity()).highest_frequency;
-    double stable = 0.05 * row.predicted;
-    double unstable = 1.5 * row.beam_only;
-    for (int n = 0; n < n_bisections; ++n) {
-      const double middle = 0.5 * (stable + unstable);
-      (blows_up(beam, middle) ? unstable : stable) = middle;
-    }
-    row.measured = stable;
+    const auto is_stable = [&](double step) { return !blows_up(beam, step); };
+    row.measured =
+        bisect(is_stable, 0.05 * row.predicted, 1.5 * row.beam_only, limit_tolerance).first;
   });
   return list;
 }

@@ -3,16 +3,12 @@
 #include <cassert>
 
 #include "numerics/bracketed_root.h"
+#include "numerics/gauss.h"
 
 namespace subimpact {
 namespace {
 
-// Gauss' rule of five points on [0, 1].
-constexpr std::array<double, 5> gauss_points{0.046910077030668, 0.2307653449471585, 0.5,
-                                             0.7692346550528415, 0.953089922969332};
-constexpr std::array<double, 5> gauss_weights{0.1184634425280945, 0.239314335249683,
-                                              0.2844444444444444, 0.239314335249683,
-                                              0.1184634425280945};
+constexpr std::size_t n_gauss = 5;
 
 // The defect of a section's moment along its path, for a history and a tangent of its own.
 class MomentDefect {
@@ -25,9 +21,9 @@ class MomentDefect {
   template <class Add>
   void integrate(double from, double to, const SectionHistory& history, double tangent,
                  Add add) const {
-    for (std::size_t g = 0; g < gauss_points.size(); ++g) {
-      const double s = from + (to - from) * gauss_points[g];
-      add(s, gauss_weights[g] * (to - from) * length_ * at(s, history, tangent));
+    for (std::size_t g = 0; g < n_gauss; ++g) {
+      const double s = from + (to - from) * gauss<n_gauss>.points[g];
+      add(s, gauss<n_gauss>.weights[g] * (to - from) * length_ * at(s, history, tangent));
     }
   }
 

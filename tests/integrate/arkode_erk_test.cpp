@@ -34,7 +34,7 @@ double largest_difference(const State& a, const State& b) {
 }
 
 TEST(VectorOperations, OfTheProjectGiveTheNumbersOfTheLibrary) {
-  for (const ExplicitTable& table : explicit_tables()) {
+  for (const CoefficientTable& table : explicit_tables()) {
     for (const std::size_t n : {1u, 2u, 3u, 4u, 7u, 8u, 17u, 60u}) {
       SpringChain chain(n);
       const State project = run(chain, table.name, VectorOperations::project, 0.05);
@@ -45,7 +45,7 @@ TEST(VectorOperations, OfTheProjectGiveTheNumbersOfTheLibrary) {
 }
 
 TEST(VectorOperations, OfTheProjectChooseTheStepsOfTheLibrary) {
-  for (const ExplicitTable& table : explicit_tables()) {
+  for (const CoefficientTable& table : explicit_tables()) {
     SpringChain chain(13);
     long project_steps = 0, library_steps = 0;
     const State project = run(chain, table.name, VectorOperations::project, {}, &project_steps);
@@ -59,7 +59,7 @@ TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
   // s'' = 6 s^2 with s = 1/(1 - t)^2 is at infinity at t = 1.
   AnyMotion motion(
       1, [](std::span<const double> q, std::span<double> a) { a[0] = 6.0 * q[0] * q[0]; });
-  for (const ExplicitTable& table : explicit_tables()) {
+  for (const CoefficientTable& table : explicit_tables()) {
     ErkOptions options;
     options.table = table.name;
     const auto integrator = make_arkode_erk(motion, options);
@@ -78,7 +78,7 @@ TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
 
 TEST(ExplicitTables, AreFoundByNameAndNoOtherNameIs) {
   SpringChain chain(2);
-  for (const ExplicitTable& table : explicit_tables()) {
+  for (const CoefficientTable& table : explicit_tables()) {
     EXPECT_GT(table.order, table.embedded_order) << table.name;
     ErkOptions options;
     options.table = table.name;

@@ -17,7 +17,7 @@ namespace {
 
 struct ImplicitMethod {
   std::string name;
-  ImplicitTable table;
+  CoefficientTable table;
   std::unique_ptr<Integrator> (*make)(MechanicalSystem&, const ArkOptions&);
 
   std::unique_ptr<Integrator> with_step(MechanicalSystem& system, double step,
@@ -42,10 +42,10 @@ std::ostream& operator<<(std::ostream& out, const ImplicitMethod& method) {
 
 std::vector<ImplicitMethod> all_methods() {
   std::vector<ImplicitMethod> methods;
-  for (const ImplicitTable& table : dirk_tables()) {
+  for (const CoefficientTable& table : dirk_tables()) {
     methods.push_back({"dirk_" + table.name, table, make_arkode_dirk});
   }
-  for (const ImplicitTable& table : imex_tables()) {
+  for (const CoefficientTable& table : imex_tables()) {
     methods.push_back({"imex_" + table.name, table, make_arkode_imex});
   }
   return methods;
@@ -158,7 +158,7 @@ TEST(DirkDamping, IsThatOfTheTablesStabilityFunction) {
 }
 
 TEST(DirkDamping, NoTableLetsAnOscillationGrow) {
-  for (const ImplicitTable& table : dirk_tables()) {
+  for (const CoefficientTable& table : dirk_tables()) {
     for (double angle = 0.1; angle < 1e3; angle *= 1.3) {
       EXPECT_LT(amplification(table.name, angle), 1.0 + 1e-9) << table.name << ", " << angle;
     }

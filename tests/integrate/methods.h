@@ -29,7 +29,7 @@ inline std::ostream& operator<<(std::ostream& out, const ExplicitMethod& method)
 
 inline std::vector<ExplicitMethod> adaptive_methods() {
   std::vector<ExplicitMethod> methods;
-  for (const ExplicitTable& table : explicit_tables()) {
+  for (const CoefficientTable& table : explicit_tables()) {
     const auto make = [name = table.name](SecondOrderOde& ode, auto set) {
       ErkOptions options;
       options.table = name;
@@ -54,7 +54,7 @@ inline std::vector<ExplicitMethod> adaptive_methods() {
     };
     // Of the highest orders double precision shows little: rounding is soon reached.
     methods.push_back(
-        {"nystrom_" + table.name, table.order, table.order > 8 ? 1.0 : 0.5, table.evaluations(),
+        {"nystrom_" + table.name, table.order, table.order > 8 ? 1.0 : 0.5, table.evaluations,
          [make](SecondOrderOde& ode, double step) {
            return make(ode, [step](NystromOptions& options) { options.fixed_step = step; });
          },

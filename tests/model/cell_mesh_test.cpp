@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dense.h"
+#include "numerics/mass_solver.h"
 #include "paper_scene.h"
 #include "random_walk.h"
 
@@ -295,6 +296,25 @@ TEST(CellMesh, RefusesShapesItCannotModel) {
   EXPECT_THROW(CellMesh(clamped, 0.5, 6, Extent::whole), std::invalid_argument);
   EXPECT_THROW(CellMesh(clamped, 0.5, 7, Extent::half), std::invalid_argument);
   EXPECT_NO_THROW(CellMesh(clamped, 0.5, 7, Extent::whole));
+}
+
+TEST(BandedSolver, SolvesTheMassMatricesOfBeams) {
+  Beam slender = paper_beam();
+  slender.theory = BeamTheory::euler_bernoulli;
+  for (const Beam& beam : {paper_beam(), slender}) {
+    for (const std::size_t n : {5u, 17u, 251u, 501u, 2001u}) {
+      for (const auto extent : {CellMesh::Extent::whole, CellMesh::Extent::half}) {
+        const CellMesh mesh(beam, 0.5, n, extent);
+        const BandedSolver solver(mesh.mass());
+        const std::vector<double> expected = random_numbers(9, mesh.n_unknowns());
+        std::vector<double> x(mesh.n_unknowns());
+        mesh.mass().multiply(expected, x);
+        solver.solve(x);
+        // The rotary inertia of small cells makes the matrix stiff: up to 1 + 4 r^2/dx^2.
+        EXPECT_LE(relative_difference(x, expected), 1e-12) << mesh.description();
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -1,11 +1,23 @@
 #pragma once
 
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "numerics/banded_matrix.h"
 #include "random_walk.h"
 
 namespace subimpact {
+
+inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+inline Eigen::MatrixXd dense(const BandedMatrix& matrix) {
+  const Eigen::Index n = index(matrix.size());
+  Eigen::MatrixXd full(n, n);
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    for (std::size_t j = 0; j < matrix.size(); ++j) full(index(i), index(j)) = matrix(i, j);
+  }
+  return full;
+}
 
 /// A symmetric positive definite banded matrix without repeating rows: A = L L^T of a random L.
 inline BandedMatrix random_positive_definite(std::size_t n, std::size_t half_bandwidth,

@@ -5,26 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "banded_examples.h"
 #include "model/beam_mesh.h"
 
 namespace subimpact {
-
-inline Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 inline std::span<const double> entries(const Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
 inline std::span<double> entries(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
-}
-
-inline Eigen::MatrixXd dense(const BandedMatrix& matrix) {
-  const Eigen::Index n = index(matrix.size());
-  Eigen::MatrixXd full(n, n);
-  for (std::size_t i = 0; i < matrix.size(); ++i) {
-    for (std::size_t j = 0; j < matrix.size(); ++j) full(index(i), index(j)) = matrix(i, j);
-  }
-  return full;
 }
 
 /// The stiffness matrix of an elastic beam on a mesh, column by column out of curvatures and

@@ -54,7 +54,7 @@ struct ModelOptions {
 enum class Method { central_difference, erk, nystrom, dirk, imex, adams, bdf, exponential };
 
 /// Who solves with the mass matrix.
-enum class MassSolverKind { tridiagonal, klu };
+enum class MassSolverKind { banded, klu };
 
 enum class VectorOperationsKind { project, library };
 
@@ -64,7 +64,7 @@ struct SolverOptions {
   std::optional<double> step;  ///< s; empty: 0.9 of critical (central-difference), else adaptive
   std::optional<double> max_step;    ///< s; adaptive methods
   std::optional<std::string> table;  ///< coefficients of a Runge-Kutta method; its first if empty
-  MassSolverKind mass_solver = MassSolverKind::tridiagonal;
+  MassSolverKind mass_solver = MassSolverKind::banded;
   std::optional<EventHandling>
       events;  ///< empty: interpolated for central-difference, else located
   std::optional<ReversalHandling> reversals;  ///< empty: located, by adams and bdf step_end

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "subimpact/ode/work_counts.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
 
@@ -106,17 +107,10 @@ struct Used {
   double energy_tolerance = 0.0;    ///< relative to the initial energy
 };
 
-struct Work {
-  long steps = 0;
-  long rejected_steps = 0;
-  long partial_steps = 0;
-  long right_hand_sides = 0;
-  long mass_solves = 0;
-  long jacobians = 0;
-  long factorisations = 0;
-  long nonlinear_iterations = 0;  ///< of implicit methods
-  long nonlinear_failures = 0;    ///< their solves that did not converge
-  long roots = 0;                 ///< events located
+/// The cost of a run: of the integration (mass solves and right-hand sides of the beam included)
+/// and of what goes with it.
+struct Work : WorkCounts {
+  long roots = 0;  ///< events located
   double setup_seconds = 0.0;
   double wall_seconds = 0.0;  ///< whole, set-up included
 };

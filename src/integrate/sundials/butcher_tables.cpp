@@ -13,7 +13,7 @@ namespace subimpact {
 namespace {
 
 struct Entry {
-  ExplicitTable table;
+  CoefficientTable table;
   int sundials_id;  // ARKODE_ERK_NONE: built here
 };
 
@@ -160,9 +160,9 @@ bool ends_with_next_first(const ARKodeButcherTableMem& table) {
 
 }  // namespace
 
-const std::vector<ExplicitTable>& explicit_tables() {
-  static const std::vector<ExplicitTable> tables = [] {
-    std::vector<ExplicitTable> list;
+const std::vector<CoefficientTable>& explicit_tables() {
+  static const std::vector<CoefficientTable> tables = [] {
+    std::vector<CoefficientTable> list;
     for (const Entry& entry : entries_of_tables()) list.push_back(entry.table);
     return list;
   }();

@@ -55,8 +55,8 @@ ButcherTablePointer implicit_table(const Entry& entry) {
   return checked(ARKodeButcherTable_LoadDIRK(entry.implicit), entry);
 }
 
-std::vector<ImplicitTable> list_tables(bool pairs) {
-  std::vector<ImplicitTable> list;
+std::vector<CoefficientTable> list_tables(bool pairs) {
+  std::vector<CoefficientTable> list;
   for (const Entry& entry : entries) {
     if (pairs && entry.explicit_part == ARKODE_ERK_NONE) continue;
     const ButcherTablePointer table = implicit_table(entry);
@@ -67,13 +67,13 @@ std::vector<ImplicitTable> list_tables(bool pairs) {
 
 }  // namespace
 
-const std::vector<ImplicitTable>& dirk_tables() {
-  static const std::vector<ImplicitTable> tables = list_tables(false);
+const std::vector<CoefficientTable>& dirk_tables() {
+  static const std::vector<CoefficientTable> tables = list_tables(false);
   return tables;
 }
 
-const std::vector<ImplicitTable>& imex_tables() {
-  static const std::vector<ImplicitTable> tables = list_tables(true);
+const std::vector<CoefficientTable>& imex_tables() {
+  static const std::vector<CoefficientTable> tables = list_tables(true);
   return tables;
 }
 

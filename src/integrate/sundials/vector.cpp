@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numerics/vector_sum.h"
+
 namespace subimpact {
 namespace {
 
@@ -89,67 +91,20 @@ sunrealtype wrms_norm(N_Vector x, N_Vector w) {
   return std::sqrt(sum / static_cast<double>(size(x)));
 }
 
-// z = sum of N scaled vectors in one pass.
-template <int N>
-void combine(const sunrealtype* c, N_Vector* x, double* z, sunindextype length) {
-  const double* column[N];
-  double weight[N];
-  for (int k = 0; k < N; ++k) {
-    column[k] = NV_DATA_S(x[k]);
-    weight[k] = c[k];
-  }
-#pragma GCC ivdep
-  for (sunindextype i = 0; i < length; ++i) {
-    double sum = weight[0] * column[0][i];
-    for (int k = 1; k < N; ++k) sum += weight[k] * column[k][i];
-    z[i] = sum;
-  }
-}
-
-void combine_up_to_eight(int n, const sunrealtype* c, N_Vector* x, double* z, sunindextype length) {
-  switch (n) {
-    case 1:
-      return combine<1>(c, x, z, length);
-    case 2:
-      return combine<2>(c, x, z, length);
-    case 3:
-      return combine<3>(c, x, z, length);
-    case 4:
-      return combine<4>(c, x, z, length);
-    case 5:
-      return combine<5>(c, x, z, length);
-    case 6:
-      return combine<6>(c, x, z, length);
-    case 7:
-      return combine<7>(c, x, z, length);
-    default:
-      return combine<8>(c, x, z, length);
-  }
-}
-
+// High-order tables are full of zeros, which the sum leaves out. Further passes carry the sum so
+// far along with weight 1; only the first vector may be z, so nothing is lost in between.
 int linear_combination(int n, sunrealtype* c, N_Vector* x, N_Vector z) {
-  constexpr int widest = 8;
-  const sunindextype length = NV_LENGTH_S(z);
+  VectorSum sum;
   double* out = NV_DATA_S(z);
-  // Terms with a zero coefficient are left out (high-order tables are full of them). Passes of up
-  // to eight terms; further passes carry the sum so far along with weight 1. Only the first vector
-  // may alias z, so nothing is lost in between.
-  sunrealtype weights[widest];
-  N_Vector vectors[widest];
-  int held = 0;
   for (int k = 0; k < n; ++k) {
-    if (c[k] == 0.0 && !(k + 1 == n && held == 0)) continue;
-    if (held == widest) {
-      combine_up_to_eight(held, weights, vectors, out, length);
-      weights[0] = 1.0;
-      vectors[0] = z;
-      held = 1;
+    if (sum.is_full()) {
+      sum.write(out, size(z));
+      sum = {};
+      sum.add(1.0, out);
     }
-    weights[held] = c[k];
-    vectors[held] = x[k];
-    ++held;
+    sum.add(c[k], NV_DATA_S(x[k]));
   }
-  combine_up_to_eight(held, weights, vectors, out, length);
+  sum.write(out, size(z));
   return 0;
 }
 

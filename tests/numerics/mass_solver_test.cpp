@@ -6,9 +6,6 @@
 #include <vector>
 
 #include "banded_examples.h"
-#include "dense.h"
-#include "model/cell_mesh.h"
-#include "paper_scene.h"
 
 namespace subimpact {
 namespace {
@@ -62,25 +59,6 @@ TEST(BandedSolver, FindsAKnownSolutionOfLargeSystems) {
   }
 }
 
-TEST(BandedSolver, SolvesTheMassMatricesOfBeams) {
-  Beam slender = paper_beam();
-  slender.theory = BeamTheory::euler_bernoulli;
-  for (const Beam& beam : {paper_beam(), slender}) {
-    for (const std::size_t n : {5u, 17u, 251u, 501u, 2001u}) {
-      for (const auto extent : {CellMesh::Extent::whole, CellMesh::Extent::half}) {
-        const CellMesh mesh(beam, 0.5, n, extent);
-        const BandedSolver solver(mesh.mass());
-        const std::vector<double> expected = random_numbers(9, mesh.n_unknowns());
-        std::vector<double> x(mesh.n_unknowns());
-        mesh.mass().multiply(expected, x);
-        solver.solve(x);
-        // The rotary inertia of small cells makes the matrix stiff: up to 1 + 4 r^2/dx^2.
-        EXPECT_LE(relative_difference(x, expected), 1e-12) << mesh.description();
-      }
-    }
-  }
-}
-
 TEST(BandedSolver, ReachesNothingBeyondItsUnknowns) {
   for (const std::size_t n : {3u, 8u, 13u, 16u}) {
     const BandedSolver solver(random_positive_definite(n, 2, 6));
@@ -88,6 +66,29 @@ TEST(BandedSolver, ReachesNothingBeyondItsUnknowns) {
     solver.solve(std::span<double>(x).subspan(8, n));
     for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(x[i], 42.0);
     for (std::size_t i = n + 8; i < x.size(); ++i) EXPECT_EQ(x[i], 42.0);
+  }
+}
+
+TEST(BandedMatrix, IsTheProductOfItsCholeskyFactorAndItsTranspose) {
+  for (const std::size_t bandwidth : {0u, 1u, 3u, 6u}) {
+    for (const std::size_t n : {1u, 2u, 9u, 40u}) {
+      const BandedMatrix matrix = random_positive_definite(n, bandwidth, 11);
+      const auto factor = matrix.cholesky_factor();
+      ASSERT_TRUE(factor);
+      EXPECT_EQ(factor->half_bandwidth(), bandwidth);
+      const Eigen::MatrixXd lower = dense(*factor).triangularView<Eigen::Lower>();
+      EXPECT_LE((lower * lower.transpose() - dense(matrix)).cwiseAbs().maxCoeff(), rounding);
+    }
+  }
+}
+
+TEST(BandedMatrix, HasNoCholeskyFactorWithANegativeEigenvalueHoweverSmall) {
+  for (const double lowest : {1e-12, -1e-12}) {
+    // The chain of springs free at both ends, its zero eigenvalue shifted.
+    BandedMatrix chain(30, 1);
+    for (std::size_t i = 0; i < 30; ++i) chain.at(i, i) = (i == 0 || i == 29 ? 1.0 : 2.0) + lowest;
+    for (std::size_t i = 0; i < 29; ++i) chain.at(i, i + 1) = -1.0;
+    EXPECT_EQ(chain.cholesky_factor().has_value(), lowest > 0.0);
   }
 }
 
