@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "case/model_factory.h"
+#include "simulate/run_parts.h"
 #include "integrate/klu_mass_solver.h"
 #include "measure.h"
 
@@ -30,10 +30,12 @@ State bent(const StruckBeam& beam, const Beam& material, double depth) {
 struct Bent {
   Bent(SectionKind section, double depth)
       : input(paper_case(section)),
-        beam(make_struck_beam(input)),
+        run(resolve(input)),
+        beam(run.parts().beam),
         y(bent(beam, input.scene.beam, depth)) {}
   Case input;
-  StruckBeam beam;
+  ResolvedRun run;
+  StruckBeam& beam;
   State y;
 };
 
@@ -82,7 +84,7 @@ void solve(benchmark::State& state, MassSolverKind kind) {
     benchmark::ClobberMemory();
   }
 }
-BENCHMARK_CAPTURE(solve, tridiagonal, MassSolverKind::tridiagonal);
+BENCHMARK_CAPTURE(solve, tridiagonal, MassSolverKind::banded);
 BENCHMARK_CAPTURE(solve, klu, MassSolverKind::klu);
 
 // One section law on a branch behind `reversals` turns.

@@ -151,7 +151,7 @@ void add_case(Page& page, const Case& input) {
 
 void add_method(Page& page, const FinishedRun& run) {
   const Result& result = run.result;
-  const Used& used = result.used;
+  const ResolvedSettings& used = result.used;
   const Work& work = result.work;
   page.heading("Method");
   page.add("<table class=\"keys\"><tbody>");

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "model/natural_modes.h"
 #include "ode/free_flight.h"
+#include "subimpact/model/natural_modes.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "model/beam_mesh.h"
 #include "model/section_field.h"
 #include "numerics/mass_solver.h"
 #include "numerics/trajectory_root.h"
 #include "ode/second_order_ode.h"
+#include "subimpact/model/beam_mesh.h"
 #include "subimpact/model/contact_law.h"
 #include "subimpact/system/energies.h"
 #include "subimpact/system/events.h"
@@ -54,7 +54,7 @@ struct StepEnds {
 
 /// What a struck beam is made of.
 struct StruckBeamParts {
-  std::unique_ptr<BeamMesh> mesh;
+  std::shared_ptr<const BeamMesh> mesh;
   SectionField sections;
   std::shared_ptr<const ContactLaw> contact_law;
   double striker_mass;      ///< kg
@@ -81,7 +81,7 @@ class StruckBeam final : public MechanicalSystem {
 
   explicit StruckBeam(StruckBeamParts parts);
   /// With the striker and the contact law of a scene.
-  StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
+  StruckBeam(const Scene& scene, std::shared_ptr<const BeamMesh> mesh, SectionField sections,
              std::unique_ptr<MassSolver> mass_solver);
 
   std::size_t n_positions() const override { return n_ + 1; }
@@ -216,7 +216,7 @@ class StruckBeam final : public MechanicalSystem {
   double force_slope(double indentation) const;
   GuardValue contact_guard(EventKind kind, double indentation, double rate) const;
 
-  std::unique_ptr<BeamMesh> mesh_;
+  std::shared_ptr<const BeamMesh> mesh_;
   SectionField sections_;
   std::shared_ptr<const ContactLaw> contact_law_;
   std::unique_ptr<MassSolver> mass_solver_;

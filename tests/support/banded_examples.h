@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "numerics/banded_matrix.h"
 #include "random_walk.h"
+#include "subimpact/numerics/banded_matrix.h"
 
 namespace subimpact {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "model/beam_mesh.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 
