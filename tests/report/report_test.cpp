@@ -148,7 +148,8 @@ TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {
   Case input = paper_case();
   input.solver.method = Method::central_difference;
   input.solver.step = 1e-7;
-  const auto cost = estimate_cost(input);
+  ResolvedRun run = resolve(input);
+  const auto cost = estimate_cost(run);
   ASSERT_TRUE(cost);
   EXPECT_NEAR(cost->steps, 80000.0, 1e-6);
   EXPECT_NEAR(cost->right_hand_sides, 80000.0, 1e-6);
@@ -159,7 +160,8 @@ TEST(CostEstimate, OfAnAdaptiveMethodIsRightWithinAFactorOfThree) {
   Case input = paper_case();
   input.end_time = 2e-4;
   input.output.interval = 0.0;
-  const auto cost = estimate_cost(input);
+  ResolvedRun run = resolve(input);
+  const auto cost = estimate_cost(run);
   ASSERT_TRUE(cost);
   const double counted = static_cast<double>(simulate(input).work.right_hand_sides);
   EXPECT_LT(cost->right_hand_sides, 3.0 * counted);
