@@ -21,7 +21,7 @@ void measure_events(const Settings& settings) {
       input.solver.method = method;
       input.solver.rtol = 1e-8;
       Case without = input;
-      without.solver.pair_detection = false;
+      without.study.pair_detection = false;
       const Case companion = companion_of(input).input;
       const std::vector<double> seconds =
           seconds_side_by_side(settings, {[&] { run_to_end(input); }, [&] { run_to_end(without); },

@@ -17,7 +17,7 @@ void compare_runs(const Settings& settings) {
   fmt::print("{:44} {:>14} {:>10} {:>8}\n", "", "banded s", "klu s", "ratio");
   const auto row = [&](const char* name, const Case& with_banded) {
     Case with_klu = with_banded;
-    with_klu.solver.mass_solver = MassSolverKind::klu;
+    with_klu.study.mass_solver = MassSolverKind::klu;
     const std::vector<double> seconds = seconds_side_by_side(
         settings, {[&] { run_to_end(with_banded); }, [&] { run_to_end(with_klu); }});
     fmt::print("{:44} {:14.4f} {:10.4f} {:8.2f}\n", name, seconds[0], seconds[1],

@@ -39,7 +39,7 @@ std::vector<Case> settings_of(Method method, const Case& on_this_mesh) {
   Case input = on_this_mesh;
   input.solver.method = method;
   if (method == Method::central_difference) {
-    const double critical = explain(input).critical_step;
+    const double critical = resolve(input).settings().critical_step;
     for (double part = 0.95; part > 0.02; part *= 0.85) {
       input.solver.step = part * critical;
       cases.push_back(input);

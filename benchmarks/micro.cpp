@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "case/model_factory.h"
 #include "integrate/klu_mass_solver.h"
 #include "measure.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact::benchmarks {
 namespace {
@@ -30,10 +30,12 @@ State bent(const StruckBeam& beam, const Beam& material, double depth) {
 struct Bent {
   Bent(SectionKind section, double depth)
       : input(paper_case(section)),
-        beam(make_struck_beam(input)),
+        run(resolve(input)),
+        beam(run.parts().beam),
         y(bent(beam, input.scene.beam, depth)) {}
   Case input;
-  StruckBeam beam;
+  ResolvedRun run;
+  StruckBeam& beam;
   State y;
 };
 

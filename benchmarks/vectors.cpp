@@ -18,7 +18,7 @@ void measure_vectors(const Settings& settings) {
     project.solver.rtol = 1e-9;
     project.solver.table = table;
     Case library = project;
-    library.solver.vector_operations = VectorOperationsKind::library;
+    library.study.vector_operations = VectorOperationsKind::library;
     Result with_project, with_library;
     const std::vector<double> seconds = seconds_side_by_side(
         settings,

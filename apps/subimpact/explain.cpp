@@ -20,10 +20,10 @@ void add_explain(CLI::App& program, int& status) {
   command->callback([options, &status] {
     const LoadedCase loaded = options->load();
     try {
-      const Used used = explain(loaded.value);
+      ResolvedRun run = resolve(loaded.value);
       print_notes(loaded);
       print_warnings(doubtful_units(loaded.value));
-      fmt::print("{}", explanation(loaded.value, used, estimate_cost(loaded.value)));
+      fmt::print("{}", explanation(loaded.value, run.settings(), estimate_cost(run)));
     } catch (const InvalidCase& error) {
       throw CaseFileError(loaded.message(error));
     }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
@@ -48,7 +49,8 @@ int exit_status(OutcomeKind kind) {
   return failed;
 }
 
-Result simulate_with_progress(const LoadedCase& loaded, const RunOptions& options) {
+Result simulate_with_progress(const LoadedCase& loaded, ResolvedRun run,
+                              const RunOptions& options) {
   ProgressDisplay progress(loaded.value.end_time, options.quiet);
   try {
     if (options.error_bars == "time") {
@@ -57,7 +59,7 @@ Result simulate_with_progress(const LoadedCase& loaded, const RunOptions& option
     if (!options.error_bars.empty()) {
       return simulate_with_all_error_bars(loaded.value, std::ref(progress));
     }
-    return simulate(loaded.value, std::ref(progress));
+    return simulate(std::move(run), std::ref(progress));
   } catch (const InvalidCase& error) {
     throw CaseFileError(loaded.message(error));
   }
@@ -72,19 +74,24 @@ std::vector<std::string> others(std::vector<std::string> warnings,
   return warnings;
 }
 
-int run(const RunOptions& options) {
-  const LoadedCase loaded = options.input.load();
+ResolvedRun resolve_loaded(const LoadedCase& loaded) {
   try {
-    explain(loaded.value);  // refuses what cannot be modelled before anything is written
+    return resolve(loaded.value);
   } catch (const InvalidCase& error) {
     throw CaseFileError(loaded.message(error));
   }
+}
+
+int run(const RunOptions& options) {
+  const LoadedCase loaded = options.input.load();
+  // Refuses what cannot be modelled before anything is written.
+  ResolvedRun resolved = resolve_loaded(loaded);
   const std::filesystem::path directory = output_directory(options);
   prepare_output_directory(directory);
   const std::vector<std::string> doubts = doubtful_units(loaded.value);
   if (!options.quiet) print_notes(loaded);
   print_warnings(doubts);
-  const Result result = simulate_with_progress(loaded, options);
+  const Result result = simulate_with_progress(loaded, std::move(resolved), options);
   int status = exit_status(result.outcome.kind);
   std::string unwritten;
   try {

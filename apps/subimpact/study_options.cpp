@@ -8,7 +8,7 @@
 #include "case/other_names.h"
 #include "commands.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/method_tables.h"
+#include "subimpact/simulate/method_tables.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {

@@ -2,11 +2,24 @@
 
 #include <vector>
 
-#include "case/methods.h"
+#include "case/meshes.h"
+#include "case/sections.h"
 #include "model/contact_laws.h"
+#include "simulate/methods.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
+namespace {
+
+// The names in a table of descriptors.
+template <class Enum, class Descriptors>
+std::vector<Named<Enum>> names_in(const Descriptors& descriptors) {
+  std::vector<Named<Enum>> rows;
+  for (const auto& row : descriptors) rows.push_back({row.kind, row.name, row.note});
+  return rows;
+}
+
+}  // namespace
 
 std::span<const Named<BeamTheory>> names_of(BeamTheory) {
   static constexpr Named<BeamTheory> names[] = {
@@ -26,31 +39,17 @@ std::span<const Named<EndSupport>> names_of(EndSupport) {
 }
 
 std::span<const Named<ContactKind>> names_of(ContactKind) {
-  static const std::vector<Named<ContactKind>> names = [] {
-    std::vector<Named<ContactKind>> rows;
-    for (const BuiltInContactLaw& law : built_in_contact_laws()) {
-      rows.push_back({law.kind, law.name, law.note});
-    }
-    return rows;
-  }();
+  static const auto names = names_in<ContactKind>(built_in_contact_laws());
   return names;
 }
 
 std::span<const Named<MeshKind>> names_of(MeshKind) {
-  static constexpr Named<MeshKind> names[] = {
-      {MeshKind::cells, "cells", "the paper's equal cells, second order"},
-      {MeshKind::hermite, "hermite", "cubic Hermite elements, fourth order"},
-      {MeshKind::rigid, "rigid", "the beam as a rigid body, for impacts of two bodies"},
-  };
+  static const auto names = names_in<MeshKind>(meshes());
   return names;
 }
 
 std::span<const Named<SectionKind>> names_of(SectionKind) {
-  static constexpr Named<SectionKind> names[] = {
-      {SectionKind::elastic, "elastic", "the beam never yields (the contact still may)"},
-      {SectionKind::layers, "layers", "elastic-perfectly plastic layers, stress at mid-layer"},
-      {SectionKind::exact, "exact", "the limit of infinitely many layers, in closed form"},
-  };
+  static const auto names = names_in<SectionKind>(sections());
   return names;
 }
 
@@ -81,11 +80,7 @@ std::span<const Named<StopRule>> names_of(StopRule) {
 }
 
 std::span<const Named<Method>> names_of(Method) {
-  static const std::vector<Named<Method>> names = [] {
-    std::vector<Named<Method>> list;
-    for (const MethodDescriptor& row : methods()) list.push_back({row.method, row.name, row.note});
-    return list;
-  }();
+  static const auto names = names_in<Method>(methods());
   return names;
 }
 

@@ -1,6 +1,7 @@
 #include "subimpact/case/case_keys.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,9 +11,10 @@
 
 #include "case/case_choices.h"
 #include "case/contact_checks.h"
-#include "case/mesh_checks.h"
+#include "case/meshes.h"
+#include "simulate/methods.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/case/method_tables.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {
@@ -116,12 +118,12 @@ const Range element_range = between("from 4 to 20000", 4, 20000);
 const Range layer_range{"even, from 2 to 10000 (for more, section = \"exact\" is their limit)",
                         {.minimum = 2.0, .maximum = 10000.0, .multiple_of = 2}};
 
-constexpr const char* required = nullptr;  // as a default: the key has none
-constexpr const char* as_in_case = "";     // as a default: that of the struct Case
+const std::optional<std::string> required;  // as a default: the key has none
+const std::string as_in_case;               // as a default: that of the struct Case
 
 template <class Field>
 CaseKey row(const char* name, const char* unit, const Range& range, const char* meaning,
-            const char* default_text, Field field) {
+            const std::optional<std::string>& default_text, Field field) {
   using Stored = std::remove_reference_t<decltype(field(std::declval<Case&>()))>;
   using Value = typename RemoveOptional<Stored>::type;
   constexpr bool optional = RemoveOptional<Stored>::is_optional;
@@ -148,9 +150,9 @@ CaseKey row(const char* name, const char* unit, const Range& range, const char* 
       key.choices.push_back({entry.name, entry.note});
     }
   }
-  key.required = default_text == required;
+  key.required = !default_text;
   if (!key.required) {
-    key.default_text = default_text;
+    key.default_text = *default_text;
     if (key.default_text.empty()) key.default_text = to_text(*key.get(Case{}));
   }
   return key;
@@ -174,6 +176,39 @@ std::vector<Choice> table_choices() {
     choices.push_back({table.name, fmt::format("{}: {}", to_string(table.method), table.note)});
   }
   return choices;
+}
+
+// --- defaults that differ by method --------------------------------------------------------------
+
+// "adams, bdf: "step-end"; others: "located"", for two values of which most methods take `located`.
+template <class Member>
+std::string by_method(Member member) {
+  std::vector<std::string> names;
+  std::string value;
+  for (const MethodDescriptor& method : methods()) {
+    const auto choice = member(method);
+    if (choice == decltype(choice)::located) continue;
+    names.emplace_back(method.name);
+    value = name_of(choice);
+  }
+  return fmt::format("{}: \"{}\"; others: \"located\"", fmt::join(names, ", "), value);
+}
+
+std::string usual_orders() {
+  std::vector<std::string> orders;
+  for (const MethodDescriptor& method : methods()) {
+    if (method.order) orders.push_back(fmt::format("{}: {}", method.name, method.order->usual));
+  }
+  return fmt::format("{}", fmt::join(orders, "; "));
+}
+
+std::string default_step() {
+  std::vector<std::string> fixed;
+  for (const MethodDescriptor& method : methods()) {
+    if (method.steps == MethodDescriptor::Steps::fixed) fixed.emplace_back(method.name);
+  }
+  return fmt::format("{}: {} of the critical step; others: adaptive", fmt::join(fixed, ", "),
+                     default_part_of_critical);
 }
 
 // Only here: a lambda a row would hide the table behind its own punctuation.
@@ -224,16 +259,12 @@ std::vector<CaseKey> make_case_keys() {
 
     row("solver.method", "", any_value, "time integration method", as_in_case, AT(solver.method)),
     row("solver.rtol", "", tolerance, "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),
-    row("solver.step", "s", positive, "fixed step", "central-difference: 0.9 of the critical step; others: adaptive", AT(solver.step)),
+    row("solver.step", "s", positive, "fixed step", default_step(), AT(solver.step)),
     row("solver.max_step", "s", positive, "largest step of adaptive methods", "no limit", AT(solver.max_step)),
     with_choices(row("solver.table", "", any_value, "coefficients of a Runge-Kutta method", "the method's first: see `subimpact methods`", AT(solver.table)), table_choices()),
-    row("solver.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(solver.mass_solver)),
-    row("solver.events", "", any_value, "treatment of an event inside a step", "central-difference: \"interpolated\"; others: \"located\"", AT(solver.events)),
-    row("solver.reversals", "", any_value, "treatment of section events (first flow, reversal, closing of a loop) inside a step", "adams, bdf: \"step-end\"; others: \"located\"", AT(solver.reversals)),
-    row("solver.pair_detection", "", any_value, "search for contacts that open and close within one step", as_in_case, AT(solver.pair_detection)),
-    row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", "adams: 12; bdf: 5", AT(solver.max_order)),
-    row("solver.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(solver.vector_operations)),
-    row("solver.beyond_critical", "", any_value, "allows a fixed step above the stability limit, to study how runs fail there", as_in_case, AT(solver.beyond_critical)),
+    row("solver.events", "", any_value, "treatment of an event inside a step", by_method([](const MethodDescriptor& m) { return m.events; }), AT(solver.events)),
+    row("solver.reversals", "", any_value, "treatment of section events (first flow, reversal, closing of a loop) inside a step", by_method([](const MethodDescriptor& m) { return m.reversals; }), AT(solver.reversals)),
+    row("solver.max_order", "", between("from 1 to 12 (adams) or 5 (bdf)", 1, 12), "highest order of a multistep method", usual_orders(), AT(solver.max_order)),
 
     row("accuracy.energy", "", positive_share, "largest error of the energy, relative to the initial energy, with which a run counts as completed", "from method and rtol, 1e-3 at most", AT(accuracy.energy)),
 
@@ -241,6 +272,11 @@ std::vector<CaseKey> make_case_keys() {
     row("output.zone_gap", "", positive, "separation that ends a zone, in first flexural periods", as_in_case, AT(output.zone_gap)),
     row("output.subzone_gap", "", positive, "separation that ends a sub-zone, in first flexural periods", as_in_case, AT(output.subzone_gap)),
     row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),
+
+    row("study.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(study.vector_operations)),
+    row("study.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(study.mass_solver)),
+    row("study.pair_detection", "", any_value, "search for contacts that open and close within one step", as_in_case, AT(study.pair_detection)),
+    row("study.beyond_critical", "", any_value, "allows a fixed step above the stability limit, to study how runs fail there", as_in_case, AT(study.beyond_critical)),
   };
 }
 // clang-format on
@@ -321,7 +357,7 @@ void check(const Case& input) {
     if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
   }
   check_contact(input);
-  check_mesh(input);
+  if (!input.parts.mesh) descriptor_of(input.model.mesh).check(input);
   check_history_size(input);
   check_gaps(input);
   check_sections(input);

@@ -4,10 +4,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "case/methods.h"
-#include "case/model_factory.h"
-#include "subimpact/case/case_keys.h"
-#include "subimpact/case/method_tables.h"
+#include "simulate/methods.h"
+#include "simulate/run_parts.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {
@@ -43,7 +42,7 @@ double measure_right_hand_side(StruckBeam& beam) {
 }
 
 // Of the explicit methods: what an implicit or a multistep method costs depends on its iterations.
-const MethodTable* table_of(Method method, const Used& used) {
+const MethodTable* table_of(Method method, const ResolvedSettings& used) {
   if (!(descriptor_of(method).radians_per_evaluation > 0.0)) return nullptr;
   for (const MethodTable& table : method_tables()) {
     if (table.method == method && used.table && table.name == *used.table) return &table;
@@ -53,10 +52,10 @@ const MethodTable* table_of(Method method, const Used& used) {
 
 }  // namespace
 
-std::optional<CostEstimate> estimate_cost(const Case& input) {
-  check(input);
-  StruckBeam beam = make_struck_beam(input);
-  const Used used = describe(input, beam);
+std::optional<CostEstimate> estimate_cost(ResolvedRun& run) {
+  const Options& input = run.parts().given;
+  StruckBeam& beam = run.parts().beam;
+  const ResolvedSettings& used = run.settings();
   const MethodTable* table = table_of(input.solver.method, used);
   const MethodDescriptor& method = descriptor_of(input.solver.method);
   const bool fitted = method.radians_per_evaluation > 0.0;

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <string_view>
 
 #include "case/contact_checks.h"
-#include "case/methods.h"
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "case/sections.h"
+#include "simulate/methods.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -15,10 +19,8 @@ namespace {
 
 // --- what makes a key idle -----------------------------------------------------------------------
 
-bool is_rigid(const Case& c) { return c.model.mesh == MeshKind::rigid; }
-bool has_no_cells(const Case& c) { return c.model.mesh != MeshKind::cells; }
-bool has_no_elements(const Case& c) { return c.model.mesh != MeshKind::hermite; }
-bool is_not_layered(const Case& c) { return c.model.section != SectionKind::layers; }
+bool is_rigid(const Case& c) { return !descriptor_of(c.model.mesh).bends; }
+bool is_not_layered(const Case& c) { return !descriptor_of(c.model.section).has_layers; }
 bool has_elastic_sections(const Case& c) { return c.model.section == SectionKind::elastic; }
 bool never_yields(const Case& c) { return std::isinf(c.scene.beam.yield_stress); }
 bool is_equal_mesh(const Case& c) { return c.model.strike_refinement == 1.0; }
@@ -31,8 +33,7 @@ bool interpolates_events(const Case& c) { return events_of(c) == EventHandling::
 bool central_interpolates(const Case& c) { return is_central(c) && !c.solver.events; }
 // Section correction works to the tolerance, with a fixed step too.
 bool locates_reversals(const Case& c) {
-  const bool may_yield = !is_rigid(c) && !has_elastic_sections(c) && !never_yields(c);
-  return may_yield && !interpolates_events(c) && reversals_of(c) == ReversalHandling::located;
+  return may_yield(c) && !interpolates_events(c) && reversals_of(c) == ReversalHandling::located;
 }
 bool central_needs_no_tolerance(const Case& c) { return is_central(c) && !locates_reversals(c); }
 // Implicit methods solve their equations to the tolerance, whatever the step.
@@ -62,14 +63,8 @@ struct IdleKey {
 constexpr IdleKey idle_keys[] = {
     {nose_radius, "contact.law", law_ignores_the_nose},
     {nose_radius, "contact.stiffness", stiffness_replaces_the_nose},
-    {"model.segments", "model.mesh", has_no_cells},
-    {"model.elements", "model.mesh", has_no_elements},
-    {"model.sections_per_element", "model.mesh", has_no_elements},
-    {"model.hinges", "model.mesh", has_no_elements},
     {"model.hinges", "model.section", has_elastic_sections},
     {"model.hinges", "beam.yield_stress", never_yields},
-    {"model.strike_refinement", "model.mesh", has_no_elements},
-    {"model.refined_length", "model.mesh", has_no_elements},
     {"model.refined_length", "model.strike_refinement", is_equal_mesh},
     {"model.section", "model.mesh", is_rigid},
     {"model.section", "beam.yield_stress",
@@ -77,7 +72,6 @@ constexpr IdleKey idle_keys[] = {
     {"model.layers", "model.mesh", is_rigid},
     {"model.layers", "model.section", is_not_layered},
     {"model.layers", "beam.yield_stress", never_yields},
-    {"model.symmetry", "model.mesh", is_rigid},
     {"solver.rtol", "solver.method", central_needs_no_tolerance},
     {"solver.rtol", "solver.step", fixed_step_needs_no_tolerance},
     {"solver.max_step", "solver.method", is_central},
@@ -87,21 +81,29 @@ constexpr IdleKey idle_keys[] = {
     {"solver.reversals", "beam.yield_stress", never_yields},
     {"solver.reversals", "solver.method", central_interpolates},
     {"solver.reversals", "solver.events", interpolates_events},
-    {"solver.pair_detection", "solver.method", central_interpolates},
-    {"solver.pair_detection", "solver.events", interpolates_events},
-    {"solver.vector_operations", "solver.method", is_not_sundials},
-    {"solver.beyond_critical", "solver.method", is_not_central},
+    {"study.pair_detection", "solver.method", central_interpolates},
+    {"study.pair_detection", "solver.events", interpolates_events},
+    {"study.vector_operations", "solver.method", is_not_sundials},
+    {"study.beyond_critical", "solver.method", is_not_central},
 };
 
-bool is_given(const GivenKeys& given, const char* name) {
+bool is_given(const GivenKeys& given, const std::string& name) {
   return given.in_file.contains(name) || given.in_settings.contains(name);
 }
 
-bool is_overridden(const GivenKeys& given, const IdleKey& key) {
-  return !given.in_settings.contains(key.name) && given.in_settings.contains(key.because_of);
+// The key because of which another one has no effect; nullptr if it has one.
+const char* reason_of(const CaseKey& key, const Case& input) {
+  const bool of_some_mesh = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
+    return std::ranges::find(mesh.keys, key.name) != mesh.keys.end();
+  });
+  if (of_some_mesh && !mesh_uses(input, key.name.c_str())) return "model.mesh";
+  for (const IdleKey& row : idle_keys) {
+    if (row.name == key.name && row.is_idle(input)) return row.because_of;
+  }
+  return nullptr;
 }
 
-std::string setting_text(const Case& input, const char* name) {
+std::string setting_text(const Case& input, std::string_view name) {
   const std::optional<KeyValue> value = find_case_key(name)->get(input);
   return fmt::format("{} = {}", name, value ? to_text(*value) : "(not given)");
 }
@@ -110,13 +112,12 @@ std::string setting_text(const Case& input, const char* name) {
 
 std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given) {
   std::vector<std::string> notes;
-  std::string_view last;
-  for (const IdleKey& key : idle_keys) {
-    if (key.name == last || !is_given(given, key.name) || !key.is_idle(input)) continue;
-    last = key.name;
-    if (is_overridden(given, key)) continue;
+  for (const CaseKey& key : case_keys()) {
+    const char* reason = is_given(given, key.name) ? reason_of(key, input) : nullptr;
+    if (reason == nullptr) continue;
+    if (!given.in_settings.contains(key.name) && given.in_settings.contains(reason)) continue;
     notes.push_back(fmt::format("{} has no effect with {}", setting_text(input, key.name),
-                                setting_text(input, key.because_of)));
+                                setting_text(input, reason)));
   }
   return notes;
 }

@@ -53,6 +53,7 @@ constexpr OtherName other_names[] = {
     {"model.mesh", "fem", "hermite"},
     {"model.mesh", "finite-differences", "cells"},
     {"model.mesh", "segments", "cells"},
+    {"study.mass_solver", "tridiagonal", "banded"},
 };
 
 std::string spelt_alike(std::string_view name) {
@@ -68,11 +69,19 @@ std::string spelt_alike(std::string_view name) {
 
 const std::vector<MovedKey>& moved_keys() {
   static const std::vector<MovedKey> keys = {
-      {"beam.height", "beam.thickness"},     {"beam.modulus", "beam.youngs_modulus"},
-      {"beam.supports", "beam.ends"},        {"striker.radius", "striker.nose_radius"},
-      {"striker.speed", "striker.velocity"}, {"model.cells", "model.segments"},
-      {"time.end_time", "time.end"},         {"solver.tolerance", "solver.rtol"},
+      {"beam.height", "beam.thickness"},
+      {"beam.modulus", "beam.youngs_modulus"},
+      {"beam.supports", "beam.ends"},
+      {"striker.radius", "striker.nose_radius"},
+      {"striker.speed", "striker.velocity"},
+      {"model.cells", "model.segments"},
+      {"time.end_time", "time.end"},
+      {"solver.tolerance", "solver.rtol"},
       {"solver.dt", "solver.step"},
+      {"solver.vector_operations", "study.vector_operations"},
+      {"solver.mass_solver", "study.mass_solver"},
+      {"solver.pair_detection", "study.pair_detection"},
+      {"solver.beyond_critical", "study.beyond_critical"},
   };
   return keys;
 }

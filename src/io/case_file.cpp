@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "case/meshes.h"
 #include "case/other_names.h"
 #include "io/toml_value.h"
 #include "subimpact/case/case_keys.h"
@@ -232,18 +233,24 @@ bool Reader::is_given(const char* key, bool in_file) const {
 void Reader::choose_mesh(Case& read) {
   if (given_.contains("model.mesh")) return;
   for (const bool in_file : {false, true}) {
-    const bool cells = is_given("model.segments", in_file);
-    const bool elements = is_given("model.elements", in_file);
-    if (cells && elements) {
-      complain(given_.at("model.elements").place,
-               "model.elements is given, and model.segments too, but each is the size of another "
-               "mesh; allowed without model.mesh: one of them; leave one out, or say which is "
-               "meant with model.mesh = \"hermite\" (elements) or \"cells\" (segments)");
+    const MeshDescriptor* chosen = nullptr;
+    for (const MeshDescriptor& mesh : meshes()) {
+      if (!mesh.refinement || !is_given(mesh.refinement->key, in_file)) continue;
+      if (chosen != nullptr) {
+        const char* first = chosen->refinement->key;
+        const char* second = mesh.refinement->key;
+        complain(given_.at(second).place,
+                 fmt::format("{} is given, and {} too, but each is the size of another mesh; "
+                             "allowed without model.mesh: one of them; leave one out, or say "
+                             "which is meant with model.mesh = \"{}\" ({}) or \"{}\" ({})",
+                             second, first, mesh.name, find_case_key(second)->leaf(), chosen->name,
+                             find_case_key(first)->leaf()));
+      }
+      chosen = &mesh;
     }
-    if (cells || elements) {
-      read.model.mesh = elements ? MeshKind::hermite : MeshKind::cells;
-      return;
-    }
+    if (chosen == nullptr) continue;
+    read.model.mesh = chosen->kind;
+    return;
   }
 }
 
@@ -253,7 +260,9 @@ GivenKeys Reader::given_keys() const {
     (given.in_file ? keys.in_file : keys.in_settings).insert(name);
   }
   // The size that a setting names chooses the mesh.
-  const bool by_size = is_given("model.segments", false) || is_given("model.elements", false);
+  const bool by_size = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
+    return mesh.refinement && is_given(mesh.refinement->key, false);
+  });
   if (by_size && !given_.contains("model.mesh")) keys.in_settings.insert("model.mesh");
   return keys;
 }

@@ -5,9 +5,11 @@
 
 #include "case/case_choices.h"
 #include "case/counted.h"
+#include "case/meshes.h"
+#include "case/sections.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/method_tables.h"
 #include "subimpact/io/report.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {
@@ -20,8 +22,8 @@ std::string key_text(const Case& input, const char* name) {
   return value ? to_text(*value) : key->default_text;
 }
 
-std::string symmetry_text(const Case& input, const Used& used) {
-  if (input.model.mesh == MeshKind::rigid)
+std::string symmetry_text(const Case& input, const ResolvedSettings& used) {
+  if (!descriptor_of(input.model.mesh).bends)
     return "not applicable: a rigid body has at most two unknowns";
   if (used.half_model)
     return "used: the strike is at mid-span and both ends are alike, so one half is modelled";
@@ -30,22 +32,15 @@ std::string symmetry_text(const Case& input, const Used& used) {
   return "not used: the scene is not symmetric about mid-span, so the whole beam is modelled";
 }
 
-std::string mesh_text(const Case& input, const Used& used) {
-  const double length = 1e3 * input.scene.beam.length;  // mm
-  switch (input.model.mesh) {
-    case MeshKind::cells:
-      return fmt::format("{}; cells of {:.6g} mm", used.mesh, length / input.model.segments);
-    case MeshKind::hermite:
-      if (input.model.strike_refinement != 1.0) return used.mesh;
-      return fmt::format("{}; elements of {:.6g} mm", used.mesh, length / input.model.elements);
-    case MeshKind::rigid:
-      break;
-  }
-  return used.mesh;
+std::string mesh_text(const Case& input, const ResolvedSettings& used) {
+  const auto& refinement = descriptor_of(input.model.mesh).refinement;
+  if (input.parts.mesh || !refinement || input.model.strike_refinement != 1.0) return used.mesh;
+  return fmt::format("{}; {} of {:.6g} mm", used.mesh, refinement->parts,
+                     1e3 * input.scene.beam.length / input.model.*(refinement->count));
 }
 
-std::string section_text(const Case& input, const Used& used) {
-  if (input.model.mesh == MeshKind::rigid) return "none: a rigid beam does not bend";
+std::string section_text(const Case& input, const ResolvedSettings& used) {
+  if (!descriptor_of(input.model.mesh).bends) return "none: a rigid beam does not bend";
   if (input.model.section == SectionKind::elastic) {
     return used.section + ": sections never yield";
   }
@@ -57,7 +52,7 @@ std::string section_text(const Case& input, const Used& used) {
     return fmt::format("{}: first yield at a curvature of {:.6g} 1/m", used.section,
                        used.yield_curvature * input.parts.section->first_yield());
   }
-  if (input.model.section == SectionKind::layers) {
+  if (descriptor_of(input.model.section).has_layers) {
     const double n = input.model.layers;
     return fmt::format(
         "{} layers: elastic stiffness {:.6f} of the exact section's, first yield at "
@@ -69,7 +64,7 @@ std::string section_text(const Case& input, const Used& used) {
 
 // A nose radius describes the striker whether or not the law asks for it; where it does not, that
 // is said.
-std::string contact_stiffness_text(const Case& input, const Used& used) {
+std::string contact_stiffness_text(const Case& input, const ResolvedSettings& used) {
   const Contact& contact = input.scene.contact;
   const std::string unit =
       used.contact_exponent == 1.0 ? "N/m" : fmt::format("N/m^{:.6g}", used.contact_exponent);
@@ -79,13 +74,13 @@ std::string contact_stiffness_text(const Case& input, const Used& used) {
                      input.scene.striker.nose_radius ? "; striker.nose_radius has no effect" : "");
 }
 
-std::string method_text(const Case& input, const Used& used) {
+std::string method_text(const Case& input, const ResolvedSettings& used) {
   return fmt::format("{}{}{}", to_string(input.solver.method),
                      used.table ? ", table " + *used.table : "",
                      used.max_order ? fmt::format(", order up to {}", *used.max_order) : "");
 }
 
-std::string step_text(const Case& input, const Used& used) {
+std::string step_text(const Case& input, const ResolvedSettings& used) {
   if (!used.step) {
     return fmt::format("adaptive{}", input.solver.max_step
                                          ? ", at most " + duration_text(*input.solver.max_step)
@@ -101,7 +96,7 @@ std::string count_text(double count) {
 
 }  // namespace
 
-std::string explanation(const Case& input, const Used& used,
+std::string explanation(const Case& input, const ResolvedSettings& used,
                         const std::optional<CostEstimate>& cost) {
   const Scene& scene = input.scene;
   fmt::memory_buffer text;

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "case/case_choices.h"
+#include "case/meshes.h"
 #include "io/csv_columns.h"
 #include "io/write_file.h"
 #include "subimpact/io/plan.h"
@@ -21,10 +22,10 @@ std::string settings_text(const PlanPoint& point) {
   if (colon != std::string::npos) {
     text += fmt::format(" --set solver.table={}", method.substr(colon + 1));
   }
-  text += model.mesh == MeshKind::cells
-              ? fmt::format(" --set model.mesh=cells --set model.segments={}", model.segments)
-              : fmt::format(" --set model.mesh=hermite --set model.elements={}", model.elements);
-  if (model.strike_refinement != 1.0 && model.mesh == MeshKind::hermite) {
+  const MeshDescriptor& mesh = descriptor_of(model.mesh);
+  text += fmt::format(" --set model.mesh={} --set {}={}", mesh.name, mesh.refinement->key,
+                      model.*(mesh.refinement->count));
+  if (model.strike_refinement != 1.0 && mesh_uses(point.input, "model.strike_refinement")) {
     text += fmt::format(" --set model.strike_refinement={:g} --set model.refined_length={:g}",
                         model.strike_refinement, model.refined_length);
   }

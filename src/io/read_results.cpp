@@ -94,7 +94,7 @@ OutcomeKind outcome_kind(const std::string& name) {
 }
 
 // "contact_stiffness_N_per_m1.5": the exponent follows the unit's name, if it is not 1.
-void read_contact_stiffness(const Json& json, Used& used) {
+void read_contact_stiffness(const Json& json, ResolvedSettings& used) {
   const std::string start = "contact_stiffness_N_per_m";
   for (const auto& [name, value] : json.items()) {
     if (!name.starts_with(start)) continue;
@@ -106,8 +106,8 @@ void read_contact_stiffness(const Json& json, Used& used) {
   used.contact_stiffness = number(json.at(start + "1.5"));  // says what is missing
 }
 
-Used used_from(const Json& json) {
-  Used used;
+ResolvedSettings used_from(const Json& json) {
+  ResolvedSettings used;
   used.half_model = json.at("half_model").get<bool>();
   used.n_unknowns = json.at("n_unknowns").get<std::size_t>();
   used.n_sections = json.at("n_sections").get<std::size_t>();

@@ -51,13 +51,13 @@ Json versions() {
 }
 
 // With its unit: N/m^n for the exponent n.
-std::string contact_stiffness_name(const Used& used) {
+std::string contact_stiffness_name(const ResolvedSettings& used) {
   const std::string power =
       used.contact_exponent == 1.0 ? "" : fmt::format("{:.6g}", used.contact_exponent);
   return "contact_stiffness_N_per_m" + power;
 }
 
-Json what_was_used(const Case& input, const Used& used) {
+Json what_was_used(const Case& input, const ResolvedSettings& used) {
   const bool adaptive = !used.step;
   return {
       {"method", to_string(input.solver.method)},

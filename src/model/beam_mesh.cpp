@@ -1,8 +1,14 @@
-#include "model/beam_mesh.h"
+#include "subimpact/model/beam_mesh.h"
 
 #include <algorithm>
 
+#include "numerics/lanes.h"
+
 namespace subimpact {
+
+double SparseFunctional::of_all(std::span<const double> unknowns) const {
+  return dot(dense.data(), unknowns.data(), dense.size());
+}
 
 std::size_t BeamMesh::stiffness_bandwidth() const {
   std::size_t bandwidth = 0;

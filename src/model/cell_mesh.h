@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "model/beam_mesh.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "model/natural_modes.h"
+#include "subimpact/model/natural_modes.h"
 
 namespace subimpact {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "model/beam_mesh.h"
 #include "model/element_grading.h"
 #include "model/element_rule.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

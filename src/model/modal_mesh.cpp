@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numerics/lanes.h"
+
 namespace subimpact {
 namespace {
 
@@ -19,7 +21,7 @@ ConstMatrix matrix(const NaturalModes& modes) {
 
 }  // namespace
 
-ModalMesh::ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffness)
+ModalMesh::ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_stiffness)
     : BeamMesh(physical->n_unknowns(), 0, physical->symmetric()),
       physical_(std::move(physical)),
       bending_stiffness_(bending_stiffness),

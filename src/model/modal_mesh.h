@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "model/beam_mesh.h"
-#include "model/natural_modes.h"
+#include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/natural_modes.h"
 
 namespace subimpact {
 
@@ -17,7 +17,7 @@ namespace subimpact {
 /// mean here what they mean on other meshes.
 class ModalMesh final : public BeamMesh {
  public:
-  ModalMesh(std::unique_ptr<BeamMesh> physical, double bending_stiffness);
+  ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_stiffness);
 
   const BeamMesh& physical() const { return *physical_; }
   std::span<const double> frequencies() const { return modes_.frequencies; }  ///< rad/s
@@ -38,7 +38,7 @@ class ModalMesh final : public BeamMesh {
   void to_modal(std::span<const double> physical, std::span<double> modal) const;
 
  private:
-  std::unique_ptr<BeamMesh> physical_;
+  std::shared_ptr<const BeamMesh> physical_;
   double bending_stiffness_;
   NaturalModes modes_;
   double modal_mass_;  // kg, of every mode

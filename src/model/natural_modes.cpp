@@ -1,10 +1,10 @@
-#include "model/natural_modes.h"
+#include "subimpact/model/natural_modes.h"
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <stdexcept>
 
-#include "model/beam_mesh.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/beam_mesh.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -1,4 +1,4 @@
-#include "numerics/banded_matrix.h"
+#include "subimpact/numerics/banded_matrix.h"
 
 #include <algorithm>
 #include <cassert>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "numerics/banded_matrix.h"
 #include "numerics/lanes.h"
+#include "subimpact/numerics/banded_matrix.h"
 
 namespace subimpact {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "case/model_factory.h"
+#include "case/problem.h"
 #include "report/figure_script.h"
 
 namespace subimpact {

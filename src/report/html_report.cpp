@@ -107,7 +107,7 @@ List key_list(const Case& input) {
 }
 
 void add_method(Fields& page, const FinishedRun& run) {
-  const Used& used = run.result.used;
+  const ResolvedSettings& used = run.result.used;
   const Work& work = run.result.work;
   auto& texts = page.texts;
   texts["mesh"] =

@@ -7,6 +7,8 @@
 
 #include "simulate/observers.h"
 #include "simulate/recorder.h"
+#include "simulate/run_parts.h"
+#include "subimpact/model/contact_law_check.h"
 #include "system/no_more_contact.h"
 
 namespace subimpact {
@@ -88,6 +90,31 @@ void judge_end(Audit& audit, const EventLoop& loop, Outcome& outcome) {
   }
 }
 
+// What helps: when the integrator could not go on, or a check failed.
+void add_remedy(Outcome& outcome, const RunParts& parts) {
+  const std::optional<double>& step = parts.settings.step;
+  if (outcome.kind == OutcomeKind::solver_failed) {
+    outcome.message += parts.given.solver.step
+                           ? "; use a smaller solver.step or another solver.method"
+                           : "; use a larger solver.rtol or another solver.method";
+  } else if (outcome.first_failure) {
+    outcome.message +=
+        step ? fmt::format("; use a solver.step below {:.3g} us, or another solver.method",
+                           us * *step)
+             : fmt::format("; use a solver.rtol below {:.0e}, or another solver.method",
+                           parts.given.solver.rtol);
+  }
+}
+
+// A law that is wrong from the start makes a result that is wrong from the start. The largest
+// indentation of the run bounds what is looked at.
+std::optional<std::string> rule_broken_by_law(const RunParts& parts) {
+  if (!parts.check_contact_law) return std::nullopt;
+  const ContactLaw& law = parts.beam.contact_law();
+  const double deepest = law.indentation_at(parts.settings.initial_energy);
+  return broken_rule(law, std::min(deepest, parts.run.loop.largest_indentation));
+}
+
 }  // namespace
 
 Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& options,
@@ -129,6 +156,31 @@ Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& opti
   }
   result.work.wall_seconds = seconds_since(start);
   return result;
+}
+
+Result simulate(ResolvedRun run, const Progress& progress, Observer* observer) {
+  RunParts& parts = run.parts();
+  const auto start = std::chrono::steady_clock::now();
+  Result result;
+  if (const auto broken = rule_broken_by_law(parts)) {
+    result.outcome = {OutcomeKind::inaccurate, 0.0, *broken, Interval{0.0, 0.0}};
+  } else {
+    const auto integrator = parts.make_integrator();
+    const double setup_seconds = parts.setup_seconds + seconds_since(start);
+    result = simulate(parts.beam, *integrator, parts.run, progress, observer);
+    result.work.setup_seconds += setup_seconds;
+    result.work.wall_seconds = parts.setup_seconds + seconds_since(start);
+    add_remedy(result.outcome, parts);
+  }
+  result.warnings.insert(result.warnings.begin(), parts.warnings.begin(), parts.warnings.end());
+  result.given = std::move(parts.given);
+  result.used = std::move(parts.settings);
+  return result;
+}
+
+Result simulate(const Problem& problem, const Options& options, const Progress& progress,
+                Observer* observer) {
+  return simulate(resolve(problem, options), progress, observer);
 }
 
 }  // namespace subimpact

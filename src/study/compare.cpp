@@ -59,7 +59,7 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
     ComparedRun run;
     run.name = name;
     run.input = with_method(input, name);
-    explain(run.input);
+    resolve(run.input);
     runs.push_back(std::move(run));
   }
   Comparison comparison;

@@ -9,7 +9,7 @@
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/method_tables.h"
+#include "subimpact/simulate/method_tables.h"
 #include "subimpact/study/stability.h"
 
 namespace subimpact {

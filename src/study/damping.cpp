@@ -4,7 +4,7 @@
 #include "study/free_vibration.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
-#include "subimpact/case/method_tables.h"
+#include "subimpact/simulate/method_tables.h"
 #include "subimpact/study/stability.h"
 
 namespace subimpact {

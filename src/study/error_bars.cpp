@@ -19,9 +19,8 @@ Companion companion_of(const Case& input) {
   Companion companion{input, {}};
   companion.input.output.keep_no_rows();
   SolverOptions& solver = companion.input.solver;
-  const Used used = explain(input);
-  if (used.step) {
-    solver.step = 0.5 * *used.step;
+  if (const std::optional<double> step = resolve(input).settings().step) {
+    solver.step = 0.5 * *step;
     companion.description =
         fmt::format("the same with half the step, {:.6g} us", 1e6 * *solver.step);
   } else if (tighter * solver.rtol >= tightest) {

@@ -10,15 +10,15 @@ namespace {
 
 Case elastic(Case input) {
   input.model.section = SectionKind::elastic;
-  input.solver.beyond_critical = true;
+  input.study.beyond_critical = true;
   return input;
 }
 
 }  // namespace
 
 FreeVibration::FreeVibration(const Case& input)
-    : input_(elastic(input)),
-      beam_(make_struck_beam(input_)),
+    : run_(resolve(elastic(input))),
+      beam_(run_.parts().beam),
       modes_(beam_.mesh().natural_modes(beam_.sections().stiffness())) {
   beam_.contact().set(ContactBranch::separated, {});
 }
@@ -36,8 +36,9 @@ FreeVibration::Amplitudes FreeVibration::run(std::size_t mode, double step, int 
     y[i] = start.displacement / frequency(mode) * shape[i];
     y[n + 1 + i] = start.velocity * shape[i];
   }
-  input_.solver.step = step;
-  const auto integrator = make_integrator(input_, describe(input_, beam_), beam_);
+  run_.parts().given.solver.step = step;
+  run_.parts().settings.step = step;
+  const auto integrator = run_.parts().make_integrator();
   integrator->restart(0.0, y);
   for (int i = 0; i < n_steps; ++i) integrator->step();
 

@@ -2,8 +2,9 @@
 
 #include <cstddef>
 
-#include "case/model_factory.h"
-#include "model/natural_modes.h"
+#include "simulate/run_parts.h"
+#include "subimpact/case/simulate.h"
+#include "subimpact/model/natural_modes.h"
 
 namespace subimpact {
 
@@ -31,8 +32,8 @@ class FreeVibration {
   };
   Amplitudes run(std::size_t mode, double step, int n_steps, const Amplitudes& start);
 
-  Case input_;
-  StruckBeam beam_;
+  ResolvedRun run_;
+  StruckBeam& beam_;
   NaturalModes modes_;
 };
 

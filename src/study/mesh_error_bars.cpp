@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <future>
 #include <vector>
 
-#include "case/model_factory.h"
-#include "model/cell_mesh.h"
-#include "model/hermite_mesh.h"
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "case/sections.h"
 #include "numerics/richardson.h"
+#include "simulate/methods.h"
 #include "study/error_part.h"
 #include "study/method_choice.h"
 #include "subimpact/study/match.h"
@@ -21,8 +23,7 @@ namespace {
 constexpr double safety = 3.0;         // of differences in time
 constexpr double mesh_safety = 1.5;    // of what the finer mesh tells
 constexpr double layers_safety = 1.5;  // of one that is the error but for the mesh
-constexpr double part_of_critical = 0.9;
-constexpr double order_doubt = 0.35;  // of the ratio of differences that an order asks for
+constexpr double order_doubt = 0.35;   // of the ratio of differences that an order asks for
 
 // The whole number nearest to x that is odd (or even), or just the nearest.
 int nearest(double x, bool any, bool odd) {
@@ -67,53 +68,38 @@ void extrapolate(Result& result, const Result& coarse, const Result& fine,
   }
 }
 
+// A mesh of the caller's own has no finer one.
+std::optional<MeshDescriptor::Refinement> refinement_of(const Case& input) {
+  if (input.parts.mesh) return std::nullopt;
+  return descriptor_of(input.model.mesh).refinement;
+}
+
 }  // namespace
 
 std::optional<int> mesh_order(const Case& input) {
-  switch (input.model.mesh) {
-    case MeshKind::cells:
-      return 2;
-    case MeshKind::hermite:
-      if (!may_yield(input)) return 4;
-      return input.model.hinges == HingeUse::off ? 1 : 2;
-    case MeshKind::rigid:
-      break;
-  }
-  return std::nullopt;
+  const auto refinement = refinement_of(input);
+  return refinement ? std::optional(refinement->order(input)) : std::nullopt;
 }
 
 int mesh_count(const Case& input) {
-  switch (input.model.mesh) {
-    case MeshKind::cells:
-      return input.model.segments;
-    case MeshKind::hermite:
-      return input.model.elements;
-    case MeshKind::rigid:
-      break;
-  }
-  return 1;
+  const auto refinement = refinement_of(input);
+  return refinement ? input.model.*(refinement->count) : 1;
 }
 
 std::optional<Companion> on_other_mesh(const Case& input, double factor) {
+  const auto refinement = refinement_of(input);
+  if (!refinement) return {};
   Companion companion{input, {}};
   Case& other = companion.input;
   other.output.keep_no_rows();
-  const bool symmetric = uses_symmetry(input);
-  const double wanted = factor * mesh_count(input);
-  if (input.model.mesh == MeshKind::cells) {
-    other.model.segments = nearest(wanted, !symmetric, true);
-    if (other.model.segments < static_cast<int>(CellMesh::fewest_cells_if_clamped)) return {};
-    companion.description = fmt::format("the same with {} cells", other.model.segments);
-  } else if (input.model.mesh == MeshKind::hermite) {
-    other.model.elements = nearest(wanted, !symmetric, false);
-    if (other.model.elements < static_cast<int>(HermiteMesh::fewest_elements)) return {};
-    companion.description = fmt::format("the same with {} elements", other.model.elements);
-  } else {
-    return {};
-  }
-  if (input.solver.method == Method::central_difference && input.solver.step) {
+  int& count = other.model.*(refinement->count);
+  count = nearest(factor * mesh_count(input), !uses_symmetry(input), refinement->odd_in_half);
+  if (count < refinement->fewest) return {};
+  companion.description = fmt::format("the same with {} {}", count, refinement->parts);
+  const bool fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+  if (fixed && input.solver.step) {
     other.solver.step.reset();
-    const double largest = part_of_critical * explain(other).critical_step;
+    const double largest = default_part_of_critical * resolve(other).settings().critical_step;
     other.solver.step = std::min(*input.solver.step, largest);
     if (*other.solver.step < *input.solver.step) {
       companion.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
@@ -148,7 +134,7 @@ Result simulate_with_all_error_bars(const Case& input, const Progress& progress)
   };
   if (result.outcome.kind == OutcomeKind::stopped) stop = true;
   if (!stop) compare(simulate(in_time.input, half(1.0)), "time", in_time.description, safety);
-  if (!stop && input.model.section == SectionKind::layers && !input.parts.section &&
+  if (!stop && descriptor_of(input.model.section).has_layers && !input.parts.section &&
       may_yield(input)) {
     Case exact = companion_of(input).input;
     exact.solver = input.solver;

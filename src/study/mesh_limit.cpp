@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "case/model_factory.h"
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "case/sections.h"
 #include "numerics/richardson.h"
 #include "study/parallel.h"
 #include "subimpact/study/mesh_error_bars.h"
@@ -20,6 +22,7 @@ constexpr double share_of_extrapolation = 0.5;
 
 Case accurate(Case input) {
   input.solver = {};
+  input.study = {};
   input.output.interval = 0.0;
   input.solver.method = may_yield(input) ? Method::nystrom : Method::exponential;
   input.solver.rtol = may_yield(input) ? yielding_tolerance : elastic_tolerance;
@@ -35,8 +38,9 @@ struct Sequence {
 Sequence sequence_of(const Case& input, MeshKind kind) {
   Case base = accurate(input);
   base.model.mesh = kind;
-  if (kind != MeshKind::hermite) base.model.strike_refinement = 1.0;
-  if (base.model.section == SectionKind::layers) base.model.section = SectionKind::exact;
+  base.parts.mesh = nullptr;
+  if (!mesh_uses(base, "model.strike_refinement")) base.model.strike_refinement = 1.0;
+  if (descriptor_of(base.model.section).has_layers) base.model.section = SectionKind::exact;
   Sequence sequence;
   sequence.order = mesh_order(base).value_or(0);
   for (const double factor : factors) {
@@ -46,7 +50,7 @@ Sequence sequence_of(const Case& input, MeshKind kind) {
     MeshRun run;
     run.input = accurate(other->input);
     run.count = mesh_count(run.input);
-    run.mesh = fmt::format("{} {}", run.count, kind == MeshKind::cells ? "cells" : "elements");
+    run.mesh = fmt::format("{} {}", run.count, descriptor_of(kind).refinement->parts);
     sequence.runs.push_back(run);
   }
   sequence.results.resize(sequence.runs.size());
@@ -127,8 +131,10 @@ MeshLimit limit_of(const Sequence& sequence, double end_time, double largest_err
 }  // namespace
 
 MeshLimit mesh_limit(const Case& input, double largest_error) {
-  std::vector<Sequence> sequences = {sequence_of(input, MeshKind::cells),
-                                     sequence_of(input, MeshKind::hermite)};
+  std::vector<Sequence> sequences;
+  for (const MeshDescriptor& mesh : meshes()) {
+    if (mesh.refinement) sequences.push_back(sequence_of(input, mesh.kind));
+  }
   MeshLimit best;
   std::vector<FirstEndLimit> first_end;
   for (const Sequence& sequence : sequences) {

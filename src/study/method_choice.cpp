@@ -1,6 +1,6 @@
 #include "study/method_choice.h"
 
-#include "case/methods.h"
+#include "simulate/methods.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {

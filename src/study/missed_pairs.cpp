@@ -37,7 +37,7 @@ std::vector<MissedPairs> missed_pairs(const Case& input, const Count& progress) 
     for (MissedPairs& row : of_speed[k]) {
       scene.solver.step = row.step;
       for (const bool search : {true, false}) {
-        scene.solver.pair_detection = search;
+        scene.study.pair_detection = search;
         const Result result = simulate(scene);
         const bool right = judge(result, event_errors(result, reference)) == Verdict::right;
         (search ? row.right_with_search : row.right_without) = right ? 1 : 0;

@@ -24,7 +24,7 @@ struct Trial {
 
 bool accepts(const Case& input) {
   try {
-    explain(input);
+    resolve(input);
     return true;
   } catch (const InvalidCase&) {
     return false;
@@ -35,14 +35,14 @@ class Trials {
  public:
   Trials(const Case& input, const std::vector<std::string>& methods)
       : input_(input), methods_(methods) {
-    highest_frequency_ = explain(with_method(input, "erk")).highest_frequency;
+    highest_frequency_ = resolve(with_method(input, "erk")).settings().highest_frequency;
   }
 
   void add_steps(const std::string& row, const std::string& method, bool forced = false) {
     if (!asked_for(methods_, method)) return;
     Case chosen = with_method(input_, method);
     if (!accepts_method(chosen)) return;
-    chosen.solver.beyond_critical = forced;
+    chosen.study.beyond_critical = forced;
     for (const double angle : angles) {
       chosen.solver.step = angle / highest_frequency_;
       add("fixed step", row, angle, chosen);

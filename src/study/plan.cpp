@@ -57,6 +57,7 @@ Plan plan(const Case& input, double wanted, const std::function<void(const std::
     base.model = mesh.input.model;
     base.output.interval = 0.0;
     base.solver = {};
+    base.study = {};
     for (const std::string& method : fast_methods(base)) {
       if (announce) announce(mesh.mesh + ", " + method);
       PlanPoint point{base, mesh.mesh, mesh.errors.maximum, {}};

@@ -6,7 +6,7 @@
 #include <future>
 #include <limits>
 
-#include "case/model_factory.h"
+#include "case/problem.h"
 #include "study/method_choice.h"
 #include "subimpact/study/error_bars.h"
 
@@ -19,6 +19,7 @@ Case accurate(const Case& input, const char* method) {
   Case chosen = with_method(input, method);
   const Method kind = chosen.solver.method;
   chosen.solver = {};
+  chosen.study = {};
   chosen.solver.method = kind;
   chosen.solver.rtol = reference_tolerance;
   return chosen;

@@ -4,9 +4,10 @@
 #include <random>
 #include <vector>
 
-#include "case/model_factory.h"
+#include "case/problem.h"
 #include "integrate/central_difference.h"
 #include "numerics/bracketed_root.h"
+#include "simulate/run_parts.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/study/stability.h"
@@ -29,8 +30,8 @@ StruckBeam held_together(const Case& input, double stiffness) {
   trial.scene.contact.kind = ContactKind::linear;
   trial.scene.contact.stiffness = stiffness;
   trial.scene.striker.nose_radius.reset();
-  StruckBeam beam =
-      make_struck_beam(trial, SectionField::Storage::when_yielded, Coordinates::of_mesh);
+  StruckBeam beam = make_struck_beam(problem_of(trial), trial, SectionField::Storage::when_yielded,
+                                     Coordinates::of_mesh);
   beam.contact().set(ContactBranch::elastic, {});
   return beam;
 }
@@ -65,7 +66,7 @@ std::vector<StiffContact> stiff_contact(const Case& input) {
     StiffContact& row = list[i];
     Case trial = with_method(input, "central-difference");
     trial.model.section = SectionKind::elastic;
-    const double beam_alone = explain(trial).highest_frequency;
+    const double beam_alone = resolve(trial).settings().highest_frequency;
     row.beam_only = 2.0 / beam_alone;
     // The unit is the spring that alone oscillates as fast as the mesh on a cell's mass.
     const double cell_mass = trial.scene.beam.mass() / trial.model.segments;

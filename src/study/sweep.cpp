@@ -4,20 +4,20 @@
 
 #include <cmath>
 
+#include "simulate/methods.h"
 #include "study/method_choice.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double part_of_critical = 0.9;
 constexpr int n_halvings = 8;
 constexpr int loosest_decade = -2;
 constexpr int tightest_decade = -12;
 
 bool can_run(const Case& input, const std::string& method) {
   try {
-    explain(with_method(input, method));
+    resolve(with_method(input, method));
     return true;
   } catch (const InvalidCase&) {
     return false;
@@ -45,11 +45,11 @@ Case with_setting(const Case& input, const Setting& setting) {
 std::vector<Setting> settings_of(const Case& input, const std::string& method) {
   Case chosen = with_method(input, method);
   chosen.solver.step.reset();
-  const Used used = explain(chosen);
   std::vector<Setting> settings;
-  if (chosen.solver.method == Method::central_difference) {
+  if (descriptor_of(chosen.solver.method).steps == MethodDescriptor::Steps::fixed) {
+    const double largest = default_part_of_critical * resolve(chosen).settings().critical_step;
     for (int i = 0; i <= n_halvings; ++i) {
-      settings.push_back({method, true, std::ldexp(part_of_critical * used.critical_step, -i)});
+      settings.push_back({method, true, std::ldexp(largest, -i)});
     }
   } else {
     for (int decade = loosest_decade; decade >= tightest_decade; --decade) {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "model/beam_mesh.h"
 #include "ode/second_order_ode.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "model/natural_modes.h"
 #include "numerics/event_free_horizon.h"
 #include "ode/integrator.h"
+#include "subimpact/model/natural_modes.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/beam_mesh.h"
 #include "numerics/mass_solver.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -9,8 +9,8 @@
 
 namespace subimpact {
 
-StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
-                       std::unique_ptr<MassSolver> mass_solver)
+StruckBeam::StruckBeam(const Scene& scene, std::shared_ptr<const BeamMesh> mesh,
+                       SectionField sections, std::unique_ptr<MassSolver> mass_solver)
     : StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), make_contact_law(scene),
                                  scene.striker.mass, scene.striker.velocity,
                                  0.5 * scene.beam.youngs_modulus * scene.beam.thickness,

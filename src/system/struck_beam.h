@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "model/beam_mesh.h"
 #include "model/section_field.h"
 #include "numerics/mass_solver.h"
 #include "ode/second_order_ode.h"
+#include "subimpact/model/beam_mesh.h"
 #include "system/beam_jacobian.h"
 #include "system/contact_state.h"
 
@@ -15,7 +15,7 @@ namespace subimpact {
 
 /// What a struck beam is made of.
 struct StruckBeamParts {
-  std::unique_ptr<BeamMesh> mesh;
+  std::shared_ptr<const BeamMesh> mesh;
   SectionField sections;
   std::shared_ptr<const ContactLaw> contact_law;
   double striker_mass;      ///< kg
@@ -45,7 +45,7 @@ class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
   /// With the striker and the contact law of a scene.
-  StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, SectionField sections,
+  StruckBeam(const Scene& scene, std::shared_ptr<const BeamMesh> mesh, SectionField sections,
              std::unique_ptr<MassSolver> mass_solver);
 
   std::size_t n_positions() const override { return n_ + 1; }
@@ -109,7 +109,7 @@ class StruckBeam final : public MechanicalSystem {
   void use_modes();
   BeamJacobian& jacobian() const;
 
-  std::unique_ptr<BeamMesh> mesh_;
+  std::shared_ptr<const BeamMesh> mesh_;
   SectionField sections_;
   ContactState contact_;
   std::unique_ptr<MassSolver> mass_solver_;

@@ -50,7 +50,7 @@ TEST(CentralDifferences, ConvergeAtSecondOrderOnTheElasticBeam) {
 
 TEST(AStepOnePercentBeyondCritical, IsRefusedNamingTheLimit) {
   Case input = central(SectionKind::elastic, 1e-4);
-  const double critical = explain(input).critical_step;
+  const double critical = resolve(input).settings().critical_step;
   EXPECT_NEAR(critical, 2.0 / 7.043e6, 1e-10);
   input.solver.step = 1.01 * critical;
   try {
@@ -66,8 +66,8 @@ class ForcedBeyondCritical : public testing::TestWithParam<SectionKind> {};
 
 TEST_P(ForcedBeyondCritical, TheBlowUpIsDetectedAndResultsAreKept) {
   Case input = central(GetParam(), 2e-3);
-  input.solver.step = 1.01 * explain(input).critical_step;
-  input.solver.beyond_critical = true;
+  input.solver.step = 1.01 * resolve(input).settings().critical_step;
+  input.study.beyond_critical = true;
   const Result result = simulate(input);
   printf("stopped at %.1f us: %s\n", 1e6 * result.outcome.time, result.outcome.message.c_str());
   EXPECT_EQ(result.outcome.kind, OutcomeKind::unstable);
@@ -77,7 +77,7 @@ TEST_P(ForcedBeyondCritical, TheBlowUpIsDetectedAndResultsAreKept) {
 
 TEST_P(ForcedBeyondCritical, JustBelowItIsStable) {
   Case input = central(GetParam(), 2e-3);
-  input.solver.step = 0.99 * explain(input).critical_step;
+  input.solver.step = 0.99 * resolve(input).settings().critical_step;
   EXPECT_TRUE(simulate(input).outcome.completed());
 }
 
@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(, ForcedBeyondCritical,
 TEST(WithoutRotaryInertia, TheCriticalStepIsTheEulerBernoulliGrids) {
   Case input = central(SectionKind::elastic, 1e-4);
   input.scene.beam.theory = BeamTheory::euler_bernoulli;
-  EXPECT_NEAR(1e6 * explain(input).critical_step, 0.0885, 5e-5);
+  EXPECT_NEAR(1e6 * resolve(input).settings().critical_step, 0.0885, 5e-5);
   input.solver.step = 1e-7;  // the paper's own step
   EXPECT_THROW(simulate(input), InvalidCase);
 }

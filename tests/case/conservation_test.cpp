@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "case/model_factory.h"
 #include "paper_case.h"
 #include "simulate/event_loop.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -46,12 +46,12 @@ class Conserved final : public RunObserver {
 };
 
 Conserved followed(const Case& input) {
-  StruckBeam beam = make_struck_beam(input);
-  const Used used = describe(input, beam);
-  const auto integrator = make_integrator(input, used, beam);
+  ResolvedRun run = resolve(input);
+  StruckBeam& beam = run.parts().beam;
+  const auto integrator = run.parts().make_integrator();
   Conserved conserved(beam, beam.initial_state());
   Audit accounts(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, conserved, accounts, loop_options(input, used));
+  EventLoop loop(beam, *integrator, conserved, accounts, run.parts().run.loop);
   loop.start();
   while (!loop.finished()) loop.advance();
   printf("%ld steps: energy %.1e, momentum %.1e, dissipation falls by %.1e J at most\n",

@@ -76,7 +76,7 @@ TEST(HermiteElements, MoveAlikeInNodesAndInModes) {
       input.output.interval = 1e-5;
       input.output.sections = {0.25, 0.4};
       const Result modes = simulate(input);
-      input.solver.mass_solver = MassSolverKind::klu;
+      input.study.mass_solver = MassSolverKind::klu;
       const Result nodes = simulate(input);
       EXPECT_NE(modes.used.mesh.find("natural modes"), std::string::npos);
       EXPECT_EQ(nodes.used.mesh.find("natural modes"), std::string::npos);
@@ -233,12 +233,12 @@ TEST(HermiteElements, GradedAndWithHingesAreTheSameInHalfAndWhole) {
 TEST(HermiteElements, HaveNoStableStepOfCentralDifferencesBeyondTheirOwn) {
   Case input = hermite_case(SectionKind::elastic, 0.3e-3, 40);
   input.solver.method = Method::central_difference;
-  const double critical = explain(input).critical_step;
+  const double critical = resolve(input).settings().critical_step;
   input.solver.step = 0.999 * critical;
   EXPECT_TRUE(simulate(input).outcome.completed());
   input.solver.step = 1.001 * critical;
   EXPECT_THROW(simulate(input), InvalidCase);
-  input.solver.beyond_critical = true;
+  input.study.beyond_critical = true;
   EXPECT_EQ(simulate(input).outcome.kind, OutcomeKind::unstable);
 }
 
@@ -290,7 +290,7 @@ TEST(HermiteElements, AgreeWithFineCellsOnEverySupport) {
 TEST(HermiteElements, AreRefusedWhereTheyDoNotFit) {
   const auto refused = [](const Case& input) {
     try {
-      explain(input);
+      resolve(input);
     } catch (const InvalidCase& error) {
       return error.key;
     }

@@ -105,7 +105,7 @@ TEST(ImplicitMethods, TakeAFixedStepAboveTheCriticalOne) {
 // The key an invalid case complains of, and its message.
 InvalidCase refusal_of(const Case& input) {
   try {
-    explain(input);
+    resolve(input);
   } catch (const InvalidCase& refusal) {
     return refusal;
   }

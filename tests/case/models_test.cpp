@@ -2,10 +2,11 @@
 
 #include <cmath>
 
-#include "case/model_factory.h"
+#include "case/problem.h"
 #include "paper_case.h"
 #include "simulate/event_loop.h"
 #include "simulate/recorder.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -49,9 +50,11 @@ INSTANTIATE_TEST_SUITE_P(, HalfAndWholeModel,
                          NamedAsPrinted{});
 
 State final_state(const Case& input, SectionField::Storage storage) {
-  StruckBeam beam = make_struck_beam(input, storage);
-  const Used used = describe(input, beam);
-  const auto integrator = make_integrator(input, used, beam);
+  const Problem problem = problem_of(input);
+  RunParts run(problem, input, make_struck_beam(problem, input, storage));
+  StruckBeam& beam = run.beam;
+  const ResolvedSettings& used = run.settings;
+  const auto integrator = run.make_integrator();
   Result result;
   Audit audit(beam, beam.initial_state());
   Recorder recorder(beam, 0.0, used.events, audit, result);
@@ -89,7 +92,7 @@ TEST(TheMassSolvers, GiveTheSameEvents) {
   Case input = paper_case(SectionKind::elastic, 0.5e-3);
   input.solver.step = 1e-7;
   const Result banded = simulate(input);
-  input.solver.mass_solver = MassSolverKind::klu;
+  input.study.mass_solver = MassSolverKind::klu;
   const Result klu = simulate(input);
   ASSERT_EQ(banded.sub_impacts.size(), klu.sub_impacts.size());
   EXPECT_LT(largest_relative_difference(banded, klu), 1e-9);

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "case/model_factory.h"
 #include "model/cell_mesh.h"
 #include "paper_case.h"
 #include "random_walk.h"
+#include "simulate/run_parts.h"
 #include "system/no_more_contact.h"
 
 namespace subimpact {
@@ -64,13 +64,15 @@ TEST(NoMoreContact, HoldsAgainstABeamBentTheWorstWay) {
     Case input = paper_case(SectionKind::elastic, 1e-3);
     input.model.segments = 61;
     if (modal) input.solver.method = Method::exponential;
-    StruckBeam beam = make_struck_beam(input);
+    ResolvedRun run = resolve(input);
+    StruckBeam& beam = run.parts().beam;
     beam.contact().set(ContactBranch::separated, {});
     NoMoreContact proof(beam, input.scene.beam);
     // That shape, u = sum S phi/omega^2 phi, from the modes of the physical mesh.
     Case physical = input;
     physical.solver.method = Method::nystrom;
-    const StruckBeam other = make_struck_beam(physical);
+    ResolvedRun other_run = resolve(physical);
+    const StruckBeam& other = other_run.parts().beam;
     const NaturalModes modes = other.mesh().natural_modes(other.sections().stiffness());
     const std::size_t n = beam.mesh().n_unknowns();
     double compliance = 0.0;

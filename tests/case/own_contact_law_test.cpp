@@ -8,10 +8,9 @@
 #include <string>
 
 #include "built_in_law.h"
-#include "case/model_factory.h"
 #include "paper_scene.h"
 #include "same_results.h"
-#include "simulate/run.h"
+#include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 
@@ -246,14 +245,11 @@ TEST(AnOwnContactLaw, ThatBreaksItsContractIsCaughtByTheRunToo) {
       Case input = rigid_case();
       input.solver.method = method;
       input.parts.contact_law = std::make_shared<WrongLine>(fault);
-      StruckBeam beam = make_struck_beam(input);
-      const Used used = describe(input, beam);
-      const auto integrator = make_integrator(input, used, beam);
-      RunOptions options;
-      options.loop = loop_options(input, used);
-      options.limits = audit_limits(used);
-      options.history_interval = 1e-5;
-      const Result result = simulate(beam, *integrator, options);
+      ResolvedRun run = resolve(input);
+      StruckBeam& beam = run.parts().beam;
+      const auto integrator = run.parts().make_integrator();
+      run.parts().run.history_interval = 1e-5;
+      const Result result = simulate(beam, *integrator, run.parts().run);
       EXPECT_EQ(result.outcome.kind,
                 fault == Fault::none ? OutcomeKind::completed : OutcomeKind::inaccurate)
           << to_string(method) << ' ' << static_cast<int>(fault) << ' ' << result.outcome.message;

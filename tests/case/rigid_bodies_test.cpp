@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "paper_scene.h"
-#include "subimpact/case/method_tables.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {

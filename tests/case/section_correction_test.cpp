@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "case/model_factory.h"
 #include "order_table.h"
 #include "paper_case.h"
 #include "simulate/event_loop.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -21,20 +21,19 @@ State state_after(double step, double correction_tolerance) {
   Case input = paper_case(SectionKind::exact, 8e-6);
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-12;
-  StruckBeam beam = make_struck_beam(input);
-  Used used = describe(input, beam);
+  ResolvedRun run = resolve(input);
+  StruckBeam& beam = run.parts().beam;
   RunObserver nobody;
-  const auto first = make_integrator(input, used, beam);
+  const auto first = run.parts().make_integrator();
   Audit audit(beam, beam.initial_state());
-  EventLoop beginning(beam, *first, nobody, audit, loop_options(input, used));
+  EventLoop beginning(beam, *first, nobody, audit, run.parts().run.loop);
   beginning.start();
   while (!beginning.finished()) beginning.advance();
   EXPECT_EQ(beam.sections().n_yielded(), 0u);
 
-  input.solver.step = step;
-  used = describe(input, beam);
-  const auto fixed = make_integrator(input, used, beam);
-  LoopOptions options = loop_options(input, used);
+  run.parts().given.solver.step = step;
+  const auto fixed = run.parts().make_integrator();
+  LoopOptions options = run.parts().run.loop;
   options.end_time = 52e-6;
   options.correction_tolerance = correction_tolerance;
   EventLoop loop(beam, *fixed, nobody, audit, options);
@@ -89,11 +88,11 @@ TEST(SectionEvents, HardlyEverCutAStep) {
     long reversals = 0;
     void on_reversal(const Transition&) override { ++reversals; }
   } counter;
-  StruckBeam beam = make_struck_beam(input);
-  const Used used = describe(input, beam);
-  const auto integrator = make_integrator(input, used, beam);
+  ResolvedRun run = resolve(input);
+  StruckBeam& beam = run.parts().beam;
+  const auto integrator = run.parts().make_integrator();
   Audit audit(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, counter, audit, loop_options(input, used));
+  EventLoop loop(beam, *integrator, counter, audit, run.parts().run.loop);
   loop.start();
   while (!loop.finished()) loop.advance();
   const WorkCounts work = integrator->work();
@@ -107,12 +106,12 @@ State state_late(double rtol) {
   Case input = paper_case(SectionKind::exact, 0.9e-3);
   input.solver.method = Method::nystrom;
   input.solver.rtol = rtol;
-  StruckBeam beam = make_struck_beam(input);
-  const Used used = describe(input, beam);
+  ResolvedRun run = resolve(input);
+  StruckBeam& beam = run.parts().beam;
   RunObserver nobody;
-  const auto integrator = make_integrator(input, used, beam);
+  const auto integrator = run.parts().make_integrator();
   Audit audit(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, nobody, audit, loop_options(input, used));
+  EventLoop loop(beam, *integrator, nobody, audit, run.parts().run.loop);
   loop.start();
   while (!loop.finished()) loop.advance();
   return loop.state();

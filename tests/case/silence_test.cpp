@@ -85,13 +85,13 @@ TEST(AnEnergyThatGrowsTo12Percent, InALooseRunOfExponentialIsNotCompleted) {
 
 TEST(TheTolerance, OfEnergyFollowsFromRtolAndIsNeverLooserThanAThousandth) {
   Case input = coarse_strike(Method::erk, 1e-2);
-  EXPECT_EQ(explain(input).energy_tolerance, 1e-3);
+  EXPECT_EQ(resolve(input).settings().energy_tolerance, 1e-3);
   input.solver.rtol = 1e-9;
-  EXPECT_NEAR(explain(input).energy_tolerance, 1e-5, 1e-18);
+  EXPECT_NEAR(resolve(input).settings().energy_tolerance, 1e-5, 1e-18);
   input.solver.rtol = 1e-14;
-  EXPECT_EQ(explain(input).energy_tolerance, 1e-6);
+  EXPECT_EQ(resolve(input).settings().energy_tolerance, 1e-6);
   input.accuracy.energy = 0.02;
-  EXPECT_EQ(explain(input).energy_tolerance, 0.02);
+  EXPECT_EQ(resolve(input).settings().energy_tolerance, 0.02);
 }
 
 TEST(TheTolerance, DecidesOfTheSameRunWhetherItCompletes) {
@@ -262,14 +262,14 @@ TEST(TheCriticalStep, IsThatOfBeamAndStrikerJoinedByTheStiffestContact) {
   Case input = on_stiff_linear_contact();
   input.scene.contact.stiffness = 1e10;
   input.solver.method = Method::central_difference;
-  const Used used = explain(input);
+  const ResolvedSettings used = resolve(input).settings();
   const double alone = 2.0 / used.highest_frequency;
   printf("critical step %.4f us, of the beam alone %.4f us; default %.4f us\n",
          1e6 * used.critical_step, 1e6 * alone, 1e6 * *used.step);
   EXPECT_LT(used.critical_step, 0.7 * alone);
   EXPECT_LT(*used.step, used.critical_step);
   input.solver.step = 0.5 * (used.critical_step + alone);
-  EXPECT_THROW(explain(input), InvalidCase);
+  EXPECT_THROW(resolve(input), InvalidCase);
 }
 
 TEST(CentralDifferences, ByDefaultFollowAStiffContactToAThousandthOfTheEnergy) {

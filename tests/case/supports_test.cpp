@@ -84,7 +84,8 @@ TEST(FarSupports, AreNotFeltBeforeTheirEchoArrives) {
 
 TEST(ZonesOfASupportedBeam, AreJudgedByItsOwnFirstPeriod) {
   const Beam beam = paper_scene().beam;
-  const Used used = explain(supported_case(SectionKind::elastic, pinned, pinned));
+  const ResolvedSettings used =
+      resolve(supported_case(SectionKind::elastic, pinned, pinned)).settings();
   const double r = beam.radius_of_gyration();
   const double wave = M_PI / beam.length;
   const double omega =

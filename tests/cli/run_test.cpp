@@ -132,7 +132,7 @@ TEST(Run, BeyondTheStabilityLimitFailsWithStatus3AndKeepsItsFiles) {
   const TemporaryDirectory directory;
   const Finished finished = run_program(
       {"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--method", "central-difference", "--set",
-       "solver.step=4e-7", "--set", "solver.beyond_critical=true", "--set", "time.end=1e-3"},
+       "solver.step=4e-7", "--set", "study.beyond_critical=true", "--set", "time.end=1e-3"},
       directory.path);
   EXPECT_EQ(finished.status, 3);
   for (const char* piece :

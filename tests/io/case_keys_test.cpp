@@ -100,7 +100,7 @@ TEST(CheckOfACase, IsMadeBeforeARunAndAnExplanation) {
   Case input = small_case();
   input.scene.beam.width = 0.0;
   EXPECT_THROW(simulate(input), InvalidCase);
-  EXPECT_THROW(explain(input), InvalidCase);
+  EXPECT_THROW(resolve(input), InvalidCase);
 }
 
 TEST(NearestName, IsTheOneASlipAway) {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "numerics/banded_matrix.h"
 #include "numerics/lanes.h"
 #include "numerics/sin_cos.h"
+#include "subimpact/numerics/banded_matrix.h"
 
 namespace subimpact {
 namespace {

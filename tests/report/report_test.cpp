@@ -8,8 +8,8 @@
 #include "report/strike_words.h"
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/method_tables.h"
 #include "subimpact/io/case_file.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
 namespace {
@@ -108,9 +108,14 @@ TEST(Warnings, AreShownInTheSummary) {
   expect_in(run_summary(paper_case(), result), "warning             beam.length is 711.2 m\n");
 }
 
+std::string explanation_of(const Case& input) {
+  ResolvedRun run = resolve(input);
+  return explanation(input, run.settings(), estimate_cost(run));
+}
+
 TEST(Explanation, TellsUnknownsSymmetrySectionStepTolerancesAndContact) {
   const Case input = paper_case();
-  const std::string text = explanation(input, explain(input), estimate_cost(input));
+  const std::string text = explanation_of(input);
   expect_in(text, "one half is modelled");
   expect_in(text, "251 of the beam and 1 of the striker");
   expect_in(text, "40 layers: elastic stiffness 0.999375");
@@ -124,7 +129,7 @@ TEST(Explanation, TellsUnknownsSymmetrySectionStepTolerancesAndContact) {
 TEST(Explanation, SaysThatAnInfiniteYieldStressLeavesNothingToYield) {
   Case input = paper_case();
   input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
-  const std::string text = explanation(input, explain(input), estimate_cost(input));
+  const std::string text = explanation_of(input);
   expect_in(text, "elastic, although \"layers\" was requested");
   expect_in(text, "the contact never yields");
 }
@@ -132,17 +137,19 @@ TEST(Explanation, SaysThatAnInfiniteYieldStressLeavesNothingToYield) {
 TEST(Explanation, GivesTheReasonForAWholeModel) {
   Case input = paper_case();
   input.model.symmetry = SymmetryUse::off;
-  expect_in(explanation(input, explain(input), std::nullopt), "not used, as asked");
+  expect_in(explanation(input, resolve(input).settings(), std::nullopt), "not used, as asked");
   input.model.symmetry = SymmetryUse::automatic;
   input.scene.striker.position = 0.4;
-  expect_in(explanation(input, explain(input), std::nullopt), "not symmetric about mid-span");
+  expect_in(explanation(input, resolve(input).settings(), std::nullopt),
+            "not symmetric about mid-span");
 }
 
 TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {
   Case input = paper_case();
   input.solver.method = Method::central_difference;
   input.solver.step = 1e-7;
-  const auto cost = estimate_cost(input);
+  ResolvedRun run = resolve(input);
+  const auto cost = estimate_cost(run);
   ASSERT_TRUE(cost);
   EXPECT_NEAR(cost->steps, 80000.0, 1e-6);
   EXPECT_NEAR(cost->right_hand_sides, 80000.0, 1e-6);
@@ -153,7 +160,8 @@ TEST(CostEstimate, OfAnAdaptiveMethodIsRightWithinAFactorOfThree) {
   Case input = paper_case();
   input.end_time = 2e-4;
   input.output.interval = 0.0;
-  const auto cost = estimate_cost(input);
+  ResolvedRun run = resolve(input);
+  const auto cost = estimate_cost(run);
   ASSERT_TRUE(cost);
   const double counted = static_cast<double>(simulate(input).work.right_hand_sides);
   EXPECT_LT(cost->right_hand_sides, 3.0 * counted);

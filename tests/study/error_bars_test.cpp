@@ -106,7 +106,8 @@ TEST(ACompanion, IsMoreAccurateOrSaysThatItIsNot) {
   EXPECT_DOUBLE_EQ(looser.input.solver.rtol, 1e-11);
   EXPECT_NE(looser.description.find("whose errors these are"), std::string::npos);
   input.solver.method = Method::central_difference;
-  EXPECT_LT(companion_of(input).input.solver.step.value(), 0.51 * explain(input).step.value());
+  EXPECT_LT(companion_of(input).input.solver.step.value(),
+            0.51 * resolve(input).settings().step.value());
 }
 
 TEST(CoarseCentralDifferences, NameTheFirstSubImpactTheyDoNotDecide) {

@@ -240,10 +240,10 @@ TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
   EXPECT_FALSE(on_other_mesh(input, 2.0).has_value());
   input = scene(SectionKind::elastic, 1e-4, 501);
   input.solver.method = Method::central_difference;
-  input.solver.step = 0.9 * explain(input).critical_step;
+  input.solver.step = 0.9 * resolve(input).settings().critical_step;
   const Companion fine = *on_other_mesh(input, 2.0);
   EXPECT_LT(*fine.input.solver.step, *input.solver.step);
-  EXPECT_NO_THROW(explain(fine.input));
+  EXPECT_NO_THROW(resolve(fine.input));
   EXPECT_NE(fine.description.find("step"), std::string::npos);
 }
 

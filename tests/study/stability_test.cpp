@@ -96,10 +96,10 @@ TEST(CentralDifferencesInStiffContact, AreRefusedBelowTheBeamsOwnCriticalStepAnd
   input.scene.contact.stiffness = 1e12;
   input.scene.striker.nose_radius.reset();
   input.solver.method = Method::central_difference;
-  const double beam_alone = 2.0 / explain(input).highest_frequency;
+  const double beam_alone = 2.0 / resolve(input).settings().highest_frequency;
   input.solver.step = 0.9 * beam_alone;
   EXPECT_THROW(simulate(input), InvalidCase);
-  input.solver.beyond_critical = true;
+  input.study.beyond_critical = true;
   const Result result = simulate(input);
   EXPECT_EQ(result.outcome.kind, OutcomeKind::unstable);
   EXPECT_NE(result.outcome.message.find("grows without bound"), std::string::npos);

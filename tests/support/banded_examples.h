@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "numerics/banded_matrix.h"
 #include "random_walk.h"
+#include "subimpact/numerics/banded_matrix.h"
 
 namespace subimpact {
 

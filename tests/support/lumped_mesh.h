@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/beam_mesh.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

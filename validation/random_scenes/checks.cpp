@@ -13,7 +13,7 @@
 namespace subimpact::scenes {
 namespace {
 
-constexpr double default_energy_tolerance = 1e-3;  // until Used says which one holds
+constexpr double default_energy_tolerance = 1e-3;  // until ResolvedSettings says which one holds
 constexpr double momentum_tolerance = 1e-9;
 constexpr double rounding = 1e-9;  // of sums of energies of very different sizes
 

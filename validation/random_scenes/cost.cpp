@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "subimpact/case/method_tables.h"
+#include "case/problem.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact::scenes {
 namespace {
@@ -24,11 +25,6 @@ double smallest_element(const Case& input) {
   const double share = std::min(1.0, 2.0 * input.model.refined_length);
   const double more = 1.0 + share * std::log(refinement) * refinement / (refinement + 1.0);
   return input.scene.beam.length / input.model.elements / refinement * more;
-}
-
-bool may_yield(const Case& input) {
-  return input.model.section != SectionKind::elastic && input.model.mesh != MeshKind::rigid &&
-         std::isfinite(input.scene.beam.yield_stress);
 }
 
 const MethodTable* table_of(const SolverOptions& solver) {

@@ -11,7 +11,7 @@
 #include "random_scenes/cost.h"
 #include "random_scenes/random.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/method_tables.h"
+#include "subimpact/simulate/method_tables.h"
 
 namespace subimpact::scenes {
 namespace {
@@ -187,9 +187,9 @@ void draw_solver(Random& random, Case& input) {
   if (random.chance(0.06)) {
     solver.reversals = multistep ? ReversalHandling::located : ReversalHandling::step_end;
   }
-  if (random.chance(0.06)) solver.pair_detection = false;
-  if (random.chance(0.05)) solver.mass_solver = MassSolverKind::klu;
-  if (random.chance(0.05)) solver.vector_operations = VectorOperationsKind::library;
+  if (random.chance(0.06)) input.study.pair_detection = false;
+  if (random.chance(0.05)) input.study.mass_solver = MassSolverKind::klu;
+  if (random.chance(0.05)) input.study.vector_operations = VectorOperationsKind::library;
   if (random.chance(0.05)) input.stop = StopRule::no_more_contact;
 }
 
@@ -223,7 +223,7 @@ void draw_output(Random& random, Case& input) {
 
 bool is_refused(const Case& input) {
   try {
-    explain(input);
+    resolve(input);
     return false;
   } catch (const InvalidCase&) {
     return true;

@@ -76,7 +76,7 @@ std::string setting_of(const Case& input) {
       text += fmt::format(", {} {}", find_case_key(name)->leaf(), to_text(*value));
     }
   }
-  if (!solver.pair_detection) text += ", no pairs";
+  if (!input.study.pair_detection) text += ", no pairs";
   const auto word = [&](const char* name) { return to_text(*find_case_key(name)->get(input)); };
   return text + fmt::format("; {} {}, {}, contact {}", word("model.mesh"),
                             input.model.mesh == MeshKind::cells     ? input.model.segments
@@ -187,7 +187,7 @@ Record describe(const SceneId& id, const Drawn& drawn) {
                    drawn.input.model.mesh == MeshKind::rigid ||
                    !std::isfinite(drawn.input.scene.beam.yield_stress);
   record.tight = record.band == "1e-6 and tighter";
-  record.plain = !solver.events && !solver.reversals && solver.pair_detection;
+  record.plain = !solver.events && !solver.reversals && drawn.input.study.pair_detection;
   return record;
 }
 
@@ -205,7 +205,7 @@ Record run_scene(const SceneId& id, double limit) {
   } catch (const InvalidCase& error) {
     record.outcome = "refused";
     record.failures.push_back(
-        {"explain() refuses what simulate() does", error.key + " " + error.what()});
+        {"resolve() refuses what simulate() does", error.key + " " + error.what()});
   } catch (const std::exception& error) {
     record.outcome = "exception";
     record.failures.push_back({"no exception", error.what()});

@@ -45,7 +45,7 @@ Outcome check_rigid_bodies() {
                              {5, 0.404029},   {10, 0.279676},  {20, 0.195686}, {50, 0.122987}};
   for (const auto& [x, e] : table) {
     Case input = case_of("rigid_bodies");
-    const Used used = explain(input);
+    const ResolvedSettings used = resolve(input).settings();
     // The speed whose energy indents to x lambda_s.
     const double work = 0.4 * used.contact_stiffness * std::pow(used.yield_indentation, 2.5) *
                         (std::pow(x, 2.5) - std::pow(x - 1.0, 2.5));

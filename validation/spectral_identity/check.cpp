@@ -5,8 +5,8 @@
 #include <cmath>
 #include <complex>
 
-#include "case/model_factory.h"
 #include "outcome.h"
+#include "simulate/run_parts.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact::validation {
@@ -40,7 +40,8 @@ Outcome check_spectral_identity() {
     const Result result = simulate(input);
     Case physical = input;  // the mesh itself, not its modes, for the modes' shapes
     physical.solver.method = Method::erk;
-    const StruckBeam beam = make_struck_beam(physical);
+    ResolvedRun run = resolve(physical);
+    const StruckBeam& beam = run.parts().beam;
     const NaturalModes modes = beam.mesh().natural_modes(input.scene.beam.bending_stiffness());
     double impulse = 0.0;
     for (const SubImpact& s : result.sub_impacts) impulse += s.impulse;

@@ -90,7 +90,7 @@ std::string decimal_comma_hint(const std::string& text);
 void assign(Case& target, const CaseKey& key, const KeyValue& value);
 
 /// Checks every key of a case, and those that must go together. Throws InvalidCase for the first
-/// one that is not allowed. What depends on the mesh is checked by explain() and simulate().
+/// one that is not allowed. What depends on the mesh is checked by resolve() and simulate().
 void check(const Case& input);
 
 /// A value as a case file writes it.

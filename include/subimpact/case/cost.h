@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "subimpact/case/case.h"
+#include "subimpact/simulate/simulate.h"
 
 namespace subimpact {
 
@@ -18,7 +18,8 @@ struct CostEstimate {
 /// mesh, table and tolerance, by a fit to the paper's example. Time follows from right-hand sides
 /// timed on the spot for some milliseconds. How much the beam will yield is unknown beforehand, so
 /// the true cost may be three times less or more. Nothing for a method without such a fit,
-/// and for a rigid beam. Throws InvalidCase.
-std::optional<CostEstimate> estimate_cost(const Case& input);
+/// and for a rigid beam. Evaluates the equations of motion of `run`, which shows in the counts of
+/// its result.
+std::optional<CostEstimate> estimate_cost(ResolvedRun& run);
 
 }  // namespace subimpact

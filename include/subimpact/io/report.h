@@ -32,7 +32,7 @@ std::string failure_message(const Case& input, const Result& result);
 std::string comparison_table(const Comparison& comparison);
 
 /// What a case will be modelled as, and why.
-std::string explanation(const Case& input, const Used& used,
+std::string explanation(const Case& input, const ResolvedSettings& used,
                         const std::optional<CostEstimate>& cost);
 
 /// All keys of a case file, with units, what they accept and their defaults.

@@ -62,7 +62,9 @@ class Fibres {
   /// S_0, S_1, S_2 up to and including zeta >= 0 (constant above extent()).
   Moments up_to(double zeta) const;
 
-  double slope() const { return slope_; }              ///< dm/dx while elastic
+  double slope() const { return slope_; }  ///< dm/dx while elastic
+  /// That of the section which the fibres stand for: layers stand for the rectangle.
+  double represented_slope() const { return half_layers_ > 0.0 ? 1.0 : slope_; }
   double first_yield() const { return first_yield_; }  ///< x at which the first fibre yields
   double outermost() const { return outermost_; }      ///< zeta of the fibre farthest from the axis
   double extent() const { return extent_; }            ///< no fibre has a zeta above it

@@ -1,5 +1,14 @@
 #pragma once
 
+/// How a run goes: method, tolerances, events, what is kept. Each member is a key of the case file
+/// ("solver.rtol"); case_keys() (see case/case_keys.h) lists them with units, defaults and ranges.
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace subimpact {
 
 /// What becomes of an event inside a step.
@@ -12,6 +21,77 @@ enum class EventHandling {
 enum class ReversalHandling {
   located,  ///< where sections begin to flow or turn is found, and the step's end corrected
   step_end  ///< history advances at step ends only
+};
+
+enum class Method { central_difference, erk, nystrom, dirk, imex, adams, bdf, exponential };
+
+struct SolverOptions {
+  Method method = Method::erk;
+  double rtol = 1e-8;          ///< relative to the scene's own scales of displacement and velocity
+  std::optional<double> step;  ///< s; empty: 0.9 of critical (central-difference), else adaptive
+  std::optional<double> max_step;    ///< s; adaptive methods
+  std::optional<std::string> table;  ///< coefficients of a Runge-Kutta method; its first if empty
+  std::optional<EventHandling>
+      events;  ///< empty: interpolated for central-difference, else located
+  std::optional<ReversalHandling> reversals;  ///< empty: located, by adams and bdf step_end
+  std::optional<int> max_order;               ///< adams and bdf; empty: default of the method
+};
+
+/// What results must come up to.
+struct AccuracyOptions {
+  /// Largest error of the energy, relative to the initial energy, of a run that counts as
+  /// completed; empty: follows from method and rtol, 1e-3 at most.
+  std::optional<double> energy;
+};
+
+/// When a run ends.
+enum class StopRule {
+  end_time,        ///< at the end time
+  no_more_contact  ///< sooner, once it is proven that no contact can follow
+};
+
+struct OutputOptions {
+  double interval = 1e-6;        ///< s between history rows; 0: none
+  double zone_gap = 0.1;         ///< in first flexural periods
+  double subzone_gap = 0.02;     ///< in first flexural periods
+  std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
+
+  /// For companion runs, of which only the sub-impacts matter.
+  void keep_no_rows() {
+    interval = 0.0;
+    sections.clear();
+  }
+};
+
+/// Who solves with the mass matrix.
+enum class MassSolverKind { banded, klu };
+
+enum class VectorOperationsKind { project, library };
+
+/// Switches for experiments with the program itself. No strike needs them.
+struct StudyOptions {
+  VectorOperationsKind vector_operations = VectorOperationsKind::project;
+  MassSolverKind mass_solver = MassSolverKind::banded;
+  bool pair_detection = true;    ///< look for contacts that open and close again within one step
+  bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
+};
+
+struct Options {
+  double end_time = 0.0;  ///< s
+  StopRule stop = StopRule::end_time;
+  SolverOptions solver;
+  AccuracyOptions accuracy;
+  OutputOptions output;
+  StudyOptions study;
+};
+
+/// Settings that cannot be run as asked. `key` is the case file's ("solver.step"); `what()` says
+/// what is wrong, what is allowed and what to do.
+class InvalidCase : public std::runtime_error {
+ public:
+  InvalidCase(std::string key, const std::string& message)
+      : std::runtime_error(message), key(std::move(key)) {}
+  std::string key;
 };
 
 }  // namespace subimpact

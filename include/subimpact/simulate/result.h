@@ -77,7 +77,7 @@ struct Outcome {
 };
 
 /// What was used where the case left a choice open, or leaves it to be derived.
-struct Used {
+struct ResolvedSettings {
   bool half_model = false;
   std::size_t n_unknowns = 0;  ///< of the beam
   std::size_t n_sections = 0;
@@ -137,7 +137,8 @@ struct Trust {
 
 struct Result {
   Outcome outcome;
-  Used used;
+  Options given;          ///< of the run, as they were asked for
+  ResolvedSettings used;  ///< beside them
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
   std::vector<HistoryRow> history;
@@ -159,6 +160,15 @@ struct Result {
   std::vector<std::string> warnings;
   std::optional<Trust> trust;  ///< with error bars
   Work work;
+
+  /// Whether all that the result holds passed every check. Of a result that is not usable the part
+  /// up to outcome.first_failure->from did.
+  bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
+  /// One line: outcome, sub-impacts, error of the energy, steps and time.
+  std::string brief_report() const;
+  /// That, warnings, and the settings: what was given beside what was used. For tables of
+  /// sub-impacts see io/report.h.
+  std::string full_report() const;
 };
 
 }  // namespace subimpact

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ode/integrator.h"
-#include "subimpact/case/case.h"
-#include "subimpact/case/method_tables.h"
+#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 #include "subimpact/simulate/result.h"
 #include "system/struck_beam.h"
 
@@ -16,7 +16,7 @@ namespace subimpact {
 /// All that the program has to decide by method, in one row per method. A new method is its own
 /// files, an enumerator of Method and a row in methods.cpp.
 struct MethodDescriptor {
-  Method method;
+  Method kind;
   const char* name;  ///< in case files
   const char* note;  ///< what it is for
 
@@ -27,7 +27,7 @@ struct MethodDescriptor {
   };
   Steps steps = Steps::adaptive;
   bool implicit = false;  ///< solves equations to the tolerance, whatever the step
-  bool sundials = false;  ///< by SUNDIALS, so that solver.vector_operations has an effect
+  bool sundials = false;  ///< by SUNDIALS, so that study.vector_operations has an effect
 
   /// Whether an elastic beam is integrated in its natural modes.
   enum class Modes {
@@ -57,15 +57,20 @@ struct MethodDescriptor {
 
   /// Coefficients that solver.table may name, the default first; none for a method without tables.
   std::vector<MethodTable> (*tables)() = nullptr;
-  std::unique_ptr<Integrator> (*make)(const Case&, const Used&, StruckBeam&) = nullptr;
+  std::unique_ptr<Integrator> (*make)(const Options&, const ResolvedSettings&,
+                                      StruckBeam&) = nullptr;
 };
 
 /// All methods, in the order in which they are listed.
 const std::vector<MethodDescriptor>& methods();
 const MethodDescriptor& descriptor_of(Method method);
 
-/// Whether a key's default or the case's own value applies.
-EventHandling events_of(const Case& input);
-ReversalHandling reversals_of(const Case& input);
+/// The default fixed step, and the largest that refined runs and sweeps take, over the critical
+/// step of central differences.
+constexpr double default_part_of_critical = 0.9;
+
+/// What is asked for or, where that is left open, the default of the method.
+EventHandling events_of(const Options& options);
+ReversalHandling reversals_of(const Options& options);
 
 }  // namespace subimpact

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/case/case.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact {
 

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "model/natural_modes.h"
-#include "numerics/banded_matrix.h"
-#include "numerics/lanes.h"
+#include "subimpact/model/natural_modes.h"
 #include "subimpact/model/scene.h"
+#include "subimpact/numerics/banded_matrix.h"
 
 namespace subimpact {
 
@@ -22,7 +21,7 @@ struct SparseFunctional {
   std::vector<double> dense;  ///< the same, one coefficient an unknown, where the terms are many
 
   double operator()(std::span<const double> unknowns) const {
-    if (!dense.empty()) return dot(dense.data(), unknowns.data(), dense.size());
+    if (!dense.empty()) return of_all(unknowns);
     double sum = 0.0;
     for (const Term& term : terms) sum += term.coefficient * unknowns[term.unknown];
     return sum;
@@ -35,9 +34,12 @@ struct SparseFunctional {
     }
     for (const Term& term : terms) forces[term.unknown] += amount * term.coefficient;
   }
+
+ private:
+  double of_all(std::span<const double> unknowns) const;
 };
 
-/// A beam cut into finitely many unknowns: everything the rest of the program knows of it.
+/// A beam cut into finitely many unknowns.
 ///
 /// With unknowns q (displacements, and slopes where a mesh has them), curvatures kappa = B q at the
 /// sections (stress points) and their integration weights W (m), the beam obeys
@@ -47,6 +49,18 @@ struct SparseFunctional {
 /// S the struck point's functional, so that bending work is sum W (-M) dkappa and contact work F dS
 /// q: no energy appears or is lost in space. Where symmetry halves the unknowns, the mirrored half
 /// is folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
+///
+/// A mesh of one's own derives from this class, fills the protected members in its constructor and
+/// goes into `Case::parts.mesh` or `Problem::mesh`; the built-in meshes use the same door. What
+/// must hold: Mass is positive definite, of half bandwidth up to 3; curvatures(), bending_forces()
+/// and section_stencil() are one and the same B; the highest frequency is not below that of the
+/// mesh (time steps follow from it). The functions are pure: runs in several threads may share a
+/// mesh. A run whose mesh breaks these rules gains or loses energy and ends as `inaccurate`.
+///
+/// Fixed today: one generalised strain per section, the curvature, and one elastic bending
+/// stiffness for all sections (the argument `bending_stiffness`). Shear, or a stiffness per
+/// section, will widen those functions that take a stiffness; the rest holds for any number of
+/// stress points.
 class BeamMesh {
  public:
   virtual ~BeamMesh() = default;

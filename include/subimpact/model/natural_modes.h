@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "numerics/banded_matrix.h"
+#include "subimpact/numerics/banded_matrix.h"
 
 namespace subimpact {
 

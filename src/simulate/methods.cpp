@@ -1,4 +1,4 @@
-#include "case/methods.h"
+#include "simulate/methods.h"
 
 #include <limits>
 #include <stdexcept>
@@ -29,32 +29,34 @@ constexpr int usual_bdf_order = 5;
 constexpr double erk_radians = 0.11;
 constexpr double nystrom_radians = 0.22;
 
+VectorOperations vector_operations_of(const Options& input) {
+  return input.study.vector_operations == VectorOperationsKind::library ? VectorOperations::library
+                                                                        : VectorOperations::project;
+}
+
 // Options that all of SUNDIALS' one-step methods share.
-template <class Options>
-Options one_step_options(const Case& input, const Used& used) {
-  Options options;
+template <class Chosen>
+Chosen one_step_options(const Options& input, const ResolvedSettings& used) {
+  Chosen options;
   options.table = *used.table;
   options.relative_tolerance = input.solver.rtol;
   options.fixed_step = input.solver.step;
   options.max_step = input.solver.max_step;
-  options.vector_operations = input.solver.vector_operations == VectorOperationsKind::library
-                                  ? VectorOperations::library
-                                  : VectorOperations::project;
+  options.vector_operations = vector_operations_of(input);
   return options;
 }
 
-CvodeOptions multistep_options(const Case& input, const Used& used) {
+CvodeOptions multistep_options(const Options& input, const ResolvedSettings& used) {
   CvodeOptions options;
   options.max_order = *used.max_order;
   options.relative_tolerance = input.solver.rtol;
   options.max_step = input.solver.max_step;
-  options.vector_operations = input.solver.vector_operations == VectorOperationsKind::library
-                                  ? VectorOperations::library
-                                  : VectorOperations::project;
+  options.vector_operations = vector_operations_of(input);
   return options;
 }
 
-std::unique_ptr<Nystrom> make_nystrom(const Case& input, const Used& used, StruckBeam& beam) {
+std::unique_ptr<Nystrom> make_nystrom(const Options& input, const ResolvedSettings& used,
+                                      StruckBeam& beam) {
   NystromOptions options;
   if (used.table) options.table = *used.table;
   options.relative_tolerance = input.solver.rtol;
@@ -64,7 +66,8 @@ std::unique_ptr<Nystrom> make_nystrom(const Case& input, const Used& used, Struc
 }
 
 // Where the beam may yield only free flight has a closed form; nystrom does the rest.
-IntegratorPointer make_exponential(const Case& input, const Used& used, StruckBeam& beam) {
+IntegratorPointer make_exponential(const Options& input, const ResolvedSettings& used,
+                                   StruckBeam& beam) {
   if (beam.sections().can_yield()) {
     return std::make_unique<FreeFlight>(
         make_nystrom(input, used, beam), beam,
@@ -91,17 +94,16 @@ std::vector<MethodDescriptor> make_descriptors() {
   using Steps = MethodDescriptor::Steps;
   using Modes = MethodDescriptor::Modes;
   return {
-      {.method = Method::central_difference,
+      {.kind = Method::central_difference,
        .name = "central-difference",
        .note = "explicit, second order, fixed step: the scheme of the published runs",
        .steps = Steps::fixed,
        .modes = Modes::where_cheaper,
        .events = EventHandling::interpolated,
        .audit_interval = 256,
-       .make = [](const Case&, const Used& used, StruckBeam& beam) -> IntegratorPointer {
-         return std::make_unique<CentralDifference>(beam, *used.step);
-       }},
-      {.method = Method::erk,
+       .make = [](const Options&, const ResolvedSettings& used, StruckBeam& beam)
+           -> IntegratorPointer { return std::make_unique<CentralDifference>(beam, *used.step); }},
+      {.kind = Method::erk,
        .name = "erk",
        .note = "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event "
                "times",
@@ -110,20 +112,19 @@ std::vector<MethodDescriptor> make_descriptors() {
        .radians_per_evaluation = erk_radians,
        .tables = [] { return list_of(Method::erk, explicit_tables()); },
        .make =
-           [](const Case& input, const Used& used, StruckBeam& beam) {
+           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
              return make_arkode_erk(beam, one_step_options<ErkOptions>(input, used));
            }},
-      {.method = Method::nystrom,
+      {.kind = Method::nystrom,
        .name = "nystrom",
        .note = "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of "
                "its cost",
        .modes = Modes::where_cheaper,
        .radians_per_evaluation = nystrom_radians,
        .tables = [] { return list_of(Method::nystrom, nystrom_tables()); },
-       .make = [](const Case& input, const Used& used, StruckBeam& beam) -> IntegratorPointer {
-         return make_nystrom(input, used, beam);
-       }},
-      {.method = Method::exponential,
+       .make = [](const Options& input, const ResolvedSettings& used, StruckBeam& beam)
+           -> IntegratorPointer { return make_nystrom(input, used, beam); }},
+      {.kind = Method::exponential,
        .name = "exponential",
        .note = "natural modes: an elastic beam under a collocated contact force, free flight in "
                "closed form where it yields; the fastest",
@@ -131,7 +132,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .needs_located_events = true,
        .needs_adaptive_steps_to_yield = true,
        .make = make_exponential},
-      {.method = Method::dirk,
+      {.kind = Method::dirk,
        .name = "dirk",
        .note = "diagonally implicit Runge-Kutta with error control (ARKODE): stable at any step, "
                "but damps what it does not resolve",
@@ -140,10 +141,10 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 4,
        .tables = [] { return list_of(Method::dirk, dirk_tables()); },
        .make =
-           [](const Case& input, const Used& used, StruckBeam& beam) {
+           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
              return make_arkode_dirk(beam, one_step_options<ArkOptions>(input, used));
            }},
-      {.method = Method::imex,
+      {.kind = Method::imex,
        .name = "imex",
        .note = "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler "
                "systems",
@@ -152,11 +153,11 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 4,
        .tables = [] { return list_of(Method::imex, imex_tables()); },
        .make =
-           [](const Case& input, const Used& used, StruckBeam& beam) {
+           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
              return make_arkode_imex(beam, one_step_options<ArkOptions>(input, used));
            }},
       // To a multistep method a restart at each reversal costs more than the reversal's error.
-      {.method = Method::adams,
+      {.kind = Method::adams,
        .name = "adams",
        .note = "Adams-Moulton of variable order (CVODE): two evaluations per step; for tolerances "
                "of 1e-7 and below",
@@ -166,10 +167,10 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 64,
        .order = {{adams_order_limit, usual_adams_order}},
        .make =
-           [](const Case& input, const Used& used, StruckBeam& beam) {
+           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
              return make_cvode_adams(beam, multistep_options(input, used));
            }},
-      {.method = Method::bdf,
+      {.kind = Method::bdf,
        .name = "bdf",
        .note = "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser "
                "tolerances orders above 2 (solver.max_order) blow up, as they do on any undamped "
@@ -180,7 +181,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 64,
        .order = {{bdf_order_limit, usual_bdf_order}},
        .make =
-           [](const Case& input, const Used& used, StruckBeam& beam) {
+           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
              return make_cvode_bdf(beam, multistep_options(input, used));
            }},
   };
@@ -195,16 +196,16 @@ const std::vector<MethodDescriptor>& methods() {
 
 const MethodDescriptor& descriptor_of(Method method) {
   for (const MethodDescriptor& descriptor : methods()) {
-    if (descriptor.method == method) return descriptor;
+    if (descriptor.kind == method) return descriptor;
   }
   throw std::logic_error("a method has no descriptor: add a row in methods.cpp");
 }
 
-EventHandling events_of(const Case& input) {
+EventHandling events_of(const Options& input) {
   return input.solver.events.value_or(descriptor_of(input.solver.method).events);
 }
 
-ReversalHandling reversals_of(const Case& input) {
+ReversalHandling reversals_of(const Options& input) {
   return input.solver.reversals.value_or(descriptor_of(input.solver.method).reversals);
 }
 

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/contact_law.h"
+#include "subimpact/model/fibres.h"
+#include "subimpact/model/scene.h"
+#include "subimpact/simulate/observer.h"
+#include "subimpact/simulate/options.h"
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// A strike made of parts. simulate(Case) makes one from the keys of a case; who has a mesh or laws
+/// and no case fills it in.
+///
+/// Several runs may share the parts, at the same time too: nothing in a run changes them.
+struct Problem {
+  /// Dimensions and material: E I, the yield stress and E h/2 of the sections, the first period,
+  /// the validity of the contact law (an indentation up to the thickness). Mass, ends and theory
+  /// are in the mesh.
+  Beam beam;
+  /// Mass and velocity. Where the striker hits is in the mesh, its nose in the contact law.
+  Striker striker;
+  std::shared_ptr<const BeamMesh> mesh;
+  std::shared_ptr<const ContactLaw> contact_law;
+  std::optional<Fibres> section;  ///< empty: the solid rectangle
+  bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam
+  bool check_contact_law = true;  ///< whether a run begins with broken_rule(*contact_law)
+};
+
+struct RunParts;
+
+/// A problem and its options resolved: every setting that was left open has its value, the model is
+/// built, nothing has run. For one run.
+class ResolvedRun {
+ public:
+  explicit ResolvedRun(std::unique_ptr<RunParts> parts);
+  ResolvedRun(ResolvedRun&&) noexcept;
+  ResolvedRun& operator=(ResolvedRun&&) noexcept;
+  ~ResolvedRun();
+
+  const ResolvedSettings& settings() const;
+  RunParts& parts() { return *parts_; }  ///< for the floors above (see src/simulate/run_parts.h)
+
+ private:
+  std::unique_ptr<RunParts> parts_;
+};
+
+/// Throws InvalidCase for settings that do not go together, a step beyond the stability limit and
+/// parts that are missing.
+ResolvedRun resolve(const Problem& problem, const Options& options);
+
+/// Runs what was resolved, from the first touch at t = 0. Any failure is reported in the outcome,
+/// with all results up to it. `progress`, if any, can end the run; `observer`, if any, is shown
+/// every accepted step and event.
+///
+/// Thread-safe: runs in several threads at once share nothing but the parts of their problems, and
+/// each gives the results, bit for bit, that it gives alone. Meshes and laws that several runs
+/// share are called from all of them, so their functions must be pure; observers and progress
+/// functions are called in the thread of their own run.
+Result simulate(ResolvedRun run, const Progress& progress = {}, Observer* observer = nullptr);
+
+/// The same in one call. Throws what resolve() throws.
+Result simulate(const Problem& problem, const Options& options, const Progress& progress = {},
+                Observer* observer = nullptr);
+
+}  // namespace subimpact

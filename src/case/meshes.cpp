@@ -1,0 +1,192 @@
+#include "case/meshes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+#include "case/problem.h"
+#include "model/cell_mesh.h"
+#include "model/hermite_mesh.h"
+#include "model/rigid_mesh.h"
+
+namespace subimpact {
+namespace {
+
+using Mesh = std::shared_ptr<const BeamMesh>;
+
+// How elements shorten towards the strike.
+ElementGrading grading_of(const Case& input) {
+  return {input.model.strike_refinement, input.model.refined_length * input.scene.beam.length};
+}
+
+void check_cells(const Case& input) {
+  const double cells = input.model.segments;
+  const double at = input.scene.striker.position;
+  if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
+    throw InvalidCase(
+        "striker.position",
+        fmt::format(
+            "is {}, closer to an end than half a cell; allowed with {} segments: from {:.6g} to "
+            "{:.6g}, the outermost cell centres; move the strike inwards or use more segments",
+            at, input.model.segments, 0.5 / cells, 1.0 - 0.5 / cells));
+  }
+  const auto& ends = input.scene.beam.ends;
+  const bool clamped = ends[0] == EndSupport::clamped || ends[1] == EndSupport::clamped;
+  const auto fewest = static_cast<int>(CellMesh::fewest_cells_if_clamped);
+  if (clamped && input.model.segments < fewest) {
+    throw InvalidCase("model.segments",
+                      fmt::format("is {}; allowed with a clamped end: {} or more; use more "
+                                  "segments",
+                                  input.model.segments, fewest));
+  }
+}
+
+// The strike takes a node, and an element much shorter than the others would rule the time step.
+void check_elements(const Case& input) {
+  const double elements = input.model.elements;
+  const double at = input.scene.striker.position;
+  const double length = input.scene.beam.length;
+  const auto& ends = input.scene.beam.ends;
+  if (at == 0.0 || at == 1.0) {
+    if (ends[at == 0.0 ? 0 : 1] == EndSupport::free) return;
+    throw InvalidCase("striker.position",
+                      fmt::format("is {}, on a support; allowed: strictly between the supports; "
+                                  "move the strike inwards",
+                                  at));
+  }
+  const ElementGrading grading = grading_of(input);
+  const double before = grading.elements_within(at * length);
+  const double after = grading.elements_within((1.0 - at) * length);
+  if (elements * std::min(before, after) >= 0.5 * (before + after)) return;
+  if (grading.refinement != 1.0) {
+    throw InvalidCase("striker.position",
+                      fmt::format("is {}, closer to an end than half an element, of {} graded "
+                                  "towards the strike; move the strike inwards or use more "
+                                  "elements",
+                                  at, input.model.elements));
+  }
+  throw InvalidCase(
+      "striker.position",
+      fmt::format("is {}, closer to an end than half an element; allowed with {} elements: from "
+                  "{:.6g} to {:.6g}, or a free end itself; move the strike inwards or use more "
+                  "elements",
+                  at, input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements));
+}
+
+void check_is_not_graded(const Case& input) {
+  if (input.model.strike_refinement == 1.0) return;
+  throw InvalidCase("model.strike_refinement",
+                    fmt::format("is {:g}, but only elements can be shorter at the strike; allowed "
+                                "with this mesh: 1; leave it out, or set model.mesh = \"hermite\"",
+                                input.model.strike_refinement));
+}
+
+Mesh make_rigid_mesh(const Case& input) {
+  for (const EndSupport end : input.scene.beam.ends) {
+    if (end == EndSupport::free) continue;
+    throw InvalidCase("model.mesh",
+                      "is \"rigid\", but a rigid beam moves only with free ends; set beam.ends = "
+                      "[\"free\", \"free\"] (a heavy beam stands for a fixed one), or use another "
+                      "mesh");
+  }
+  return std::make_shared<RigidMesh>(input.scene.beam, input.scene.striker.position);
+}
+
+Mesh make_cell_mesh(const Case& input) {
+  const bool half = uses_symmetry(input);
+  const int segments = input.model.segments;
+  if (half && segments % 2 == 0) {
+    throw InvalidCase(
+        "model.segments",
+        fmt::format(
+            "is {}, but the half model of a scene struck at mid-span needs an odd number, so "
+            "that a cell lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
+            segments, segments - 1, segments + 1));
+  }
+  return std::make_shared<CellMesh>(input.scene.beam, input.scene.striker.position,
+                                    static_cast<std::size_t>(segments),
+                                    half ? CellMesh::Extent::half : CellMesh::Extent::whole);
+}
+
+Mesh make_hermite_mesh(const Case& input) {
+  const bool half = uses_symmetry(input);
+  const int elements = input.model.elements;
+  if (half && elements % 2 != 0) {
+    throw InvalidCase(
+        "model.elements",
+        fmt::format("is {}, but the half model of a scene struck at mid-span needs an even number, "
+                    "so that a node lies under the striker; use {} or {}, or set model.symmetry = "
+                    "\"off\"",
+                    elements, elements - 1, elements + 1));
+  }
+  return std::make_shared<HermiteMesh>(
+      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
+      static_cast<std::size_t>(input.model.sections_per_element),
+      half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole,
+      HermiteMesh::Options{grading_of(input),
+                           input.model.hinges == HingeUse::automatic && may_yield(input)});
+}
+
+int order_of_cells(const Case&) { return 2; }
+
+int order_of_elements(const Case& input) {
+  if (!may_yield(input)) return 4;
+  return input.model.hinges == HingeUse::off ? 1 : 2;
+}
+
+constexpr const char* keys_of_cells[] = {"model.segments", "model.symmetry"};
+constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
+                                            "model.hinges",         "model.strike_refinement",
+                                            "model.refined_length", "model.symmetry"};
+
+constexpr MeshDescriptor rows[] = {
+    {.kind = MeshKind::cells,
+     .name = "cells",
+     .note = "the paper's equal cells, second order",
+     .keys = keys_of_cells,
+     .check =
+         [](const Case& input) {
+           check_is_not_graded(input);
+           check_cells(input);
+         },
+     .make = make_cell_mesh,
+     .refinement = {{&ModelOptions::segments, "model.segments", "cells",
+                     static_cast<int>(CellMesh::fewest_cells_if_clamped), true, order_of_cells}}},
+    {.kind = MeshKind::hermite,
+     .name = "hermite",
+     .note = "cubic Hermite elements, fourth order",
+     .keys = keys_of_elements,
+     .check = check_elements,
+     .make = make_hermite_mesh,
+     .refinement = {{&ModelOptions::elements, "model.elements", "elements",
+                     static_cast<int>(HermiteMesh::fewest_elements), false, order_of_elements}}},
+    {.kind = MeshKind::rigid,
+     .name = "rigid",
+     .note = "the beam as a rigid body, for impacts of two bodies",
+     .keys = {},
+     .bends = false,
+     .check = check_is_not_graded,
+     .make = make_rigid_mesh},
+};
+
+}  // namespace
+
+std::span<const MeshDescriptor> meshes() { return rows; }
+
+const MeshDescriptor& descriptor_of(MeshKind kind) {
+  for (const MeshDescriptor& row : rows) {
+    if (row.kind == kind) return row;
+  }
+  throw std::logic_error("a mesh has no descriptor: add a row in meshes.cpp");
+}
+
+bool mesh_uses(const Case& input, const char* key) {
+  if (input.parts.mesh) return false;
+  const auto keys = descriptor_of(input.model.mesh).keys;
+  return std::any_of(keys.begin(), keys.end(),
+                     [key](std::string_view used) { return used == key; });
+}
+
+}  // namespace subimpact

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "subimpact/case/case.h"
+
+namespace subimpact {
+
+/// All that the program has to decide by mesh, in one row per mesh. A new mesh is its own files, an
+/// enumerator of MeshKind and a row in meshes.cpp.
+struct MeshDescriptor {
+  MeshKind kind;
+  const char* name;  ///< in case files
+  const char* note;  ///< what it is for
+
+  std::span<const char* const> keys;  ///< that have an effect with this mesh and not with all
+  bool bends = true;                  ///< whether sections may yield
+
+  /// Whether strike and supports go together with the mesh. Throws InvalidCase.
+  void (*check)(const Case& input);
+  /// Throws InvalidCase where the scene cannot be modelled.
+  std::shared_ptr<const BeamMesh> (*make)(const Case& input);
+
+  /// How the mesh is refined; nothing for one that has no error.
+  struct Refinement {
+    int ModelOptions::*count;  ///< of equal parts over the whole length
+    const char* key;           ///< of that count
+    const char* parts;         ///< "cells"
+    int fewest;
+    bool odd_in_half;  ///< whether a half model needs an odd count; else an even one
+    /// Order in which times of events converge.
+    int (*order)(const Case& input);
+  };
+  std::optional<Refinement> refinement = {};
+};
+
+/// All meshes, in the order in which they are listed.
+std::span<const MeshDescriptor> meshes();
+const MeshDescriptor& descriptor_of(MeshKind kind);
+
+/// Whether the mesh of a case uses a key of [model] that not all meshes use.
+bool mesh_uses(const Case& input, const char* key);
+
+}  // namespace subimpact

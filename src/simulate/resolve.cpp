@@ -1,0 +1,347 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "integrate/klu_mass_solver.h"
+#include "model/flexural_frequencies.h"
+#include "model/modal_mesh.h"
+#include "numerics/mass_solver.h"
+#include "simulate/methods.h"
+#include "simulate/run_parts.h"
+#include "system/contact_resonance.h"
+
+namespace subimpact {
+namespace {
+
+// Steps that the default step makes at least in the time scale of the shortest contacts, to follow
+// them, and where all of the strike's energy goes through them, to keep it to 1e-4.
+constexpr double default_steps_in_contact = 8.0;
+constexpr double default_steps_to_keep_energy = 48.0;
+// Central differences keep no energy where the length of the step changes: after a step cut short
+// at an event the energy of a mode of angle omega h may be off by (omega h/2)^2. Up to this part of
+// the critical step that is 2 % of the fastest mode at an event.
+constexpr double largest_part_if_located = 0.15;
+
+// Energy errors of adaptive methods are some 1 to 1000 rtol, with Cash and Karp's table, which
+// grows slowly where it should be neutral, 1000. What is tolerated by default, within bounds:
+constexpr double tolerated_energy_per_rtol = 1e4;
+constexpr double least_tolerated_energy = 1e-6;
+constexpr double most_tolerated_energy = 1e-3;
+constexpr double tolerated_momentum = 1e-9;
+
+// How far the section correction of a step may be off, in units of the integrator's own tolerance
+// on velocities. At 1 it is off by a third of it, root mean square over the steps of the paper's
+// beam; a tighter one costs more steps than the events gain.
+constexpr double correction_share = 1.0;
+
+std::vector<std::string> tables_of(const MethodDescriptor& method) {
+  std::vector<std::string> names;
+  if (method.tables == nullptr) return names;
+  for (const MethodTable& table : method.tables()) names.push_back(table.name);
+  return names;
+}
+
+std::optional<int> max_order_used(const Options& options) {
+  const std::optional<int>& asked = options.solver.max_order;
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  if (!method.order) {
+    if (!asked) return std::nullopt;
+    throw InvalidCase(
+        "solver.max_order",
+        fmt::format("is {}, but {} has no order to choose; leave it out, or use adams or bdf",
+                    *asked, method.name));
+  }
+  const int order = asked.value_or(method.order->usual);
+  if (order < 1 || order > method.order->limit) {
+    throw InvalidCase("solver.max_order", fmt::format("is {}; allowed for {}: from 1 to {}", order,
+                                                      method.name, method.order->limit));
+  }
+  return order;
+}
+
+// Settings that the method cannot take.
+void check_method(const Options& options, const ResolvedSettings& used, bool can_yield) {
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  if (method.needs_located_events && used.events != EventHandling::located) {
+    throw InvalidCase("solver.events",
+                      fmt::format("is \"interpolated\", but the steps of {} are too long for it; "
+                                  "allowed: \"located\"; leave it out, or use another "
+                                  "solver.method",
+                                  method.name));
+  }
+  if (method.steps == MethodDescriptor::Steps::adaptive_order && options.solver.step) {
+    throw InvalidCase(
+        "solver.step",
+        fmt::format("is {} s, but {} chooses step and order together and has no fixed step; leave "
+                    "it out (solver.max_step bounds the step), or use another method",
+                    *options.solver.step, method.name));
+  }
+  if (!method.needs_adaptive_steps_to_yield || !can_yield) return;
+  const auto refuse = [&](const char* key, const char* what) {
+    throw InvalidCase(key, fmt::format("is {}, which {} cannot do where the beam may yield; leave "
+                                       "it out, set model.section = \"elastic\", or use nystrom",
+                                       what, method.name));
+  };
+  if (options.solver.step) refuse("solver.step", "given: a fixed step");
+  if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
+}
+
+// The table asked for, or the method's first; nothing for a method without tables.
+std::optional<std::string> table_used(const Options& options) {
+  const std::vector<std::string> names = tables_of(descriptor_of(options.solver.method));
+  const std::optional<std::string>& asked = options.solver.table;
+  if (!asked) return names.empty() ? std::nullopt : std::optional(names.front());
+  if (std::find(names.begin(), names.end(), *asked) == names.end()) {
+    throw InvalidCase(
+        "solver.table",
+        fmt::format("is \"{}\", which {} does not have; {}", *asked,
+                    descriptor_of(options.solver.method).name,
+                    names.empty() ? "leave it out: the method has no tables"
+                                  : fmt::format("allowed: {}", fmt::join(names, ", "))));
+  }
+  return asked;
+}
+
+double default_central_step(const ResolvedSettings& used) {
+  // The scheme's energy is off by some (h/T)^2 of what the contact's own motion holds, m_eff/m of
+  // the whole.
+  const double steps = std::max(default_steps_in_contact,
+                                default_steps_to_keep_energy * std::sqrt(used.contact_mass_share));
+  return std::min(default_part_of_critical * used.critical_step, used.contact_time / steps);
+}
+
+// Numbers that are possible one by one may overflow or vanish together.
+void check_scales(const Striker& striker, const StruckBeam& beam) {
+  const double energy = 0.5 * striker.mass * striker.velocity * striker.velocity;
+  const SecondOrderOde::Scales scales = beam.scales();
+  const double smallest = std::min({energy, scales.position, scales.velocity});
+  const double largest = std::max({energy, scales.position, scales.velocity});
+  if (smallest > 1e-100 && largest < 1e100) return;
+  throw InvalidCase(
+      "striker.velocity",
+      fmt::format(
+          "is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: "
+          "beyond what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; "
+          "check the units of striker and contact",
+          striker.velocity, energy, scales.position));
+}
+
+void check_central_step(const Options& options, const ResolvedSettings& used) {
+  const double step = *used.step;
+  if (step > used.critical_step && !options.study.beyond_critical) {
+    throw InvalidCase(
+        "solver.step",
+        fmt::format("is {:.6g} us, above the stability limit of central differences for this beam "
+                    "with the contact at its stiffest, {:.6g} us (2/omega); use a smaller step, "
+                    "leave it out for {:.6g} us, or set study.beyond_critical = true to see it "
+                    "fail",
+                    1e6 * step, 1e6 * used.critical_step, 1e6 * default_central_step(used)));
+  }
+  if (used.events == EventHandling::located && used.highest_frequency > 0.0 &&
+      step > largest_part_if_located * used.critical_step) {
+    throw InvalidCase(
+        "solver.events",
+        fmt::format("is \"located\" with central differences of {:.6g} us, which gain energy "
+                    "without bound where steps end at events; allowed: \"interpolated\" (the "
+                    "default), or a solver.step up to {:.6g} us; leave it out",
+                    1e6 * step, 1e6 * largest_part_if_located * used.critical_step));
+  }
+}
+
+double energy_tolerance(const Options& options, const ResolvedSettings& used) {
+  if (options.accuracy.energy) return *options.accuracy.energy;
+  if (used.step || used.events == EventHandling::interpolated) return most_tolerated_energy;
+  return std::clamp(tolerated_energy_per_rtol * options.solver.rtol, least_tolerated_energy,
+                    most_tolerated_energy);
+}
+
+// Whether an elastic beam on this mesh is integrated in its natural modes. Explicit methods see the
+// same motion in either unknowns, but a step in modes needs no mass solve.
+bool in_modes(const Options& options, const BeamMesh& mesh) {
+  switch (descriptor_of(options.solver.method).modes) {
+    case MethodDescriptor::Modes::always:
+      return true;
+    case MethodDescriptor::Modes::where_cheaper:
+      return mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded;
+    case MethodDescriptor::Modes::never:
+      return false;
+  }
+  return false;
+}
+
+SectionField make_sections(const Problem& problem, SectionField::Storage storage) {
+  const Beam& beam = problem.beam;
+  const auto& section = problem.section;
+  const std::size_t n = problem.mesh->n_sections();
+  if (problem.may_yield && std::isfinite(beam.yield_stress)) {
+    return SectionField(n, SectionLaw(beam, section.value_or(Fibres::continuous())), storage);
+  }
+  return SectionField(n, (section ? section->slope() : 1.0) * beam.bending_stiffness());
+}
+
+// E h/2 of the fibre farthest from the axis.
+double outer_stiffness(const Problem& problem) {
+  const double of_rectangle = 0.5 * problem.beam.youngs_modulus * problem.beam.thickness;
+  return problem.section ? problem.section->outer_modulus() * of_rectangle : of_rectangle;
+}
+
+std::string section_name(const Problem& problem, const StruckBeam& beam) {
+  if (beam.mesh().highest_frequency(beam.sections().stiffness()) == 0.0) return "rigid";
+  const std::string name = problem.section ? problem.section->name() : Fibres::continuous().name();
+  if (beam.sections().can_yield()) return name;
+  return problem.section ? name + ", elastic" : "elastic";
+}
+
+// Of the beam in bending, with its own section; layers stand for the rectangle.
+double first_period(const Problem& problem) {
+  const double of_rectangle = 2.0 * M_PI / flexural_frequencies(problem.beam, 1).front();
+  return problem.section ? of_rectangle / std::sqrt(problem.section->represented_slope())
+                         : of_rectangle;
+}
+
+void check(const Problem& problem, const Options& options) {
+  const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  const auto refuse = [](const char* key, const char* why) { throw InvalidCase(key, why); };
+  if (!problem.mesh) refuse("model.mesh", "is missing; give Problem::mesh a mesh");
+  if (!problem.contact_law) refuse("contact.law", "is missing; give Problem::contact_law a law");
+  if (!positive(options.end_time)) refuse("time.end", "is not a time; allowed: above 0 s");
+  if (!positive(options.solver.rtol)) refuse("solver.rtol", "is not positive; allowed: above 0");
+}
+
+ResolvedSettings settings_of(const Problem& problem, const Options& options,
+                             const StruckBeam& beam) {
+  ResolvedSettings used;
+  used.half_model = beam.mesh().symmetric();
+  used.n_unknowns = beam.mesh().n_unknowns();
+  used.n_sections = beam.mesh().n_sections();
+  used.mesh = beam.mesh().description();
+  used.highest_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
+  const ContactResonance resonance = contact_resonance(beam, problem.beam.thickness);
+  used.largest_contact_slope = resonance.largest_slope;
+  used.joined_frequency = resonance.highest_frequency;
+  used.contact_time = resonance.contact_time;
+  used.contact_mass_share = resonance.effective_mass / problem.striker.mass;
+  used.critical_step = 2.0 / used.joined_frequency;
+  const ContactLaw& law = beam.contact().law();
+  used.contact_law = law.name();
+  used.contact_stiffness = law.scales().stiffness;
+  used.contact_exponent = law.scales().exponent;
+  used.yield_indentation = law.yield_threshold({});
+  used.section = section_name(problem, beam);
+  used.yield_curvature = problem.beam.yield_curvature();
+  used.first_period = first_period(problem);
+  used.initial_energy =
+      0.5 * problem.striker.mass * problem.striker.velocity * problem.striker.velocity;
+  check_scales(problem.striker, beam);
+  used.table = table_used(options);
+  used.events = events_of(options);
+  used.reversals = reversals_of(options);
+  used.max_order = max_order_used(options);
+  check_method(options, used, beam.sections().can_yield());
+  if (descriptor_of(options.solver.method).steps == MethodDescriptor::Steps::fixed) {
+    used.step = options.solver.step.value_or(default_central_step(used));
+    check_central_step(options, used);
+  } else {
+    used.step = options.solver.step;
+    if (!used.step) {
+      const SecondOrderOde::Scales scales = beam.scales();
+      used.position_tolerance = options.solver.rtol * scales.position;
+      used.velocity_tolerance = options.solver.rtol * scales.velocity;
+    }
+  }
+  used.energy_tolerance = energy_tolerance(options, used);
+  return used;
+}
+
+// The sections nearest to the positions asked for; in a half model their mirror images stand for
+// those of the other half.
+std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
+                                     const BeamMesh& mesh) {
+  std::vector<std::size_t> sections;
+  const auto& positions = mesh.section_positions();
+  for (const double fraction : fractions) {
+    const double x = length * (mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction);
+    const auto nearest =
+        std::min_element(positions.begin(), positions.end(),
+                         [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
+    sections.push_back(static_cast<std::size_t>(nearest - positions.begin()));
+  }
+  return sections;
+}
+
+RunOptions run_options(const Problem& problem, const Options& options, const ResolvedSettings& used,
+                       const BeamMesh& mesh) {
+  RunOptions run;
+  run.loop.end_time = options.end_time;
+  run.loop.events = used.events;
+  run.loop.double_roots = options.study.pair_detection;
+  if (used.reversals == ReversalHandling::located) {
+    run.loop.correction_tolerance =
+        correction_share * options.solver.rtol * problem.striker.velocity;
+  }
+  run.loop.largest_indentation = problem.beam.thickness;
+  run.loop.audit_interval = descriptor_of(options.solver.method).audit_interval;
+  run.loop.shortest_contact = M_PI / used.joined_frequency;
+  run.limits = {used.energy_tolerance, tolerated_momentum};
+  run.history_interval = options.output.interval;
+  run.sections = sections_at(options.output.sections, problem.beam.length, mesh);
+  run.zone_gap = options.output.zone_gap * used.first_period;
+  run.subzone_gap = options.output.subzone_gap * used.first_period;
+  run.fixed_step = used.step;
+  if (options.stop == StopRule::no_more_contact) run.stops_without_contact = problem.beam;
+  return run;
+}
+
+}  // namespace
+
+StruckBeam make_struck_beam(const Problem& problem, const Options& options,
+                            SectionField::Storage storage, Coordinates coordinates) {
+  std::shared_ptr<const BeamMesh> mesh = problem.mesh;
+  SectionField sections = make_sections(problem, storage);
+  if (coordinates == Coordinates::chosen && !sections.can_yield() && in_modes(options, *mesh)) {
+    mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
+  }
+  std::unique_ptr<MassSolver> solver;
+  if (options.study.mass_solver == MassSolverKind::klu) {
+    solver = make_klu_mass_solver(mesh->mass());
+  } else {
+    solver = std::make_unique<BandedSolver>(mesh->mass());
+  }
+  return StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), problem.contact_law,
+                                    problem.striker.mass, problem.striker.velocity,
+                                    outer_stiffness(problem), std::move(solver)});
+}
+
+RunParts::RunParts(const Problem& problem, const Options& options, StruckBeam struck_beam)
+    : given(options),
+      check_contact_law(problem.check_contact_law),
+      beam(std::move(struck_beam)),
+      settings(settings_of(problem, options, beam)),
+      run(run_options(problem, options, settings, beam.mesh())) {}
+
+std::unique_ptr<Integrator> RunParts::make_integrator() {
+  return descriptor_of(given.solver.method).make(given, settings, beam);
+}
+
+ResolvedRun::ResolvedRun(std::unique_ptr<RunParts> parts) : parts_(std::move(parts)) {}
+ResolvedRun::ResolvedRun(ResolvedRun&&) noexcept = default;
+ResolvedRun& ResolvedRun::operator=(ResolvedRun&&) noexcept = default;
+ResolvedRun::~ResolvedRun() = default;
+
+const ResolvedSettings& ResolvedRun::settings() const { return parts_->settings; }
+
+ResolvedRun resolve(const Problem& problem, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  check(problem, options);
+  ResolvedRun run(std::make_unique<RunParts>(problem, options, make_struck_beam(problem, options)));
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  run.parts().setup_seconds = taken.count();
+  return run;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ode/integrator.h"
+#include "simulate/run.h"
+#include "subimpact/simulate/simulate.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+
+/// In which unknowns a beam is integrated.
+enum class Coordinates {
+  chosen,  ///< natural modes for an elastic beam where the method asks for them or they are cheaper
+  of_mesh  ///< the mesh's own
+};
+
+/// The struck beam of a problem. `storage` is for comparisons of lazily and eagerly stored
+/// sections.
+StruckBeam make_struck_beam(const Problem& problem, const Options& options,
+                            SectionField::Storage storage = SectionField::Storage::when_yielded,
+                            Coordinates coordinates = Coordinates::chosen);
+
+/// What a run is made of.
+struct RunParts {
+  RunParts(const Problem& problem, const Options& options, StruckBeam struck_beam);
+
+  /// The integrator of the options as they stand now.
+  std::unique_ptr<Integrator> make_integrator();
+
+  Options given;
+  bool check_contact_law;
+  StruckBeam beam;
+  ResolvedSettings settings;
+  RunOptions run;
+  std::vector<std::string> warnings;  ///< for the result, before those of the run
+  double setup_seconds = 0.0;
+};
+
+}  // namespace subimpact
