@@ -56,5 +56,6 @@ void add_plot(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);
 void add_methods(CLI::App& program, int& status);
 void add_keys(CLI::App& program, int& status);
+void add_columns(CLI::App& program, int& status);
 
 }  // namespace subimpact::app

@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   app::add_report(program, status);
   app::add_methods(program, status);
   app::add_keys(program, status);
+  app::add_columns(program, status);
 
   if (const auto message = unknown_command(program, argc, argv)) {
     fmt::print(stderr, "subimpact: {}\n", *message);

@@ -41,10 +41,10 @@ constexpr double least_tolerated_energy = 1e-6;
 constexpr double most_tolerated_energy = 1e-3;
 constexpr double tolerated_momentum = 1e-9;
 
-// How far putting right what sections do within a step may be off, in units of the integrator's own
+// How far the section correction of a step may be off, in units of the integrator's own
 // tolerance on velocities. At 1 it is off by a third of it, root mean square over the steps of the
 // paper's beam; a tighter one costs more steps than the events gain.
-constexpr double kink_share = 1.0;
+constexpr double correction_share = 1.0;
 
 bool is_symmetric(const Scene& scene) {
   return scene.striker.position == 0.5 && scene.beam.ends[0] == scene.beam.ends[1];
@@ -331,7 +331,7 @@ Used describe(const Case& input, const StruckBeam& beam) {
   used.contact_time = resonance.contact_time;
   used.contact_mass_share = resonance.effective_mass / scene.striker.mass;
   used.critical_step = 2.0 / used.joined_frequency;
-  const ContactLaw& law = beam.contact_law();
+  const ContactLaw& law = beam.contact().law();
   used.contact_law = law.name();
   used.contact_stiffness = law.scales().stiffness;
   used.contact_exponent = law.scales().exponent;
@@ -371,8 +371,10 @@ LoopOptions loop_options(const Case& input, const Used& used) {
   LoopOptions options;
   options.end_time = input.end_time;
   options.events = used.events;
+  options.double_roots = input.solver.pair_detection;
   if (used.reversals == ReversalHandling::located) {
-    options.kink_tolerance = kink_share * input.solver.rtol * input.scene.striker.velocity;
+    options.correction_tolerance =
+        correction_share * input.solver.rtol * input.scene.striker.velocity;
   }
   options.largest_indentation = input.scene.beam.thickness;
   options.audit_interval = descriptor_of(input.solver.method).audit_interval;

@@ -104,7 +104,6 @@ Result simulate(const Case& input, const Progress& progress, Observer* observer)
   check(input);
   StruckBeam beam = make_struck_beam(input);
   Used used = describe(input, beam);
-  beam.set_pair_detection(input.solver.pair_detection);
   const auto integrator = make_integrator(input, used, beam);
   if (const auto broken = rule_broken_by_own_law(input, beam)) {
     return not_run(*broken, std::move(used));

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "case/counted.h"
-#include "io/csv_text.h"
+#include "io/csv_columns.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -19,13 +19,9 @@ std::string setting_of(const ComparedRun& run) {
   return fmt::format("rtol {:.1e}", run.input.solver.rtol);
 }
 
-// The times of the sub-impact at `index` of a list, or nothing.
+// The sub-impact at `index` of a list, or null.
 const SubImpact* at(const std::vector<SubImpact>& list, const std::optional<std::size_t>& index) {
   return index ? &list[*index] : nullptr;
-}
-
-std::optional<double> difference(const std::optional<double>& a, const std::optional<double>& b) {
-  return a && b ? std::optional(*a - *b) : std::nullopt;
 }
 
 }  // namespace
@@ -63,66 +59,82 @@ std::string comparison_table(const Comparison& comparison) {
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-  CsvText csv(
-      "method,outcome,sub_impacts,reference_sub_impacts,corresponding,max_start_difference_s,"
-      "max_end_difference_s,max_peak_difference_relative,max_impulse_difference_relative,steps,"
-      "rejected_steps,right_hand_sides,mass_solves,jacobians,factorisations,wall_s,rtol,step_s\n");
-  for (const ComparedRun& run : comparison.runs) {
-    const Work& work = run.result.work;
-    const auto count = [&](long value) { csv.whole(static_cast<std::size_t>(value)); };
-    csv.word(run.name).word(to_string(run.result.outcome.kind));
-    csv.whole(run.result.sub_impacts.size()).whole(comparison.reference.sub_impacts.size());
-    csv.whole(run.n_corresponding).number(run.max_start_difference).number(run.max_end_difference);
-    csv.number(run.max_peak_difference).number(run.max_impulse_difference);
-    for (const long value : {work.steps, work.rejected_steps, work.right_hand_sides,
-                             work.mass_solves, work.jacobians, work.factorisations}) {
-      count(value);
-    }
-    csv.number(work.wall_seconds);
-    if (run.result.used.step) {
-      csv.empty().number(run.result.used.step);
-    } else {
-      csv.number(run.input.solver.rtol).empty();
-    }
-    csv.end_row();
-  }
-  return csv.str();
+  const auto work = [](long Work::*count) {
+    return [count](const ComparedRun& run) { return run.result.work.*count; };
+  };
+  const Columns<ComparedRun> columns = {
+      {"method", &ComparedRun::name},
+      {"outcome", [](const ComparedRun& run) { return run.result.outcome.kind; }},
+      {"sub_impacts", [](const ComparedRun& run) { return run.result.sub_impacts.size(); }},
+      {"reference_sub_impacts",
+       [&](const ComparedRun&) { return comparison.reference.sub_impacts.size(); }},
+      {"corresponding", &ComparedRun::n_corresponding},
+      {"max_start_difference_s", &ComparedRun::max_start_difference},
+      {"max_end_difference_s", &ComparedRun::max_end_difference},
+      {"max_peak_difference_relative", &ComparedRun::max_peak_difference},
+      {"max_impulse_difference_relative", &ComparedRun::max_impulse_difference},
+      {"steps", work(&Work::steps)},
+      {"rejected_steps", work(&Work::rejected_steps)},
+      {"right_hand_sides", work(&Work::right_hand_sides)},
+      {"mass_solves", work(&Work::mass_solves)},
+      {"jacobians", work(&Work::jacobians)},
+      {"factorisations", work(&Work::factorisations)},
+      {"wall_s", [](const ComparedRun& run) { return run.result.work.wall_seconds; }},
+      {"rtol",
+       [](const ComparedRun& run) {
+         return run.result.used.step ? std::nullopt : std::optional(run.input.solver.rtol);
+       }},
+      {"step_s", [](const ComparedRun& run) { return run.result.used.step; }}};
+  return csv_text(columns, comparison.runs);
 }
 
 std::string matches_csv(const Comparison& comparison) {
-  CsvText csv(
-      "method,reference_index,index,reference_start_s,start_s,start_difference_s,reference_end_s,"
-      "end_s,end_difference_s,reference_peak_force_N,peak_force_N,reference_impulse_Ns,impulse_"
-      "Ns\n");
+  struct Match {
+    std::string method;
+    std::optional<std::size_t> reference_index, index;
+    const SubImpact* reference;  // null: none corresponds
+    const SubImpact* own;
+  };
+  std::vector<Match> matches;
   for (const ComparedRun& run : comparison.runs) {
     for (const MatchedPair& pair : run.pairs) {
-      const SubImpact* there = at(comparison.reference.sub_impacts, pair.first);
-      const SubImpact* here = at(run.result.sub_impacts, pair.second);
-      const auto value = [](const SubImpact* s, double SubImpact::*member) {
-        return s ? std::optional(s->*member) : std::nullopt;
-      };
-      const auto end = [](const SubImpact* s) { return s ? s->end : std::nullopt; };
-      const auto index = [&](const std::optional<std::size_t>& i) {
-        if (i) {
-          csv.whole(*i + 1);
-        } else {
-          csv.empty();
-        }
-      };
-      csv.word(run.name);
-      index(pair.first);
-      index(pair.second);
-      const auto start_there = value(there, &SubImpact::start);
-      const auto start_here = value(here, &SubImpact::start);
-      csv.number(start_there).number(start_here).number(difference(start_here, start_there));
-      csv.number(end(there)).number(end(here)).number(difference(end(here), end(there)));
-      for (const auto member : {&SubImpact::peak_force, &SubImpact::impulse}) {
-        csv.number(value(there, member)).number(value(here, member));
-      }
-      csv.end_row();
+      matches.push_back({run.name, pair.first, pair.second,
+                         at(comparison.reference.sub_impacts, pair.first),
+                         at(run.result.sub_impacts, pair.second)});
     }
   }
-  return csv.str();
+  const auto number = [](std::optional<std::size_t> Match::*index) {
+    return [index](const Match& m) {
+      return m.*index ? std::optional(*(m.*index) + 1) : std::nullopt;
+    };
+  };
+  const auto of = [](const SubImpact* Match::*side, auto SubImpact::*member) {
+    return [=](const Match& m) {
+      return m.*side ? std::optional<double>(m.*side->*member) : std::nullopt;
+    };
+  };
+  const auto difference = [=](auto SubImpact::*member) {
+    return [=](const Match& m) {
+      const std::optional<double> own = of(&Match::own, member)(m);
+      const std::optional<double> reference = of(&Match::reference, member)(m);
+      return own && reference ? std::optional(*own - *reference) : std::nullopt;
+    };
+  };
+  const Columns<Match> columns = {
+      {"method", &Match::method},
+      {"reference_index", number(&Match::reference_index)},
+      {"index", number(&Match::index)},
+      {"reference_start_s", of(&Match::reference, &SubImpact::start)},
+      {"start_s", of(&Match::own, &SubImpact::start)},
+      {"start_difference_s", difference(&SubImpact::start)},
+      {"reference_end_s", of(&Match::reference, &SubImpact::end)},
+      {"end_s", of(&Match::own, &SubImpact::end)},
+      {"end_difference_s", difference(&SubImpact::end)},
+      {"reference_peak_force_N", of(&Match::reference, &SubImpact::peak_force)},
+      {"peak_force_N", of(&Match::own, &SubImpact::peak_force)},
+      {"reference_impulse_Ns", of(&Match::reference, &SubImpact::impulse)},
+      {"impulse_Ns", of(&Match::own, &SubImpact::impulse)}};
+  return csv_text(columns, matches);
 }
 
 }  // namespace subimpact

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -72,26 +71,9 @@ std::string_view CsvTable::text(std::size_t row, std::size_t column) const {
   return std::string_view(content_).substr(bounds_[k], bounds_[k + 1] - 1 - bounds_[k]);
 }
 
-std::optional<double> CsvTable::number(std::size_t row, std::size_t column) const {
-  const std::string_view cell = text(row, column);
-  if (cell.empty()) return std::nullopt;
-  double value = 0.0;
-  const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (end.ec != std::errc() || end.ptr != cell.data() + cell.size()) {
-    refuse(row, column, "a number");
-  }
-  return value;
-}
-
-double CsvTable::required(std::size_t row, std::size_t column) const {
-  const std::optional<double> value = number(row, column);
-  if (!value) refuse(row, column, "a number");
-  return *value;
-}
-
-void CsvTable::refuse(std::size_t row, std::size_t column, const char* wanted) const {
+void CsvTable::refuse(std::size_t row, std::size_t column, const char* allowed) const {
   throw ResultsError(fmt::format("{}:{}: {} is \"{}\"; allowed: {}; run the case again", path_,
-                                 row + 2, header_[column], text(row, column), wanted));
+                                 row + 2, header_[column], text(row, column), allowed));
 }
 
 }  // namespace subimpact

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "case/case_choices.h"
-#include "io/csv_text.h"
+#include "io/csv_columns.h"
 #include "io/write_file.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/report.h"
@@ -86,30 +86,32 @@ std::string plan_table(const Plan& plan) {
 }
 
 void write_plan(const std::filesystem::path& directory, const Plan& plan) {
-  CsvText meshes(
-      "mesh,first_separation_s,reference_sub_impacts,corresponding,median_error_s,max_error_s\n");
-  for (const MeshRun& run : plan.limit.runs) {
-    meshes.word(run.mesh).number(run.first_end).whole(run.errors.n_reference);
-    meshes.whole(run.errors.n_corresponding).number(run.errors.median);
-    meshes.number(run.errors.maximum).end_row();
-  }
-  write_file(directory / "meshes.csv", meshes.str());
-  CsvText limit("index,start_s,end_s,uncertainty_s\n");
-  for (std::size_t i = 0; i < plan.limit.sub_impacts.size(); ++i) {
-    const SubImpact& s = plan.limit.sub_impacts[i];
-    limit.whole(i + 1).number(s.start).number(s.end).number(plan.limit.uncertainty[i]).end_row();
-  }
-  write_file(directory / "mesh_limit.csv", limit.str());
-  CsvText csv(
-      "mesh,method,kind,setting,verdict,mesh_error_s,total_error_s,wall_s,right_hand_sides\n");
-  for (const PlanPoint& point : plan.points) {
-    csv.word(point.mesh).word(point.run.setting.method);
-    csv.word(point.run.setting.fixed_step ? "step" : "rtol").number(point.run.setting.value);
-    csv.word(to_string(point.run.verdict)).number(point.mesh_error);
-    csv.number(point.run.errors.maximum).number(point.run.seconds);
-    csv.whole(static_cast<std::size_t>(point.run.work.right_hand_sides)).end_row();
-  }
-  write_file(directory / "plan.csv", csv.str());
+  const Columns<MeshRun> meshes = {
+      {"mesh", &MeshRun::mesh},
+      {"first_separation_s", &MeshRun::first_end},
+      {"reference_sub_impacts", [](const MeshRun& run) { return run.errors.n_reference; }},
+      {"corresponding", [](const MeshRun& run) { return run.errors.n_corresponding; }},
+      {"median_error_s", [](const MeshRun& run) { return run.errors.median; }},
+      {"max_error_s", [](const MeshRun& run) { return run.errors.maximum; }}};
+  write_file(directory / "meshes.csv", csv_text(meshes, plan.limit.runs));
+  const Columns<SubImpact> limit = {
+      {"index", [](const SubImpact&, std::size_t i) { return i + 1; }},
+      {"start_s", &SubImpact::start},
+      {"end_s", &SubImpact::end},
+      {"uncertainty_s",
+       [&](const SubImpact&, std::size_t i) { return plan.limit.uncertainty[i]; }}};
+  write_file(directory / "mesh_limit.csv", csv_text(limit, plan.limit.sub_impacts));
+  const Columns<PlanPoint> points = {
+      {"mesh", &PlanPoint::mesh},
+      {"method", [](const PlanPoint& p) { return p.run.setting.method; }},
+      {"kind", [](const PlanPoint& p) { return p.run.setting.fixed_step ? "step" : "rtol"; }},
+      {"setting", [](const PlanPoint& p) { return p.run.setting.value; }},
+      {"verdict", [](const PlanPoint& p) { return p.run.verdict; }},
+      {"mesh_error_s", &PlanPoint::mesh_error},
+      {"total_error_s", [](const PlanPoint& p) { return p.run.errors.maximum; }},
+      {"wall_s", [](const PlanPoint& p) { return p.run.seconds; }},
+      {"right_hand_sides", [](const PlanPoint& p) { return p.run.work.right_hand_sides; }}};
+  write_file(directory / "plan.csv", csv_text(points, plan.points));
 }
 
 }  // namespace subimpact

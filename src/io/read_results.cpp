@@ -9,6 +9,7 @@
 #include "case/case_choices.h"
 #include "case/other_names.h"
 #include "io/csv_table.h"
+#include "io/run_tables.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
 
@@ -80,15 +81,6 @@ Case case_from(const Json& json) {
     assign(input, key, key_value(key, *entry));
   }
   return input;
-}
-
-EventKind event_kind(std::string_view name) {
-  for (const EventKind kind :
-       {EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
-        EventKind::contact_ends, EventKind::section_reverses}) {
-    if (to_string(kind) == name) return kind;
-  }
-  throw ResultsError(fmt::format("transitions.csv: unknown kind \"{}\"; run the case again", name));
 }
 
 OutcomeKind outcome_kind(const std::string& name) {
@@ -234,99 +226,6 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
   }
 }
 
-std::vector<SubImpact> read_events(const std::filesystem::path& path) {
-  const CsvTable csv(path);
-  const bool with_errors = csv.has("start_error_s");
-  std::vector<SubImpact> sub_impacts(csv.n_rows());
-  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
-    const auto get = [&](const char* column) { return csv.required(row, csv.column(column)); };
-    SubImpact& s = sub_impacts[row];
-    s.zone = static_cast<int>(get("zone"));
-    s.subzone = static_cast<int>(get("subzone"));
-    s.start = get("start_s");
-    s.end = csv.number(row, csv.column("end_s"));
-    s.peak_force = get("peak_force_N");
-    s.impulse = get("impulse_Ns");
-    s.max_indentation = get("max_indentation_m");
-    s.residual_indentation = get("residual_indentation_m");
-    s.striker_velocity = get("striker_velocity_m_per_s");
-    if (with_errors) {
-      s.start_error = csv.number(row, csv.column("start_error_s"));
-      s.end_error = csv.number(row, csv.column("end_error_s"));
-      s.error_time = csv.number(row, csv.column("error_time_s"));
-      s.error_mesh = csv.number(row, csv.column("error_mesh_s"));
-      s.error_layers = csv.number(row, csv.column("error_layers_s"));
-      s.start_mesh_limit = csv.number(row, csv.column("start_mesh_limit_s"));
-      s.end_mesh_limit = csv.number(row, csv.column("end_mesh_limit_s"));
-      s.mesh_limit_error = csv.number(row, csv.column("mesh_limit_error_s"));
-    }
-  }
-  return sub_impacts;
-}
-
-std::vector<Transition> read_transitions(const std::filesystem::path& path) {
-  const CsvTable csv(path);
-  const std::size_t time = csv.column("time_s"), kind = csv.column("kind");
-  const std::size_t section = csv.column("section"), value = csv.column("value");
-  std::vector<Transition> transitions;
-  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
-    Transition event;
-    event.time = csv.required(row, time);
-    event.kind = event_kind(csv.text(row, kind));
-    if (const auto index = csv.number(row, section)) {
-      event.section = static_cast<std::size_t>(*index);
-    }
-    event.value = csv.required(row, value);
-    transitions.push_back(event);
-  }
-  return transitions;
-}
-
-std::vector<HistoryRow> read_history(const std::filesystem::path& path) {
-  static constexpr std::pair<const char*, double HistoryRow::*> columns[] = {
-      {"time_s", &HistoryRow::time},
-      {"force_N", &HistoryRow::force},
-      {"indentation_m", &HistoryRow::indentation},
-      {"w_c_m", &HistoryRow::struck_displacement},
-      {"w_m_m", &HistoryRow::striker_displacement},
-      {"f_c_m", &HistoryRow::struck_deflection},
-      {"u_mf_m", &HistoryRow::striker_relative},
-      {"v_c_m_per_s", &HistoryRow::struck_velocity},
-      {"v_m_m_per_s", &HistoryRow::striker_velocity},
-      {"stress_back_Pa", &HistoryRow::back_stress},
-      {"U_m_J", &HistoryRow::striker_energy},
-      {"U_k_J", &HistoryRow::beam_kinetic_energy},
-      {"U_e_J", &HistoryRow::bending_elastic},
-      {"U_p_J", &HistoryRow::bending_plastic},
-      {"U_c_J", &HistoryRow::contact_elastic},
-      {"D_c_J", &HistoryRow::contact_plastic},
-      {"energy_error", &HistoryRow::energy_error}};
-  const CsvTable csv(path);
-  std::vector<HistoryRow> history(csv.n_rows());
-  for (const auto& [name, member] : columns) {
-    const std::size_t column = csv.column(name);
-    for (std::size_t row = 0; row < csv.n_rows(); ++row) {
-      history[row].*member = csv.required(row, column);
-    }
-  }
-  const std::size_t momentum = csv.column("momentum_error");
-  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
-    history[row].momentum_error = csv.number(row, momentum);
-  }
-  return history;
-}
-
-std::vector<SectionRow> read_sections(const std::filesystem::path& path) {
-  const CsvTable csv(path);
-  std::vector<SectionRow> rows(csv.n_rows());
-  for (std::size_t row = 0; row < csv.n_rows(); ++row) {
-    const auto get = [&](const char* column) { return csv.required(row, csv.column(column)); };
-    rows[row] = {get("time_s"), get("position_m"), get("curvature_per_m"), get("moment_Nm"),
-                 get("plastic_curvature_per_m")};
-  }
-  return rows;
-}
-
 }  // namespace
 
 FinishedRun read_results(const std::filesystem::path& directory) {
@@ -339,11 +238,11 @@ FinishedRun read_results(const std::filesystem::path& directory) {
   }
   FinishedRun run;
   read_summary(directory / "summary.json", run);
-  run.result.sub_impacts = read_events(directory / "events.csv");
-  run.result.transitions = read_transitions(directory / "transitions.csv");
-  run.result.history = read_history(directory / "history.csv");
+  run.result.sub_impacts = read_rows(directory / "events.csv", events_columns());
+  run.result.transitions = read_rows(directory / "transitions.csv", transitions_columns());
+  run.result.history = read_rows(directory / "history.csv", history_columns());
   if (!run.input.output.sections.empty()) {
-    run.result.section_history = read_sections(directory / "sections.csv");
+    run.result.section_history = read_rows(directory / "sections.csv", sections_columns());
   }
   return run;
 }

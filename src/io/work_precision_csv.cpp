@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
-#include "io/csv_text.h"
+#include "io/csv_columns.h"
 #include "io/write_file.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
@@ -16,43 +15,66 @@
 #include "subimpact/io/work_precision.h"
 
 namespace subimpact {
+
+static bool read_cell(std::string_view cell, Verdict& verdict) {
+  return read_choice(cell, verdict,
+                     {Verdict::right, Verdict::wrong_count, Verdict::inaccurate, Verdict::unstable,
+                      Verdict::failed, Verdict::refused, Verdict::not_run});
+}
+
 namespace {
 
-constexpr const char* header =
-    "case,label,method,kind,setting,verdict,reference_sub_impacts,sub_impacts,corresponding,"
-    "first_odd_s,odd_duration_s,median_error_s,max_error_s,first_error_s,last_error_s,"
-    "peak_force_error,striker_velocity_error,beam_velocity_error,wall_s,repeats,setup_s,steps,"
-    "rejected_steps,right_hand_sides,mass_solves,jacobians,factorisations,message\n";
+// A row of the file.
+struct LoggedPoint {
+  std::string id, label;  // of the case
+  std::string kind;       // of the setting
+  std::optional<double> odd_start, odd_duration;
+  WorkPrecisionPoint point;
+};
 
-constexpr Verdict verdicts[] = {Verdict::right,    Verdict::wrong_count, Verdict::inaccurate,
-                                Verdict::unstable, Verdict::failed,      Verdict::refused,
-                                Verdict::not_run};
-
-std::size_t whole(long value) { return static_cast<std::size_t>(value); }
-
-std::string row(const std::string& id, const std::string& label, const WorkPrecisionPoint& point) {
-  const EventErrors& errors = point.errors;
-  const Work& work = point.work;
-  CsvText csv("");
-  csv.word(id).word(label).word(point.setting.method);
-  csv.word(point.setting.fixed_step ? "step" : "rtol").number(point.setting.value);
-  csv.word(to_string(point.verdict));
-  csv.whole(errors.n_reference).whole(errors.n_found).whole(errors.n_corresponding);
-  if (errors.odd) {
-    csv.number(errors.odd->start).number(errors.odd->duration);
-  } else {
-    csv.empty().empty();
-  }
-  csv.number(errors.median).number(errors.maximum).number(errors.first).number(errors.last);
-  csv.number(errors.peak_force).number(errors.striker_velocity).number(errors.beam_velocity);
-  csv.number(point.seconds).whole(static_cast<std::size_t>(point.repeats));
-  csv.number(work.setup_seconds);
-  for (const long count : {work.steps, work.rejected_steps, work.right_hand_sides, work.mass_solves,
-                           work.jacobians, work.factorisations}) {
-    csv.whole(whole(count));
-  }
-  csv.text(point.message).end_row();
-  return csv.str();
+const Columns<LoggedPoint>& point_columns() {
+  const auto errors = [](auto EventErrors::*member) {
+    return [member](auto& row) -> auto& { return row.point.errors.*member; };
+  };
+  const auto work = [](auto Work::*member) {
+    return [member](auto& row) -> auto& { return row.point.work.*member; };
+  };
+  static const Columns<LoggedPoint> columns = {
+      {"case", &LoggedPoint::id}, {"label", &LoggedPoint::label},
+      {"method", [](auto& row) -> auto& {return row.point.setting.method;
+}
+}  // namespace
+, {"kind", &LoggedPoint::kind}, {"setting", [](auto& row) -> auto& {return row.point.setting.value;
+}  // namespace subimpact
+}
+, {"verdict", [](auto& row) -> auto& {return row.point.verdict;
+}
+}
+, {"reference_sub_impacts", errors(&EventErrors::n_reference)},
+    {"sub_impacts", errors(&EventErrors::n_found)},
+    {"corresponding", errors(&EventErrors::n_corresponding)},
+    {"first_odd_s", &LoggedPoint::odd_start}, {"odd_duration_s", &LoggedPoint::odd_duration},
+    {"median_error_s", errors(&EventErrors::median)},
+    {"max_error_s", errors(&EventErrors::maximum)}, {"first_error_s", errors(&EventErrors::first)},
+    {"last_error_s", errors(&EventErrors::last)},
+    {"peak_force_error", errors(&EventErrors::peak_force)},
+    {"striker_velocity_error", errors(&EventErrors::striker_velocity)},
+    {"beam_velocity_error", errors(&EventErrors::beam_velocity)},
+    {"wall_s", [](auto& row) -> auto& {return row.point.seconds;
+}
+}
+, {"repeats", [](auto& row) -> auto& {return row.point.repeats;
+}
+}
+, {"setup_s", work(&Work::setup_seconds)}, {"steps", work(&Work::steps)},
+    {"rejected_steps", work(&Work::rejected_steps)},
+    {"right_hand_sides", work(&Work::right_hand_sides)}, {"mass_solves", work(&Work::mass_solves)},
+    {"jacobians", work(&Work::jacobians)}, {"factorisations", work(&Work::factorisations)}, {
+  "message", [](auto& row) -> auto& { return row.point.message; }
+}
+}
+;
+return columns;
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -63,42 +85,18 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
-
 // A row that was written whole; nothing for one that an interruption cut short.
-std::optional<WorkPrecisionPoint> point_of(const std::vector<std::string>& cells) {
-  if (cells.size() != 28) return std::nullopt;
-  WorkPrecisionPoint point;
-  point.setting = {cells[2], cells[3] == "step", number(cells[4])};
-  const auto verdict = std::find_if(std::begin(verdicts), std::end(verdicts),
-                                    [&](Verdict v) { return to_string(v) == cells[5]; });
-  if (verdict == std::end(verdicts)) return std::nullopt;
-  point.verdict = *verdict;
-  const auto count = [&](std::size_t i) { return std::strtol(cells[i].c_str(), nullptr, 10); };
-  EventErrors& errors = point.errors;
-  errors.n_reference = static_cast<std::size_t>(count(6));
-  errors.n_found = static_cast<std::size_t>(count(7));
-  errors.n_corresponding = static_cast<std::size_t>(count(8));
-  if (!cells[9].empty()) errors.odd = OddSubImpact{number(cells[9]), number(cells[10]), {}};
-  errors.median = number(cells[11]);
-  errors.maximum = number(cells[12]);
-  errors.first = number(cells[13]);
-  errors.last = number(cells[14]);
-  errors.peak_force = number(cells[15]);
-  errors.striker_velocity = number(cells[16]);
-  errors.beam_velocity = number(cells[17]);
-  point.seconds = number(cells[18]);
-  point.repeats = static_cast<int>(count(19));
-  Work& work = point.work;
-  work.setup_seconds = number(cells[20]);
-  work.steps = count(21);
-  work.rejected_steps = count(22);
-  work.right_hand_sides = count(23);
-  work.mass_solves = count(24);
-  work.jacobians = count(25);
-  work.factorisations = count(26);
-  point.message = cells[27];
-  return point;
+std::optional<LoggedPoint> row_of(const std::string& line) {
+  const Columns<LoggedPoint>& columns = point_columns();
+  const std::vector<std::string> cells = cells_of(line);
+  if (cells.size() != columns.size()) return std::nullopt;
+  LoggedPoint row;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (!columns[k].read(cells[k], row)) return std::nullopt;
+  }
+  row.point.setting.fixed_step = row.kind == "step";
+  if (row.odd_start) row.point.errors.odd = OddSubImpact{*row.odd_start, *row.odd_duration, {}};
+  return row;
 }
 
 std::string key_of(const std::string& id, const Setting& setting) {
@@ -138,11 +136,10 @@ PointLog::PointLog(const std::filesystem::path& directory, const std::vector<std
   std::string kept;
   std::ifstream file(path_);
   for (std::string line; std::getline(file, line);) {
-    const std::vector<std::string> cells = cells_of(line);
-    const auto point = point_of(cells);
+    const std::optional<LoggedPoint> row = row_of(line);
     // What was left out for its time may be run now.
-    if (!point || point->verdict == Verdict::not_run) continue;
-    if (std::find(cases.begin(), cases.end(), cells[0]) == cases.end()) {
+    if (!row || row->point.verdict == Verdict::not_run) continue;
+    if (std::find(cases.begin(), cases.end(), row->id) == cases.end()) {
       throw OutputError(
           fmt::format("{}: holds points of another case (or another version of the program), which "
                       "this study would mix with its own; choose another directory with --out, or "
@@ -150,10 +147,10 @@ PointLog::PointLog(const std::filesystem::path& directory, const std::vector<std
                       path_.string()));
     }
     kept += line + '\n';
-    known_[key_of(cells[0], point->setting)] = *point;
+    known_[key_of(row->id, row->point.setting)] = row->point;
   }
   file.close();
-  write_file(path_, header + kept);
+  write_file(path_, csv_heading(point_columns()) + kept);
 }
 
 std::optional<WorkPrecisionPoint> PointLog::known(const std::string& case_id,
@@ -165,9 +162,16 @@ std::optional<WorkPrecisionPoint> PointLog::known(const std::string& case_id,
 
 void PointLog::append(const std::string& case_id, const std::string& label,
                       const WorkPrecisionPoint& point) {
+  LoggedPoint row{case_id, label, point.setting.fixed_step ? "step" : "rtol", {}, {}, point};
+  if (point.errors.odd) {
+    row.odd_start = point.errors.odd->start;
+    row.odd_duration = point.errors.odd->duration;
+  }
+  std::string text;
+  append_row(text, point_columns(), row);
   errno = 0;
   std::ofstream file(path_, std::ios::app);
-  if (!(file << row(case_id, label, point) << std::flush)) fail(path_);
+  if (!(file << text << std::flush)) fail(path_);
 }
 
 }  // namespace subimpact

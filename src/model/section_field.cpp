@@ -115,7 +115,7 @@ double SectionField::smooth_tangent(std::size_t section, double curvature) const
   return stiffness_;
 }
 
-void SectionField::commit_turn(std::size_t section, double curvature) {
+void SectionField::commit_reversal(std::size_t section, double curvature) {
   SectionHistory& history = stored_history(section);
   if (history.direction == 0) ++n_yielded_;
   law_->commit(history, curvature);
@@ -145,7 +145,7 @@ std::size_t SectionField::commit(std::span<const double> curvatures,
   if (!law_) return 0;
   std::size_t n_flowed = 0;
   for_each_outside(curvatures, low_, high_, [&](std::size_t i) {
-    commit_turn(i, curvatures[i]);
+    commit_reversal(i, curvatures[i]);
     ++n_flowed;
     const SectionHistory& now = history(i);
     const bool flows_on = !rates.empty() && now.direction * rates[i] > 0.0;

@@ -52,7 +52,7 @@ class SectionField {
   /// s)).
   std::size_t commit(std::span<const double> curvatures, std::span<const double> rates);
   /// Takes one section's curvature as reached on the way, where it turned back.
-  void commit_turn(std::size_t section, double curvature);
+  void commit_reversal(std::size_t section, double curvature);
 
   /// One section's memory, to be put back.
   struct Memory {

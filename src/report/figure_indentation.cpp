@@ -96,13 +96,12 @@ double force_at(double time, const Result& result) {
   return 0.0;
 }
 
-void mark_point(FigureScript& figure, const Units& units, const Transition* event,
-                const Result& result, const char* text, const char* offset) {
+// A mark in the first sub-impact: its coordinates in the figure.
+void set_mark(FigureScript& figure, const std::string& name, const Units& units,
+              const Transition* event, const Result& result) {
   if (event == nullptr) return;
-  figure << fmt::format(
-      "set label '{}' at {:.7g}, {:.7g} point pt 7 ps 1.2 lc rgb '#000000' {} front\n", text,
-      event->value * units.length.factor, force_at(event->time, result) * units.force.factor,
-      offset);
+  figure.set(name + "_x", event->value * units.length.factor);
+  figure.set(name + "_y", force_at(event->time, result) * units.force.factor);
 }
 
 }  // namespace
@@ -114,63 +113,37 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
   const std::vector<std::size_t> yielding = yielding_again(result);
   const std::vector<std::size_t> again = deepest(yielding, result);
   FigureScript figure("indentation", caption_text(again.size(), yielding.size()), {800, 520});
-  const Box main{0.10, again.empty() ? 0.97 : 0.61, 0.14, 0.95};
   const AxisRange shown{0.0, 1.06 * result.max_indentation * length};
-  std::string rest;
+  const FigureSize panel{again.empty() ? 700 : 410, 420};
+  std::vector<Point> later;
   if (result.sub_impacts.size() > 1) {
-    rest = figure.line(loop(*law, units, result, result.sub_impacts[1].start, result.outcome.time),
-                       main, shown);
+    later = loop(*law, units, result, result.sub_impacts[1].start, result.outcome.time);
   }
   const double first_end =
       result.sub_impacts.empty() ? 0.0 : end_of(result.sub_impacts.front(), result);
-  const std::string first_loop =
-      figure.line(loop(*law, units, result, 0.0, first_end), main, shown);
-
-  figure.place(main);
-  figure << fmt::format("set xlabel 'indentation, {}'\nset ylabel 'contact force, {}' offset 0.5\n",
-                        units.length.name, units.force.name)
-         << "set yrange [0:*]\nset offsets 0, 0, graph 0.06, 0\n"
-         // Under the yielding branch; an elastic contact leaves no room there.
-         << (result.first_contact_yield
-                 ? "set key bottom left Left reverse at graph 0.13, graph 0.05 samplen 2.5\n"
-                 : "set key bottom right samplen 2.5\n");
-  figure << fmt::format("set xrange [0:{:.7g}]\nset xtics {}\n", shown.to,
-                        tic_spacing(result.max_indentation * length, 4));
-  mark_point(figure, units, first(EventKind::contact_yields, result), result, "A: contact yields",
-             "left offset 1, -0.4");
-  mark_point(figure, units, first(EventKind::contact_unloads, result), result,
-             "B: unloading begins", "right offset -1, 1");
-  figure << "plot ";
-  if (!rest.empty()) {
-    figure << fmt::format("{} with lines lc rgb '#A0A0A0' lw 1 title 'later sub-impacts', ", rest);
+  figure.line("later", later, panel, shown);
+  figure.line("first", loop(*law, units, result, 0.0, first_end), panel, shown);
+  NumberRows insets, loops;
+  for (const std::size_t i : again) {
+    const SubImpact& s = result.sub_impacts[i];
+    const AxisRange range{result.sub_impacts[i - 1].residual_indentation * length,
+                          s.max_indentation * length};
+    insets.push_back(
+        {static_cast<double>(i + 1), s.start * 1e3, range.from, range.to, s.peak_force * force});
+    const double inset = static_cast<double>(insets.size());
+    for (const Point& p : thin_for_panel(loop(*law, units, result, s.start, end_of(s, result)),
+                                         {210, 380 / static_cast<int>(again.size())}, range)) {
+      loops.push_back({inset, p.x, p.y});
+    }
   }
-  figure << fmt::format("{} with lines lc 1 title 'first sub-impact'\n", first_loop)
-         << "unset label\nset offsets 0, 0, graph 0.06, 0\n";
-
-  const double height = 0.82 / static_cast<double>(std::max<std::size_t>(again.size(), 1));
-  for (std::size_t k = 0; k < again.size(); ++k) {
-    const SubImpact& s = result.sub_impacts[again[k]];
-    const double top = 0.95 - height * static_cast<double>(k);
-    const bool last = k + 1 == again.size();
-    const Box inset{0.71, 0.97, top - height + (last ? 0.01 : 0.08), top - 0.045};
-    const double lowest = result.sub_impacts[again[k] - 1].residual_indentation;
-    const double margin = 0.1 * (s.max_indentation - lowest) * length;
-    const AxisRange range{lowest * length - margin, s.max_indentation * length + margin};
-    const std::string data =
-        figure.line(loop(*law, units, result, s.start, end_of(s, result)), inset, range);
-    figure.place(inset);
-    figure << fmt::format("set title 'no. {}, at {:.4g} ms' offset 0, -0.7 font ',13'\n",
-                          again[k] + 1, s.start * 1e3)
-           << (last ? fmt::format("set xlabel 'indentation, {}'\n", units.length.name)
-                    : std::string("unset xlabel\n"))
-           << fmt::format(
-                  "set ylabel '{}' offset 1.5\nset xrange [{:.7g}:{:.7g}]\nset xtics {}\nset ytics "
-                  "{}\nunset key\n",
-                  units.force.name, range.from, range.to,
-                  tic_spacing((s.max_indentation - lowest) * length, 3),
-                  tic_spacing(s.peak_force * force, 3))
-           << fmt::format("plot {} with lines lc {} lw 1.2 notitle\n", data, k + 2);
-  }
+  figure.table("insets", "number,start_ms,from,to,peak", insets);
+  figure.table("inset_loops", "inset,x,y", loops);
+  figure.set("n_later", static_cast<double>(later.size()));
+  figure.set("largest", result.max_indentation * length);
+  figure.set("yields", result.first_contact_yield.has_value());
+  figure.set("force_unit", units.force.name).set("length_unit", units.length.name);
+  set_mark(figure, "yields", units, first(EventKind::contact_yields, result), result);
+  set_mark(figure, "unloads", units, first(EventKind::contact_unloads, result), result);
   return figure;
 }
 

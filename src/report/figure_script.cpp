@@ -1,6 +1,7 @@
 #include "report/figure_script.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,17 @@ std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, doub
   return thinned;
 }
 
+std::vector<Point> thin_for_panel(const std::vector<Point>& line, FigureSize panel,
+                                  const std::optional<AxisRange>& x_range) {
+  if (line.empty()) return line;
+  const std::vector<Point> shown = shown_points(line, x_range);
+  const double x_extent = x_range ? x_range->to - x_range->from : extent(shown, &Point::x);
+  const double x_scale = x_extent / panel.width;
+  const double y_scale = extent(shown, &Point::y) / panel.height;
+  return thin_out(line, x_scale > 0.0 ? x_scale : 1.0, y_scale > 0.0 ? y_scale : 1.0,
+                  line_tolerance);
+}
+
 FigureScript::FigureScript(std::string name, std::string caption, FigureSize size)
     : name_(std::move(name)), caption_(std::move(caption)), size_(size) {}
 
@@ -103,68 +115,47 @@ FigureSize FigureScript::size() const {
 }
 
 std::string FigureScript::text() const {
-  std::string title;  // a newline between marks, as gnuplot writes it within double quotes
+  std::string marks;  // a newline between marks, as gnuplot writes it within double quotes
   for (const std::string& text : marks_) {
-    title += fmt::format("{}{{/:Bold {}}}", title.empty() ? "" : "\\n", text);
+    marks += fmt::format("{}{{/:Bold {}}}", marks.empty() ? "" : "\\n", text);
   }
-  return "# " + caption_ + "\n" + figure_style() + data_ +
-         fmt::format("panels = {:.6g}\n", 1.0 * size_.height / size().height) +
-         (title.empty() ? "set multiplot\n"
-                        : fmt::format("set multiplot title \"{}\" font ',12'\n", title)) +
-         commands_ + "unset multiplot\n";
+  return "# " + caption_ + "\n" +
+         figure_script(name_, settings_ + fmt::format("panels = {:#.6g}\nmarks = \"{}\"\n",
+                                                      1.0 * size_.height / size().height, marks));
 }
 
-std::string FigureScript::line(const std::vector<Point>& points, const Box& box,
-                               const std::optional<AxisRange>& x_range) {
-  if (points.empty()) return this->points(points);
-  const double x_pixels = size_.width * (box.right - box.left);
-  const double y_pixels = size_.height * (box.top - box.bottom);
-  const std::vector<Point> shown = shown_points(points, x_range);
-  const double x_extent = x_range ? x_range->to - x_range->from : extent(shown, &Point::x);
-  const double x_scale = x_extent / x_pixels;
-  const double y_scale = extent(shown, &Point::y) / y_pixels;
-  return this->points(thin_out(points, x_scale > 0.0 ? x_scale : 1.0, y_scale > 0.0 ? y_scale : 1.0,
-                               line_tolerance));
+FigureScript& FigureScript::set(const std::string& variable, double value) {
+  settings_ += fmt::format("{} = {:#.7g}\n", variable, value);  // "8.000000": never an integer
+  return *this;
 }
 
-std::string FigureScript::points(const std::vector<Point>& points) {
-  const std::string name = fmt::format("$data{}", ++n_data_);
+FigureScript& FigureScript::set(const std::string& variable, const std::string& value) {
+  settings_ += fmt::format("{} = \"{}\"\n", variable, value);
+  return *this;
+}
+
+void FigureScript::table(const std::string& name, const std::string& columns,
+                         const NumberRows& rows) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} << EOD\n", name);
-  for (const Point& point : points) fmt::format_to(out, "{:.7g} {:.7g}\n", point.x, point.y);
-  // A block without rows is an error to gnuplot; this one draws nothing.
-  if (points.empty()) fmt::format_to(out, "NaN NaN\n");
-  fmt::format_to(out, "EOD\n");
-  data_ += fmt::to_string(text);
-  return name;
-}
-
-void FigureScript::place(const Box& box) {
-  *this << fmt::format(
-      "set lmargin at screen {}; set rmargin at screen {}\n"
-      "set bmargin at screen {}*panels; set tmargin at screen {}*panels\n",
-      box.left, box.right, box.bottom, box.top);
-}
-
-void FigureScript::shade(const std::vector<Band>& bands) {
-  *this << "unset object\n";
-  for (const Band& band : bands) {
-    *this << fmt::format(
-        "set object rectangle from first {:.7g}, graph 0 to first {:.7g}, graph 1 behind "
-        "fillcolor rgb '{}' fillstyle solid noborder\n",
-        band.from, band.to, band.colour);
+  fmt::format_to(out, "${} << EOD\n{}\n", name, columns);
+  for (const std::vector<double>& row : rows) {
+    fmt::format_to(out, "{:.7g}\n", fmt::join(row, ","));
   }
+  // A table without rows is an error to gnuplot; this row draws nothing.
+  if (rows.empty()) {
+    const auto n = 1 + std::count(columns.begin(), columns.end(), ',');
+    fmt::format_to(out, "{}\n",
+                   fmt::join(std::vector<const char*>(static_cast<std::size_t>(n), "NaN"), ","));
+  }
+  settings_ += fmt::to_string(text) + "EOD\n";
 }
 
-double tic_spacing(double extent, int parts) {
-  if (!(extent > 0.0)) return 1.0;
-  const double raw = extent / parts;
-  const double decade = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * decade >= raw) return factor * decade;
-  }
-  return 10.0 * decade;
+void FigureScript::line(const std::string& name, const std::vector<Point>& points, FigureSize panel,
+                        const std::optional<AxisRange>& x_range) {
+  NumberRows rows;
+  for (const Point& p : thin_for_panel(points, panel, x_range)) rows.push_back({p.x, p.y});
+  table(name, "x,y", rows);
 }
 
 Unit force_unit(double largest) {
@@ -196,12 +187,13 @@ TimeUnit time_unit(double length) {
   return {1e6, "µs"};
 }
 
-std::vector<FigureScript::Band> sub_impact_bands(const Result& result, TimeUnit unit) {
-  std::vector<FigureScript::Band> bands;
+NumberRows sub_impact_bands(const Result& result, TimeUnit unit) {
+  NumberRows bands;
   for (const SubImpact& s : result.sub_impacts) {
-    bands.push_back({s.start * unit.per_second,
-                     s.end.value_or(result.outcome.time) * unit.per_second, band_colour});
+    bands.push_back(
+        {s.start * unit.per_second, s.end.value_or(result.outcome.time) * unit.per_second});
   }
+  if (bands.empty()) bands.push_back({0.0, 0.0});
   return bands;
 }
 

@@ -22,17 +22,15 @@ struct Point {
 std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, double y_scale,
                             double tolerance);
 
-/// Part of a figure that a panel's axes enclose, in fractions of its width and height.
-struct Box {
-  double left, right, bottom, top;
-};
-
 /// The part of an axis that a figure shows.
 struct AxisRange {
   double from, to;
 };
 
-/// A gnuplot script in the making, data included.
+using NumberRows = std::vector<std::vector<double>>;
+
+/// A figure of a run: its script (figures/<name>.gp), and the tables and variables that the script
+/// reads.
 class FigureScript {
  public:
   FigureScript(std::string name, std::string caption, FigureSize size);
@@ -43,40 +41,28 @@ class FigureScript {
   FigureSize size() const;
   /// Writes a line across the top, above the panels: what to know before looking at it.
   void mark(const std::string& text) { marks_.push_back(text); }
-  /// The script as gnuplot wants it: data first, then the panels as one multiplot.
+  /// The script as gnuplot wants it, tables and variables included.
   std::string text() const;
 
-  /// Adds a line of data, thinned to what the figure can show over the given part of it; returns
-  /// its gnuplot name. `x_range`: what the panel shows of the x axis, if not all of the line.
-  std::string line(const std::vector<Point>& points, const Box& box,
-                   const std::optional<AxisRange>& x_range = {});
-  /// Adds points as they are.
-  std::string points(const std::vector<Point>& points);
-
-  FigureScript& operator<<(const std::string& commands) {
-    commands_ += commands;
-    return *this;
-  }
-  /// Places the panel that the next plot command draws.
-  void place(const Box& box);
-  /// Vertical bands behind the panel.
-  struct Band {
-    double from, to;
-    const char* colour;
-  };
-  void shade(const std::vector<Band>& bands);
+  FigureScript& set(const std::string& variable, double value);
+  FigureScript& set(const std::string& variable, const std::string& value);
+  /// Adds the table $name as it is.
+  void table(const std::string& name, const std::string& columns, const NumberRows& rows);
+  /// Adds the table $name of the columns x and y: a line, thinned to what a panel of about that
+  /// size can show. `x_range`: what the panel shows of the x axis, if not all of the line.
+  void line(const std::string& name, const std::vector<Point>& points, FigureSize panel,
+            const std::optional<AxisRange>& x_range = {});
 
  private:
   std::string name_, caption_;
   FigureSize size_;
   std::vector<std::string> marks_;
-  std::string data_;
-  std::string commands_;
-  int n_data_ = 0;
+  std::string settings_;
 };
 
-/// A spacing of tics, 1, 2 or 5 times a power of ten, that cuts an extent into about `parts`.
-double tic_spacing(double extent, int parts);
+/// thin_out() to what a panel of about that size can show.
+std::vector<Point> thin_for_panel(const std::vector<Point>& line, FigureSize panel,
+                                  const std::optional<AxisRange>& x_range = {});
 
 /// A unit that suits the size of what is shown: values of the SI unit times `factor` are in `name`.
 struct Unit {
@@ -96,19 +82,14 @@ struct TimeUnit {
 };
 TimeUnit time_unit(double length);
 
-// Light enough to lie behind lines; the second is for zones, the third for sub-zones.
-inline constexpr const char* band_colour = "#FBE6BE";
-inline constexpr const char* zone_colour = "#E3E3E3";
-inline constexpr const char* subzone_colour = "#BDBDBD";
-
-/// One band a sub-impact, in the given unit of time.
-std::vector<FigureScript::Band> sub_impact_bands(const Result& result, TimeUnit unit);
+/// One band (from, to) per sub-impact, in the given unit of time.
+NumberRows sub_impact_bands(const Result& result, TimeUnit unit);
 
 /// A column of the history as a line over time.
 std::vector<Point> history_line(const Result& result, TimeUnit unit, double HistoryRow::*member,
                                 double factor);
 
-// The figures; each nothing but a function of a run.
+// The figures; each is a function of a run.
 FigureScript response_figure(const Case& input, const Result& result);
 FigureScript first_sub_impact_figure(const Case& input, const Result& result);
 FigureScript indentation_figure(const Case& input, const Result& result);

@@ -10,8 +10,8 @@
 namespace subimpact {
 namespace {
 
-constexpr double left = 0.11;
-constexpr double right = 0.98;
+constexpr double left_edge = 0.11;
+constexpr double right_edge = 0.98;
 constexpr double gap = 0.03;  // between columns
 constexpr std::size_t most_columns = 4;
 constexpr double edge = 0.022;           // of the width, free on either side of a column
@@ -21,25 +21,26 @@ constexpr double number_spacing = 0.03;  // of the width, between labelled sub-i
 struct Column {
   double from, to;  // s
   std::string title;
-  Box box;  // left and right only
+  double left = 0.0, right = 0.0;  // of the figure's width
+
+  double width() const { return right - left; }
+  bool holds(const SubImpact& s) const { return s.start >= from && s.start <= to; }
 };
 
-// A column a zone, as wide as the zone lasts; one for all where there are many zones.
+// A column per zone, as wide as the zone lasts; one for all where there are many zones.
 std::vector<Column> columns_of(const Result& result) {
   std::vector<Column> columns;
   int zone = 0;
   for (const SubImpact& s : result.sub_impacts) {
     const double end = s.end.value_or(result.outcome.time);
-    if (s.zone != zone) columns.push_back({s.start, end, fmt::format("zone {}", s.zone), {}});
+    if (s.zone != zone) columns.push_back({s.start, end, fmt::format("zone {}", s.zone)});
     columns.back().to = end;
     zone = s.zone;
   }
-  if (columns.empty()) columns.push_back({0.0, result.outcome.time, "no sub-impact", {}});
+  if (columns.empty()) columns.push_back({0.0, result.outcome.time, "no sub-impact"});
   if (columns.size() > most_columns) {
-    columns = {{columns.front().from,
-                columns.back().to,
-                fmt::format("zones 1 to {}", columns.size()),
-                {}}};
+    columns = {
+        {columns.front().from, columns.back().to, fmt::format("zones 1 to {}", columns.size())}};
   }
   double total = 0.0;
   for (const Column& column : columns) total += column.to - column.from;
@@ -49,33 +50,38 @@ std::vector<Column> columns_of(const Result& result) {
     shares.push_back(std::max((column.to - column.from) / total, least_share));
     sum += shares.back();
   }
-  const double width = right - left - gap * static_cast<double>(columns.size() - 1);
-  double at = left;
+  const double width = right_edge - left_edge - gap * static_cast<double>(columns.size() - 1);
+  double at = left_edge;
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    columns[k].box.left = at;
-    columns[k].box.right = at + width * shares[k] / sum;
-    at = columns[k].box.right + gap;
+    columns[k].left = at;
+    columns[k].right = at + width * shares[k] / sum;
+    at = columns[k].right + gap;
   }
   return columns;
-}
-
-// A range for a logarithmic axis: half a decade more than the values take.
-std::string log_range(const Result& result, double (*value)(const SubImpact&, const Result&)) {
-  double low = 1e300;
-  double high = 0.0;
-  for (const SubImpact& s : result.sub_impacts) {
-    if (!(value(s, result) > 0.0)) continue;
-    low = std::min(low, value(s, result));
-    high = std::max(high, value(s, result));
-  }
-  if (high == 0.0) return "[0.1:10]";
-  return fmt::format("[{:.6g}:{:.6g}]", low / 2.0, high * 3.0);
 }
 
 double duration_us(const SubImpact& s, const Result& result) {
   return 1e6 * (s.end.value_or(result.outcome.time) - s.start);
 }
 double impulse_mNs(const SubImpact& s, const Result&) { return 1e3 * s.impulse; }
+
+// Which sub-impacts of a column have room for their number: those `spacing` (s) after the one that
+// was numbered before, unless the number would lie on the stem of a taller neighbour.
+std::vector<bool> numbered(const Result& result, const Column& column, double spacing,
+                           double (*value)(const SubImpact&, const Result&)) {
+  const std::vector<SubImpact>& all = result.sub_impacts;
+  std::vector<bool> found(all.size(), false);
+  double last = -1e300;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!column.holds(all[i]) || all[i].start - last < spacing) continue;
+    found[i] = std::none_of(all.begin(), all.end(), [&](const SubImpact& other) {
+      return std::abs(other.start - all[i].start) < 0.5 * spacing &&
+             value(other, result) > value(all[i], result);
+    });
+    if (found[i]) last = all[i].start;
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -87,70 +93,30 @@ FigureScript timeline_figure(const Case&, const Result& result) {
       {800, 560});
   const TimeUnit unit = time_unit(result.outcome.time);
   const std::vector<Column> columns = columns_of(result);
-  struct Row {
-    const char* label;
-    double (*value)(const SubImpact&, const Result&);
-    double bottom, top;
-    int colour;
-  };
-  const Row rows[] = {{"duration, µs", duration_us, 0.55, 0.93, 1},
-                      {"impulse, mN s", impulse_mNs, 0.12, 0.50, 2}};
-  figure << "set logscale y\nset format y '%g'\nunset key\n";
-  for (const Row& row : rows) {
-    const bool top_row = row.bottom > 0.5;
-    figure << fmt::format("set yrange {}\n", log_range(result, row.value))
-           << (top_row ? "set format x ''\n" : "set format x '% h'\n");
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const Column& column = columns[k];
-      const double margin = edge * (column.to - column.from) / (column.box.right - column.box.left);
-      const double from = (column.from - margin) * unit.per_second;
-      const double to = (column.to + margin) * unit.per_second;
-      std::vector<Point> points;
-      double last_label = -1e300;
-      // A number would lie on the stem of a taller neighbour.
-      const double reach = 0.5 * number_spacing / (column.box.right - column.box.left) *
-                           (to - from) / unit.per_second;
-      const auto overlooked = [&](std::size_t i) {
-        return std::any_of(
-            result.sub_impacts.begin(), result.sub_impacts.end(), [&](const SubImpact& other) {
-              return std::abs(other.start - result.sub_impacts[i].start) < reach &&
-                     row.value(other, result) > row.value(result.sub_impacts[i], result);
-            });
-      };
-      figure << "unset label\n";
-      for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
-        const SubImpact& s = result.sub_impacts[i];
-        if (s.start < column.from || s.start > column.to) continue;
-        const double x = s.start * unit.per_second;
-        const double y = row.value(s, result);
-        points.push_back({x, y});
-        const double where =
-            column.box.left + (x - from) / (to - from) * (column.box.right - column.box.left);
-        if (where - last_label < number_spacing || overlooked(i)) continue;
-        last_label = where;
-        figure << fmt::format("set label '{}' at {:.7g}, {:.7g} center offset 0, 0.8 font ',11'\n",
-                              i + 1, x, y);
-      }
-      const std::string data = figure.points(points);
-      Box box = column.box;
-      box.bottom = row.bottom;
-      box.top = row.top;
-      figure.place(box);
-      figure
-          << fmt::format("set xrange [{:.7g}:{:.7g}]\nset xtics {}\n", from, to,
-                         tic_spacing(to - from, 5))
-          << (top_row ? fmt::format("set title '{}' offset 0, -0.5\n", column.title)
-                      : std::string("unset title\n"))
-          << (k == 0 ? fmt::format("set ylabel '{}'\nset format y '%g'\n", row.label)
-                     : std::string("unset ylabel\nset format y ''\n"))
-          << (top_row ? std::string("unset xlabel\n")
-                      : fmt::format("set xlabel 'start, {}'\n", unit.name))
-          << fmt::format(
-                 "plot {0} with impulses lc {1} lw 2 notitle, {0} with points lc {1} pt 7 ps 0.8 "
-                 "notitle\n",
-                 data, row.colour);
+  NumberRows panels, sub_impacts;
+  std::string titles;
+  for (const Column& column : columns) {
+    const double margin = edge * (column.to - column.from) / column.width();
+    const double from = (column.from - margin) * unit.per_second;
+    const double to = (column.to + margin) * unit.per_second;
+    panels.push_back({from, to, column.left, column.right});
+    titles += fmt::format("'{}' ", column.title);
+    const double spacing = number_spacing / column.width() * (to - from) / unit.per_second;
+    const std::vector<bool> durations = numbered(result, column, spacing, duration_us);
+    const std::vector<bool> impulses = numbered(result, column, spacing, impulse_mNs);
+    for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
+      const SubImpact& s = result.sub_impacts[i];
+      if (!column.holds(s)) continue;
+      sub_impacts.push_back({static_cast<double>(panels.size()), static_cast<double>(i + 1),
+                             s.start * unit.per_second, duration_us(s, result),
+                             impulse_mNs(s, result), 1.0 * durations[i], 1.0 * impulses[i]});
     }
   }
+  figure.table("columns", "from,to,left,right", panels);
+  figure.table("sub_impacts",
+               "column,number,start,duration_us,impulse_mNs,label_duration_us,label_impulse_mNs",
+               sub_impacts);
+  figure.set("titles", titles).set("time_unit", unit.name);
   return figure;
 }
 

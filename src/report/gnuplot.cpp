@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "io/write_file.h"
+#include "report/files.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
@@ -68,19 +69,11 @@ void draw(const std::filesystem::path& directory, const std::string& name,
 
 }  // namespace
 
-std::string figure_style() {
-  return R"(set linetype 1 lc rgb '#0072B2' lw 2 pt 7
-set linetype 2 lc rgb '#D55E00' lw 2 pt 5
-set linetype 3 lc rgb '#009E73' lw 2 pt 9
-set linetype 4 lc rgb '#CC79A7' lw 2 pt 13
-set linetype 5 lc rgb '#E69F00' lw 2 pt 11
-set linetype 6 lc rgb '#56B4E9' lw 2 pt 15
-set linetype 7 lc rgb '#000000' lw 2 pt 6
-set linetype 8 lc rgb '#8B7500' lw 2 pt 4
-set border 3 lc rgb '#404040'
-set tics nomirror
-set grid lc rgb '#D8D8D8' lw 0.5
-)";
+std::string figure_style() { return std::string(embedded_file("figures/style.gp")); }
+
+std::string figure_script(const std::string& name, const std::string& settings) {
+  return figure_style() + std::string(embedded_file("figures/tables.gp")) + settings +
+         std::string(embedded_file("figures/" + name + ".gp"));
 }
 
 void draw_figure(const std::filesystem::path& directory, const std::string& name,

@@ -15,6 +15,10 @@ struct FigureSize {
 /// the colour-blind can tell apart, thin grey grid, borders on two sides.
 std::string figure_style();
 
+/// The script of a figure, figures/<name>.gp, after the style, what scripts share and the
+/// `settings` of this drawing: variables and tables of data.
+std::string figure_script(const std::string& name, const std::string& settings = {});
+
 /// Draws a figure with gnuplot as directory/name.svg and directory/name.png. `script` sets no
 /// terminal and no output; data are in it (`$data << EOD`) or in files named relative to the
 /// directory. It is left as directory/name.gp, so that a figure can be changed and drawn again:

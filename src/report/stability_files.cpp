@@ -1,100 +1,90 @@
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "case/case_choices.h"
-#include "io/csv_text.h"
+#include "io/csv_columns.h"
 #include "io/write_file.h"
 #include "report/gnuplot.h"
-#include "report/stability_figures.h"
 #include "subimpact/report/stability.h"
 
 namespace subimpact {
-namespace {
 
 namespace fs = std::filesystem;
 
-}  // namespace
-
 void write_critical_steps(const fs::path& directory, const std::vector<CriticalStep>& rows) {
-  CsvText csv(
-      "method,theory,segments,highest_frequency_rad_per_s,limit_omega_h,predicted_s,measured_s\n");
-  for (const CriticalStep& row : rows) {
-    csv.word(row.method).word(name_of(row.theory)).whole(static_cast<std::size_t>(row.segments));
-    csv.number(row.highest_frequency).number(row.limit).number(row.predicted);
-    csv.number(row.measured).end_row();
-  }
-  write_file(directory / "critical_steps.csv", csv.str());
-  draw_figure(directory, "critical_steps", critical_step_figure(rows), {1180, 560});
+  const Columns<CriticalStep> columns = {
+      {"method", &CriticalStep::method},
+      {"theory", [](const CriticalStep& row) { return std::string(name_of(row.theory)); }},
+      {"segments", &CriticalStep::segments},
+      {"highest_frequency_rad_per_s", &CriticalStep::highest_frequency},
+      {"limit_omega_h", &CriticalStep::limit},
+      {"predicted_s", &CriticalStep::predicted},
+      {"measured_s", &CriticalStep::measured}};
+  write_file(directory / "critical_steps.csv", csv_text(columns, rows));
+  draw_figure(directory, "critical_steps", figure_script("critical_steps"), {1180, 560});
 }
 
 void write_stiff_contact(const fs::path& directory, const std::vector<StiffContact>& rows) {
-  CsvText csv("stiffness_N_per_m,beam_only_s,predicted_s,measured_s\n");
-  for (const StiffContact& row : rows) {
-    csv.number(row.stiffness).number(row.beam_only).number(row.predicted).number(row.measured);
-    csv.end_row();
-  }
-  write_file(directory / "stiff_contact.csv", csv.str());
-  draw_figure(directory, "stiff_contact", stiff_contact_figure(rows), {760, 500});
+  const Columns<StiffContact> columns = {{"stiffness_N_per_m", &StiffContact::stiffness},
+                                         {"beam_only_s", &StiffContact::beam_only},
+                                         {"predicted_s", &StiffContact::predicted},
+                                         {"measured_s", &StiffContact::measured}};
+  write_file(directory / "stiff_contact.csv", csv_text(columns, rows));
+  draw_figure(directory, "stiff_contact", figure_script("stiff_contact"), {760, 500});
 }
 
 void write_damping(const fs::path& directory, const std::vector<Damping>& rows,
                    const std::vector<MultistepGrowth>& growths) {
-  CsvText csv("method,omega_h,predicted,measured\n");
-  for (const Damping& row : rows) {
-    csv.word(row.method).number(row.angle).number(row.predicted).number(row.measured).end_row();
-  }
-  write_file(directory / "damping.csv", csv.str());
-  CsvText growth("order,omega_h,growth\n");
-  for (const MultistepGrowth& row : growths) {
-    growth.whole(static_cast<std::size_t>(row.order)).number(row.angle).number(row.growth);
-    growth.end_row();
-  }
-  write_file(directory / "bdf_growth.csv", growth.str());
-  draw_figure(directory, "damping", damping_figure(rows, growths), {1150, 520});
+  const Columns<Damping> columns = {{"method", &Damping::method},
+                                    {"omega_h", &Damping::angle},
+                                    {"predicted", &Damping::predicted},
+                                    {"measured", &Damping::measured}};
+  write_file(directory / "damping.csv", csv_text(columns, rows));
+  const Columns<MultistepGrowth> growth = {{"order", &MultistepGrowth::order},
+                                           {"omega_h", &MultistepGrowth::angle},
+                                           {"growth", &MultistepGrowth::growth}};
+  write_file(directory / "bdf_growth.csv", csv_text(growth, growths));
+  draw_figure(directory, "damping", figure_script("damping"), {1150, 520});
 }
 
 void write_outcomes(const fs::path& directory, const OutcomeMap& map) {
-  CsvText csv(
-      "group,row,omega_h_or_rtol,verdict,reference_sub_impacts,sub_impacts,corresponding,"
-      "median_error_s,max_error_s,energy_error,message\n");
-  for (const OutcomePoint& point : map.points) {
-    const EventErrors& errors = point.errors;
-    csv.word(point.group).text(point.row).number(point.x);
-    csv.word(to_string(point.verdict)).whole(errors.n_reference).whole(errors.n_found);
-    csv.whole(errors.n_corresponding);
-    if (point.verdict == Verdict::right || point.verdict == Verdict::wrong_count) {
-      csv.number(errors.median).number(errors.maximum).number(point.energy_error);
-    } else {
-      csv.empty().empty().empty();
-    }
-    csv.text(point.message).end_row();
-  }
-  write_file(directory / "outcomes.csv", csv.str());
-  draw_figure(directory, "outcomes", outcome_figure(map), {1400, 560});
+  const auto if_completed = [](const OutcomePoint& point, double value) {
+    const bool completed = point.verdict == Verdict::right || point.verdict == Verdict::wrong_count;
+    return completed ? std::optional(value) : std::nullopt;
+  };
+  const Columns<OutcomePoint> columns = {
+      {"group", &OutcomePoint::group},
+      {"row", &OutcomePoint::row},
+      {"omega_h_or_rtol", &OutcomePoint::x},
+      {"verdict", [](const OutcomePoint& p) { return p.verdict; }},
+      {"reference_sub_impacts", [](const OutcomePoint& p) { return p.errors.n_reference; }},
+      {"sub_impacts", [](const OutcomePoint& p) { return p.errors.n_found; }},
+      {"corresponding", [](const OutcomePoint& p) { return p.errors.n_corresponding; }},
+      {"median_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.median); }},
+      {"max_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.maximum); }},
+      {"energy_error", [=](const OutcomePoint& p) { return if_completed(p, p.energy_error); }},
+      {"message", &OutcomePoint::message}};
+  write_file(directory / "outcomes.csv", csv_text(columns, map.points));
+  draw_figure(directory, "outcomes", figure_script("outcomes"), {1400, 560});
 }
 
 void write_missed_pairs(const fs::path& directory, const std::vector<MissedPairs>& rows) {
-  CsvText csv("step_s,runs,right_with_search,right_without,shortest_s\n");
-  for (const MissedPairs& row : rows) {
-    csv.number(row.step).whole(static_cast<std::size_t>(row.n_runs));
-    csv.whole(static_cast<std::size_t>(row.right_with_search));
-    csv.whole(static_cast<std::size_t>(row.right_without)).number(row.shortest).end_row();
-  }
-  write_file(directory / "missed_pairs.csv", csv.str());
-  draw_figure(directory, "missed_pairs", missed_pairs_figure(rows), {760, 500});
+  const Columns<MissedPairs> columns = {{"step_s", &MissedPairs::step},
+                                        {"runs", &MissedPairs::n_runs},
+                                        {"right_with_search", &MissedPairs::right_with_search},
+                                        {"right_without", &MissedPairs::right_without},
+                                        {"shortest_s", &MissedPairs::shortest}};
+  write_file(directory / "missed_pairs.csv", csv_text(columns, rows));
+  draw_figure(directory, "missed_pairs", figure_script("missed_pairs"), {760, 500});
 }
 
 void write_layers(const fs::path& directory, const LayerStudy& study) {
-  CsvText csv(
-      "layers,sub_impacts,exact_sub_impacts,corresponding,median_difference_s,max_difference_s\n");
-  for (const LayerPoint& point : study.points) {
-    csv.whole(static_cast<std::size_t>(point.layers)).whole(point.errors.n_found);
-    csv.whole(point.errors.n_reference).whole(point.errors.n_corresponding);
-    csv.number(point.errors.median).number(point.errors.maximum).end_row();
-  }
-  write_file(directory / "layers.csv", csv.str());
-  draw_figure(directory, "layers", layer_figure(study), {760, 500});
+  const Columns<LayerPoint> columns = {
+      {"layers", &LayerPoint::layers},
+      {"sub_impacts", [](const LayerPoint& p) { return p.errors.n_found; }},
+      {"exact_sub_impacts", [](const LayerPoint& p) { return p.errors.n_reference; }},
+      {"corresponding", [](const LayerPoint& p) { return p.errors.n_corresponding; }},
+      {"median_difference_s", [](const LayerPoint& p) { return p.errors.median; }},
+      {"max_difference_s", [](const LayerPoint& p) { return p.errors.maximum; }}};
+  write_file(directory / "layers.csv", csv_text(columns, study.points));
+  draw_figure(directory, "layers", figure_script("layers"), {760, 500});
 }
 
 }  // namespace subimpact

@@ -18,11 +18,12 @@ double larger(double largest, double error) { return error <= largest ? largest 
 
 }  // namespace
 
-Audit::Audit(StruckBeam& beam, const State& initial, AuditLimits limits)
+Audit::Audit(const StruckBeam& beam, const State& initial, AuditLimits limits)
     : beam_(beam),
+      accounts_(beam),
       limits_(limits),
-      initial_energy_(beam.energies(initial).total()),
-      initial_momentum_(beam.momentum(initial)),
+      initial_energy_(accounts_.energies(initial).total()),
+      initial_momentum_(accounts_.momentum(initial)),
       largest_speed_(std::sqrt(2.0 * (1.0 + blow_up) * initial_energy_ / beam.striker_mass())) {}
 
 void Audit::fail(double t, OutcomeKind kind, const std::string& what) const {
@@ -30,8 +31,8 @@ void Audit::fail(double t, OutcomeKind kind, const std::string& what) const {
 }
 
 std::optional<double> Audit::momentum_error(const State& y) const {
-  if (!beam_.conserves_momentum()) return std::nullopt;
-  return (beam_.momentum(y) - initial_momentum_) / initial_momentum_;
+  if (!accounts_.conserves_momentum()) return std::nullopt;
+  return (accounts_.momentum(y) - initial_momentum_) / initial_momentum_;
 }
 
 void Audit::check(double t, const State& y, const Energies& energies) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "subimpact/simulate/result.h"
-#include "system/struck_beam.h"
+#include "system/accounts.h"
 
 namespace subimpact {
 
@@ -33,10 +33,10 @@ struct AuditLimits {
 /// energy far above the initial one, else `inaccurate`.
 class Audit {
  public:
-  Audit(StruckBeam& beam, const State& initial, AuditLimits limits = {});
+  Audit(const StruckBeam& beam, const State& initial, AuditLimits limits = {});
 
   /// Judges the accepted state y at time t (s).
-  void check(double t, const State& y) { check(t, y, beam_.energies(y)); }
+  void check(double t, const State& y) { check(t, y, accounts_.energies(y)); }
   /// The same with the energies already at hand.
   void check(double t, const State& y, const Energies& energies);
   /// A cheap look at the struck point, for every step: throws if its motion is not finite; returns
@@ -72,7 +72,8 @@ class Audit {
   double max_impulse_error() const { return max_impulse_error_; }
 
  private:
-  StruckBeam& beam_;
+  const StruckBeam& beam_;
+  Accounts accounts_;
   AuditLimits limits_;
   double initial_energy_;
   double initial_momentum_;

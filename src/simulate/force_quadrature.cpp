@@ -24,15 +24,15 @@ double ForceQuadrature::between(const Node& a, const Node& b, const StruckBeam& 
   const HermiteCubic indentation(a.indentation, a.rate, b.indentation, b.rate, h);
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    sum += gauss_weights[i] * beam.contact_force_at(indentation(gauss_points[i]));
+    sum += gauss_weights[i] * beam.contact().force(indentation(gauss_points[i]));
   }
   return h * sum;
 }
 
-double ForceQuadrature::halved(const Node& a, const Node& b, double whole, StruckBeam& beam,
-                               Integrator& integrator, int depth) {
+double ForceQuadrature::halved(const Node& a, const Node& b, double whole, const ObservedStep& step,
+                               const StruckBeam& beam, int depth) {
   const double middle_time = 0.5 * (a.time + b.time);
-  integrator.state_at(middle_time, state_);
+  step.state_at(middle_time, state_);
   const Node middle = node(middle_time, state_, beam);
   largest_indentation_ = std::max(largest_indentation_, middle.indentation);
   const double first = between(a, middle, beam);
@@ -41,13 +41,13 @@ double ForceQuadrature::halved(const Node& a, const Node& b, double whole, Struc
   if (!(std::abs(correction) > tolerance_) || depth == most_halvings) {
     return first + second + correction;
   }
-  return halved(a, middle, first, beam, integrator, depth + 1) +
-         halved(middle, b, second, beam, integrator, depth + 1);
+  return halved(a, middle, first, step, beam, depth + 1) +
+         halved(middle, b, second, step, beam, depth + 1);
 }
 
-double ForceQuadrature::over(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
-  const Node a = node(step.t0, step.y0, beam);
-  const Node b = node(step.t1, step.y1, beam);
+double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
+  const Node a = node(step.t0(), step.y0(), beam);
+  const Node b = node(step.t1(), step.y1(), beam);
   largest_indentation_ = 0.0;
   const double h = step.length();
   const double whole = between(a, b, beam);
@@ -60,11 +60,11 @@ double ForceQuadrature::over(const StepEnds& step, StruckBeam& beam, Integrator&
   const bool trusted = previous_ && std::abs(constant) * fifth_power(h) <= tolerance_;
   previous_ = Step{a, h, whole};
   if (trusted || !(std::abs(whole) > tolerance_)) return whole + constant * fifth_power(h);
-  return halved(a, b, whole, beam, integrator, 1);
+  return halved(a, b, whole, step, beam, 1);
 }
 
-double ForceQuadrature::roughly_over(const StepEnds& step, const StruckBeam& beam) const {
-  return between(node(step.t0, step.y0, beam), node(step.t1, step.y1, beam), beam);
+double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam& beam) const {
+  return between(node(step.t0(), step.y0(), beam), node(step.t1(), step.y1(), beam), beam);
 }
 
 }  // namespace subimpact

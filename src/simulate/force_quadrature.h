@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "ode/integrator.h"
-#include "system/struck_beam.h"
+#include "simulate/observed_step.h"
 
 namespace subimpact {
 
@@ -24,11 +23,11 @@ class ForceQuadrature {
   void forget_neighbour() { previous_.reset(); }
 
   /// Integral over a step, N s.
-  double over(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
+  double over(const ObservedStep& step, const StruckBeam& beam);
   /// The largest indentation (m) that over() has seen within the step, its ends left out.
   double largest_indentation() const { return largest_indentation_; }
   /// The integral without correction or halving, for steps in pieces.
-  double roughly_over(const StepEnds& step, const StruckBeam& beam) const;
+  double roughly_over(const ObservedStep& step, const StruckBeam& beam) const;
 
  private:
   struct Node {
@@ -38,8 +37,8 @@ class ForceQuadrature {
     return {time, beam.indentation(y), beam.indentation_rate(y)};
   }
   static double between(const Node& a, const Node& b, const StruckBeam& beam);
-  double halved(const Node& a, const Node& b, double whole, StruckBeam& beam,
-                Integrator& integrator, int depth);
+  double halved(const Node& a, const Node& b, double whole, const ObservedStep& step,
+                const StruckBeam& beam, int depth);
 
   struct Step {
     Node start;

@@ -1,26 +1,27 @@
 #include "subimpact/simulate/observer.h"
 
 #include "simulate/observers.h"
-#include "system/struck_beam.h"
+#include "system/accounts.h"
 
 namespace subimpact {
 
 PointMotion RunView::striker() const {
-  return {beam_.displacements(state_).striker, state_.back()};
+  return {Accounts(beam_).displacements(state_).striker, state_.back()};
 }
 
 PointMotion RunView::struck_point() const {
-  return {beam_.displacements(state_).struck, state_.back() - beam_.indentation_rate(state_)};
+  return {Accounts(beam_).displacements(state_).struck,
+          state_.back() - beam_.indentation_rate(state_)};
 }
 
-bool RunView::in_contact() const { return beam_.in_contact(); }
+bool RunView::in_contact() const { return beam_.contact().is_closed(); }
 double RunView::indentation() const { return beam_.indentation(state_); }
-double RunView::residual_indentation() const { return beam_.residual_indentation(); }
+double RunView::residual_indentation() const { return beam_.contact().residual_indentation(); }
 double RunView::contact_force() const { return beam_.contact_force(state_); }
-Energies RunView::energies() const { return beam_.energies(state_); }
+Energies RunView::energies() const { return Accounts(beam_).energies(state_); }
 
-void Observers::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
-  recorder_.on_step(step, beam, integrator);
+void Observers::on_step(const ObservedStep& step, StruckBeam& beam) {
+  recorder_.on_step(step, beam);
 }
 
 void Observers::on_accepted(double time, const State& y, StruckBeam& beam) {
@@ -28,9 +29,9 @@ void Observers::on_accepted(double time, const State& y, StruckBeam& beam) {
   guest_.on_step({time, y, beam});
 }
 
-void Observers::on_turn(const Transition& turn) {
-  recorder_.on_turn(turn);
-  guest_.on_reversal(turn);
+void Observers::on_reversal(const Transition& reversal) {
+  recorder_.on_reversal(reversal);
+  guest_.on_reversal(reversal);
 }
 
 void Observers::before_event(const Transition& event, const State& y, StruckBeam& beam) {

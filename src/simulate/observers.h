@@ -11,9 +11,9 @@ class Observers final : public RunObserver {
   /// Both must outlive this.
   Observers(RunObserver& recorder, Observer& guest) : recorder_(recorder), guest_(guest) {}
 
-  void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) override;
+  void on_step(const ObservedStep& step, StruckBeam& beam) override;
   void on_accepted(double time, const State& y, StruckBeam& beam) override;
-  void on_turn(const Transition& turn) override;
+  void on_reversal(const Transition& reversal) override;
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
   bool audits_events() const override { return recorder_.audits_events(); }

@@ -19,45 +19,46 @@ constexpr double tolerated_rounding = 64.0;
 
 }  // namespace
 
-Recorder::Recorder(StruckBeam& beam, double interval, EventHandling events, Audit& audit,
+Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
                    Result& result)
     : result_(result),
       interval_(interval),
       events_(events),
       audit_(audit),
+      accounts_(beam),
+      first_flow_(beam.sections().size()),
       force_(share_of_step * audit.tolerated_impulse()),
       striker_mass_(beam.striker_mass()) {}
 
-void Recorder::state_within(const StepEnds& step, double t, Integrator& integrator) {
-  if (step.from_end) {
-    integrator.state_before_end(t, state_);
-  } else {
-    integrator.state_at(t, state_);
-  }
-}
-
-void Recorder::on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
-  if (interval_ > 0.0) {
-    for (;;) {
-      const double t = static_cast<double>(next_row_) * interval_;
-      if (t >= step.t1) break;  // the end itself is the next step's start
-      if (t <= step.t0) {
-        add_row(t, step.y0, beam);
-      } else {
-        state_within(step, t, integrator);
-        beam.look_within(step, t, state_, [&](const State& y) { add_row(t, y, beam); });
-      }
-      ++next_row_;
-    }
-  }
-  if (!result_.first_section_yield && beam.sections().can_yield()) {
-    result_.first_section_yield = beam.first_flow(step);
+void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
+  if (interval_ > 0.0) add_rows_within(step, beam);
+  if (!result_.first_section_yield) {
+    result_.first_section_yield = first_flow_.find(beam, step.ends());
   }
   if (in_contact_) {
     ++steps_in_contact_.back();
-    integrate_force(step, beam, integrator);
-    follow_peak(beam.indentation(step.y1), beam);
-    look_for_peak(step, beam, integrator);
+    integrate_force(step, beam);
+    follow_peak(beam.indentation(step.y1()), beam);
+    look_for_peak(step, beam);
+  }
+}
+
+void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
+  for (;; ++next_row_) {
+    const double t = static_cast<double>(next_row_) * interval_;
+    if (t >= step.t1()) return;  // the end itself is the next step's start
+    if (t <= step.t0()) {
+      add_row(t, step.y0(), accounts_);
+      continue;
+    }
+    step.corrected_state_at(t, state_, correction_);
+    if (correction_.is_empty()) {
+      add_row(t, state_, accounts_);
+    } else {
+      const SectionField reached = correction_.reversed(beam.sections());
+      Accounts accounts(beam, reached);
+      add_row(t, state_, accounts);
+    }
   }
 }
 
@@ -65,19 +66,19 @@ void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
   if (!in_contact_ || steps_in_contact_.back() == 0) return;
   const double force = beam.contact_force(y);
   if (force >= 0.0) return;
-  const double depth = beam.indentation(y) - beam.residual_indentation();
-  if (depth <= tolerated_rounding * beam.negligible_excursion(y)) return;  // not the law's doing
+  const double depth = beam.indentation(y) - beam.contact().residual_indentation();
+  if (depth <= tolerated_rounding * beam.displacement_rounding(y)) return;  // not the law's doing
   audit_.check(time, y);  // a blow-up is called by its name
   check_push(time, force);
 }
 
-void Recorder::integrate_force(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
+void Recorder::integrate_force(const ObservedStep& step, const StruckBeam& beam) {
   double& integral = result_.sub_impacts.back().force_integral;
   if (events_ == EventHandling::interpolated) {
     integral += force_.roughly_over(step, beam);
     return;
   }
-  integral += force_.over(step, beam, integrator);
+  integral += force_.over(step, beam);
   follow_peak(force_.largest_indentation(), beam);
 }
 
@@ -85,39 +86,41 @@ void Recorder::follow_peak(double indentation, const StruckBeam& beam) {
   SubImpact& now = result_.sub_impacts.back();
   if (!(indentation > now.max_indentation)) return;
   now.max_indentation = indentation;
-  now.peak_force = std::max(now.peak_force, beam.contact_force_at(indentation));
+  now.peak_force = std::max(now.peak_force, beam.contact().force(indentation));
   largest_force_ = std::max(largest_force_, now.peak_force);
 }
 
-void Recorder::look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator) {
+void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
   // In the plastic branch the peak is an event; in the elastic one it lies inside some step.
-  if (beam.contact_branch() != ContactBranch::elastic) return;
-  const double rate0 = beam.indentation_rate(step.y0);
-  const double rate1 = beam.indentation_rate(step.y1);
+  if (beam.contact().branch() != ContactBranch::elastic) return;
+  const double rate0 = beam.indentation_rate(step.y0());
+  const double rate1 = beam.indentation_rate(step.y1());
   const double h = step.length();
-  const HermiteCubic path(beam.indentation(step.y0), rate0, beam.indentation(step.y1), rate1, h);
+  const HermiteCubic path(beam.indentation(step.y0()), rate0, beam.indentation(step.y1()), rate1,
+                          h);
   const std::optional<double> peak = path.maximum();
   if (!peak || path(*peak) < result_.sub_impacts.back().max_indentation * (1.0 - 1e-3)) return;
   const double guess = *peak;
   if (events_ == EventHandling::interpolated) {
-    state_within(step, step.t0 + guess * h, integrator);
+    step.state_at(step.t0() + guess * h, state_);
   } else {
     RootOptions options;
     options.tolerance = 1e-2 * h;
     find_rise(
         [&](double t) {
-          integrator.state_at(t, state_);
+          step.state_at(t, state_);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
-        rate0 > 0.0 ? step.t0 : step.t0 + path.first_turn() * h,
-        rate1 < 0.0 ? step.t1 : step.t0 + path.second_turn() * h, step.t0 + guess * h, options);
+        rate0 > 0.0 ? step.t0() : step.t0() + path.first_turn() * h,
+        rate1 < 0.0 ? step.t1() : step.t0() + path.second_turn() * h, step.t0() + guess * h,
+        options);
   }
   follow_peak(beam.indentation(state_), beam);
 }
 
 void Recorder::before_event(const Transition& event, const State& y, StruckBeam& beam) {
   force_.forget_neighbour();
-  add_event_row(event, y, beam);
+  add_event_row(event, y);
   result_.transitions.push_back(event);
   if (event.kind == EventKind::contact_begins) {
     in_contact_ = true;
@@ -145,33 +148,33 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
     }
   }
   if (event.kind == EventKind::contact_begins && !result_.first_contact_yield &&
-      beam.contact_branch() == ContactBranch::plastic) {
+      beam.contact().branch() == ContactBranch::plastic) {
     result_.first_contact_yield = event.time;
   }
-  add_event_row(event, y, beam);
+  add_event_row(event, y);
 }
 
-void Recorder::add_event_row(const Transition& event, const State& y, StruckBeam& beam) {
+void Recorder::add_event_row(const Transition& event, const State& y) {
   if (!(interval_ > 0.0)) return;
-  HistoryRow row = make_row(event.time, y, beam);
+  HistoryRow row = make_row(event.time, y, accounts_);
   // What the force differs from zero there is the rounding of the event's time.
   const bool of_zero_force =
       event.kind == EventKind::contact_begins || event.kind == EventKind::contact_ends;
   if (of_zero_force) row.force = 0.0;
-  keep(row, y, beam);
+  keep(row, y, accounts_);
 }
 
-void Recorder::close_sub_impact(const State& y, StruckBeam& beam) {
+void Recorder::close_sub_impact(const State& y, const StruckBeam& beam) {
   SubImpact& closed = result_.sub_impacts.back();
   closed.impulse = striker_mass_ * (velocity_at_start_ - y.back());
-  closed.residual_indentation = beam.residual_indentation();
+  closed.residual_indentation = beam.contact().residual_indentation();
   closed.striker_velocity = y.back();
 }
 
-void Recorder::finish(double time, const State& y, StruckBeam& beam, bool is_good) {
+void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool is_good) {
   if (is_good && interval_ > 0.0 &&
       (result_.history.empty() || result_.history.back().time < time)) {
-    add_row(time, y, beam);
+    add_row(time, y, accounts_);
   }
   if (in_contact_) close_sub_impact(y, beam);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
@@ -180,22 +183,22 @@ void Recorder::finish(double time, const State& y, StruckBeam& beam, bool is_goo
   }
   result_.n_yielded_sections = beam.sections().n_yielded();
   result_.striker_velocity = y.back();
-  result_.beam_mean_velocity = beam.beam_momentum(y) / beam.mesh().beam_mass();
+  result_.beam_mean_velocity = accounts_.beam_momentum(y) / beam.mesh().beam_mass();
   result_.max_energy_error = audit_.max_energy_error();
   result_.max_momentum_error = audit_.max_momentum_error();
   result_.max_impulse_error = audit_.max_impulse_error();
 }
 
-void Recorder::add_row(double time, const State& y, StruckBeam& beam) {
-  HistoryRow row = make_row(time, y, beam);
-  if (in_contact_) follow_peak(row.indentation, beam);
+void Recorder::add_row(double time, const State& y, Accounts& accounts) {
+  HistoryRow row = make_row(time, y, accounts);
+  if (in_contact_) follow_peak(row.indentation, accounts.beam());
   check_push(row);
-  keep(row, y, beam);
+  keep(row, y, accounts);
 }
 
-void Recorder::keep(const HistoryRow& row, const State& y, StruckBeam& beam) {
+void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
   result_.history.push_back(row);
-  add_section_rows(row.time, y, beam);
+  add_section_rows(row.time, y, accounts);
 }
 
 void Recorder::check_push(HistoryRow& row) const {
@@ -212,9 +215,10 @@ void Recorder::check_push(double time, double force) const {
                           force));
 }
 
-void Recorder::add_section_rows(double time, const State& y, StruckBeam& beam) {
+void Recorder::add_section_rows(double time, const State& y, Accounts& accounts) {
   if (sections_.empty()) return;
-  const StruckBeam::Bending bending = beam.bending(y);
+  const Accounts::Bending bending = accounts.bending(y);
+  const StruckBeam& beam = accounts.beam();
   for (const std::size_t section : sections_) {
     const double kappa = bending.curvatures[section];
     const double moment = -bending.moments[section];
@@ -223,10 +227,11 @@ void Recorder::add_section_rows(double time, const State& y, StruckBeam& beam) {
   }
 }
 
-HistoryRow Recorder::make_row(double time, const State& y, StruckBeam& beam) {
-  const Energies energies = beam.energies(y);
+HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
+  const Energies energies = accounts.energies(y);
   audit_.check(time, y, energies);
-  const StruckBeam::Displacements at = beam.displacements(y);
+  const Accounts::Displacements at = accounts.displacements(y);
+  const StruckBeam& beam = accounts.beam();
   HistoryRow row{};
   row.time = time;
   row.force = beam.contact_force(y);
@@ -237,7 +242,7 @@ HistoryRow Recorder::make_row(double time, const State& y, StruckBeam& beam) {
   row.striker_relative = at.striker - at.first_end;
   row.striker_velocity = y.back();
   row.struck_velocity = y.back() - beam.indentation_rate(y);
-  row.back_stress = beam.back_stress(y);
+  row.back_stress = accounts.back_stress(y);
   row.striker_energy = energies.striker;
   row.beam_kinetic_energy = energies.beam_kinetic;
   row.bending_elastic = energies.bending_elastic;

@@ -11,15 +11,16 @@ class Recorder final : public RunObserver {
  public:
   /// `interval` in s between history rows, 0 for none. Rows and impulses are judged by `audit`
   /// before they are kept.
-  Recorder(StruckBeam& beam, double interval, EventHandling events, Audit& audit, Result& result);
+  Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
+           Result& result);
 
   /// Keeps the bending of these sections (indices) too, at every history row.
   void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
 
-  void on_step(const StepEnds& step, StruckBeam& beam, Integrator& integrator) override;
+  void on_step(const ObservedStep& step, StruckBeam& beam) override;
   /// Judges that the contact law pushes wherever the surface is pressed in.
   void on_accepted(double time, const State& y, StruckBeam& beam) override;
-  void on_turn(const Transition& turn) override { result_.transitions.push_back(turn); }
+  void on_reversal(const Transition& reversal) override { result_.transitions.push_back(reversal); }
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
 
@@ -27,30 +28,33 @@ class Recorder final : public RunObserver {
   bool audits_events() const override { return interval_ > 0.0; }
 
   /// Closes the accounts at the last state, which `is_good` if every check passed.
-  void finish(double time, const State& y, StruckBeam& beam, bool is_good);
+  void finish(double time, const State& y, const StruckBeam& beam, bool is_good);
 
   /// Steps within each contact.
   const std::vector<long>& steps_in_contact() const { return steps_in_contact_; }
 
  private:
-  void close_sub_impact(const State& y, StruckBeam& beam);
-  void integrate_force(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
-  void state_within(const StepEnds& step, double t, Integrator& integrator);
+  void close_sub_impact(const State& y, const StruckBeam& beam);
+  void add_rows_within(const ObservedStep& step, StruckBeam& beam);
+  void integrate_force(const ObservedStep& step, const StruckBeam& beam);
   void follow_peak(double indentation, const StruckBeam& beam);
-  void look_for_peak(const StepEnds& step, StruckBeam& beam, Integrator& integrator);
+  void look_for_peak(const ObservedStep& step, StruckBeam& beam);
   // Contact only pushes: a force below zero by no more than the tolerance is none.
   void check_push(HistoryRow& row) const;
   void check_push(double time, double force) const;
-  void add_event_row(const Transition& event, const State& y, StruckBeam& beam);
-  void add_row(double time, const State& y, StruckBeam& beam);
-  void keep(const HistoryRow& row, const State& y, StruckBeam& beam);
-  HistoryRow make_row(double time, const State& y, StruckBeam& beam);
-  void add_section_rows(double time, const State& y, StruckBeam& beam);
+  void add_event_row(const Transition& event, const State& y);
+  // `accounts`: of the histories that hold at y.
+  void add_row(double time, const State& y, Accounts& accounts);
+  void keep(const HistoryRow& row, const State& y, Accounts& accounts);
+  HistoryRow make_row(double time, const State& y, Accounts& accounts);
+  void add_section_rows(double time, const State& y, Accounts& accounts);
 
   Result& result_;
   double interval_;
   EventHandling events_;
   Audit& audit_;
+  Accounts accounts_;
+  FirstFlow first_flow_;
   ForceQuadrature force_;
   double striker_mass_;
   long next_row_ = 0;
@@ -58,6 +62,7 @@ class Recorder final : public RunObserver {
   double velocity_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N
   State state_;
+  SectionCorrection correction_;  // of a state within a step
   std::vector<std::size_t> sections_;
   std::vector<long> steps_in_contact_;
 };

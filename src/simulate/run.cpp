@@ -37,7 +37,8 @@ void warn_of_short_contacts(const Recorder& recorder, double step, Result& resul
                   *std::min_element(steps.begin(), steps.end())));
 }
 
-void count_work(const Integrator& integrator, const StruckBeam& beam, Work& work) {
+void count_work(const Integrator& integrator, const StruckBeam& beam, const EventLoop& loop,
+                Work& work) {
   const WorkCounts counts = integrator.work();
   work.steps = counts.steps;
   work.rejected_steps = counts.rejected_steps;
@@ -45,11 +46,12 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, Work& work
   work.right_hand_sides = beam.n_accelerations() + beam.n_forces();
   const bool in_modes = !beam.mesh().modal_stiffness().empty();  // where mass is diagonal
   work.mass_solves =
-      in_modes ? 0 : beam.n_accelerations() + beam.n_further_solves() + counts.mass_solves;
+      in_modes ? 0 : beam.n_accelerations() + loop.n_correction_solves() + counts.mass_solves;
   work.jacobians = counts.jacobians;
   work.factorisations = (in_modes ? 0 : 1) + counts.factorisations;
   work.nonlinear_iterations = counts.nonlinear_iterations;
   work.nonlinear_failures = counts.nonlinear_failures;
+  work.roots = loop.n_events();
 }
 
 // Steps to the end, or to where the run is stopped.
@@ -124,8 +126,7 @@ Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& opti
   assign_zones(result.sub_impacts, options.zone_gap, options.subzone_gap);
 
   if (options.fixed_step) warn_of_short_contacts(recorder, *options.fixed_step, result);
-  count_work(integrator, beam, result.work);
-  result.work.roots = loop.n_events();
+  count_work(integrator, beam, loop, result.work);
   if (result.outcome.kind == OutcomeKind::inaccurate && audit.gained_energy() &&
       loop.energy_keeps_growing()) {
     result.outcome.kind = OutcomeKind::unstable;

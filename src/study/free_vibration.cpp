@@ -20,7 +20,7 @@ FreeVibration::FreeVibration(const Case& input)
     : input_(elastic(input)),
       beam_(make_struck_beam(input_)),
       modes_(beam_.mesh().natural_modes(beam_.sections().stiffness())) {
-  beam_.set_contact(ContactBranch::separated, {});
+  beam_.contact().set(ContactBranch::separated, {});
 }
 
 double FreeVibration::highest_frequency() const {

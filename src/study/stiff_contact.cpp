@@ -30,7 +30,7 @@ StruckBeam held_together(const Case& input, double stiffness) {
   trial.scene.striker.nose_radius.reset();
   StruckBeam beam =
       make_struck_beam(trial, SectionField::Storage::when_yielded, Coordinates::of_mesh);
-  beam.set_contact(ContactBranch::elastic, {});
+  beam.contact().set(ContactBranch::elastic, {});
   return beam;
 }
 

@@ -104,7 +104,7 @@ double largest_eigenvalue(JoinedBodies& bodies) {
 }  // namespace
 
 ContactResonance contact_resonance(const StruckBeam& beam, double largest_indentation) {
-  const ContactLaw& law = beam.contact_law();
+  const ContactLaw& law = beam.contact().law();
   const auto [stiffness, exponent] = law.scales();
   const double mass = beam.striker_mass();
   const double velocity = beam.scales().velocity;

@@ -104,8 +104,9 @@ WorkCounts FreeFlight::work() const {
 }
 
 bool FreeFlight::may_last(double time) {
-  if (beam_.in_contact() || !beam_.sections().flowing().empty()) return false;
-  if (beam_.indentation(y1_) + time * beam_.indentation_rate(y1_) > beam_.residual_indentation()) {
+  if (beam_.contact().is_closed() || !beam_.sections().flowing().empty()) return false;
+  if (beam_.indentation(y1_) + time * beam_.indentation_rate(y1_) >
+      beam_.contact().residual_indentation()) {
     return false;
   }
   for (std::size_t i = 0; i < n_; ++i) force_[i] = y1_[i] + time * y1_[n_ + 1 + i];
@@ -140,7 +141,7 @@ void FreeFlight::find_equilibrium() {
     high_[i] = sections.window_high()[i] - curvatures_[i];
   }
   low_.back() = -std::numeric_limits<double>::infinity();
-  high_.back() = beam_.residual_indentation() + beam_.mesh().struck_point()(shape_);
+  high_.back() = beam_.contact().residual_indentation() + beam_.mesh().struck_point()(shape_);
 }
 
 double FreeFlight::begin() {

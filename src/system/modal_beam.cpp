@@ -15,10 +15,7 @@ ModalBeam::ModalBeam(const StruckBeam& beam) : beam_(beam) {
 }
 
 ForcedOscillators::Force ModalBeam::force(double lambda) const {
-  const ContactLaw& law = beam_.contact_law();
-  const ContactBranch branch = beam_.contact_branch();
-  const ContactHistory history = beam_.contact_history();
-  return {law.branch_force(branch, history, lambda), law.branch_slope(branch, history, lambda)};
+  return {beam_.contact().force(lambda), beam_.contact().slope(lambda)};
 }
 
 }  // namespace subimpact

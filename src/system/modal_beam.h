@@ -19,8 +19,8 @@ class ModalBeam final : public ForcedOscillators {
   std::span<const double> loads() const override { return loads_; }
   std::span<const double> displacements() const override { return displacements_; }
   Force force(double lambda) const override;
-  bool is_free() const override { return !beam_.in_contact(); }
-  double critical_displacement() const override { return beam_.residual_indentation(); }
+  bool is_free() const override { return !beam_.contact().is_closed(); }
+  double critical_displacement() const override { return beam_.contact().residual_indentation(); }
   SecondOrderOde::Scales scales() const override { return beam_.scales(); }
 
  private:

@@ -9,6 +9,7 @@ namespace subimpact {
 
 NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
     : n_(beam.mesh().n_unknowns()),
+      accounts_(beam),
       curvatures_(beam.mesh().n_sections()),
       moments_(beam.mesh().n_sections()) {
   const BeamMesh& mesh = beam.mesh();
@@ -39,11 +40,11 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
                         material.yield_stress * sections.law().fibres().extent();
 }
 
-bool NoMoreContact::is_proven(StruckBeam& beam, const State& y) {
-  if (beam.in_contact()) return false;
+bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
+  if (beam.contact().is_closed()) return false;
   const std::span<const double> w{y.data(), n_};
   const std::span<const double> v{y.data() + n_ + 1, n_};
-  const Energies energies = beam.energies(y);
+  const Energies energies = accounts_.energies(y);
   double energy = energies.beam_kinetic + energies.bending_elastic;
   double rigid = 0.0;
   double rigid_rate = 0.0;
@@ -68,7 +69,7 @@ bool NoMoreContact::is_proven(StruckBeam& beam, const State& y) {
   const double a = plastic_compliance_;
   const double bound = 2.0 * a * a * energy > compliance_ ? a * energy + compliance_ / (2.0 * a)
                                                           : std::sqrt(2.0 * compliance_ * energy);
-  return y[n_] - rigid - plastic + bound < beam.residual_indentation();
+  return y[n_] - rigid - plastic + bound < beam.contact().residual_indentation();
 }
 
 }  // namespace subimpact

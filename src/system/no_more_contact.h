@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "system/struck_beam.h"
+#include "system/accounts.h"
 
 namespace subimpact {
 
@@ -38,7 +38,7 @@ class NoMoreContact {
   /// `beam` must outlive this. Needs the beam's natural modes, once.
   NoMoreContact(const StruckBeam& beam, const Beam& material);
   /// Whether no contact can follow the state y, which is separated and committed.
-  bool is_proven(StruckBeam& beam, const State& y);
+  bool is_proven(const StruckBeam& beam, const State& y);
 
  private:
   std::size_t n_;
@@ -47,6 +47,7 @@ class NoMoreContact {
   std::vector<double> bar_;                 // W kbar; empty where the sections cannot yield
   double compliance_ = 0.0;                 // C, m/N
   double plastic_compliance_ = 0.0;         // a, m/J
+  Accounts accounts_;
   std::vector<double> curvatures_, moments_;
 };
 

@@ -8,23 +8,24 @@
 
 namespace subimpact {
 
-/// How the beam accelerates when one section's moment changes: for 1 N m of -M at section i,
+/// How the beam accelerates when one section's moment changes: for a moment M of 1 N m at section
+/// i,
 ///
 ///     c_i = Mass^-1 (-B^T W e_i)   (accelerations of the unknowns, 1/s2 per N m),   B c_i.
 ///
-/// Mass is symmetric, so the same numbers tell how one section's curvature answers all moments m
-/// (-M, N m) and the contact force F (N), without a mass solve:
+/// Mass is symmetric, so the same numbers give the response of one section's curvature to all
+/// moments M_j (N m) and the contact force F (N), without a mass solve:
 ///
-///     kappa_i'' = (sum_j W_j (B c_i)_j m_j - F S.c_i)/W_i.
+///     kappa_i'' = (sum_j W_j (B c_i)_j M_j - F S.c_i)/W_i.
 ///
 /// With or without rotary inertia c_i dies away within a few thicknesses, or a few unknowns, of the
-/// section: what is below rounding is left out. An influence is worked out when it is first asked
-/// for, with one mass solve.
+/// section: what is below rounding is left out. An influence is computed at its first use, with one
+/// mass solve.
 class SectionInfluence {
  public:
   SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
 
-  /// kappa_i'' of one section, given W_j m_j of all (N m2) and F; 1/(m s2).
+  /// kappa_i'' of one section, given W_j M_j of all (N m2) and F; 1/(m s2).
   double curvature_acceleration(std::size_t section, const std::vector<double>& weighted_moments,
                                 double force);
   /// accelerations += moment c_i.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "model/contact_laws.h"
@@ -18,7 +19,7 @@ StruckBeam::StruckBeam(const Scene& scene, std::unique_ptr<BeamMesh> mesh, Secti
 StruckBeam::StruckBeam(StruckBeamParts parts)
     : mesh_(std::move(parts.mesh)),
       sections_(std::move(parts.sections)),
-      contact_law_(std::move(parts.contact_law)),
+      contact_(std::move(parts.contact_law)),
       mass_solver_(std::move(parts.mass_solver)),
       n_(mesh_->n_unknowns()),
       striker_mass_(parts.striker_mass),
@@ -28,18 +29,16 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
       trial_(n_ + 1),
-      start_(mesh_->n_sections()),
-      end_(mesh_->n_sections()),
-      influence_(std::make_unique<SectionInfluence>(*mesh_, *mass_solver_)),
-      kinks_(*influence_),
-      velocity_change_(n_),
-      position_change_(n_) {
-  const auto [stiffness, exponent] = contact_law_->scales();
+      committed_(mesh_->n_sections()) {
+  const auto [stiffness, exponent] = contact_.law().scales();
   const double contact_time =
       std::pow(striker_mass_ / (stiffness * std::pow(striker_velocity_, exponent - 1.0)),
                1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
-  if (sections_.can_yield()) return;
+  if (!sections_.can_yield()) use_modes();
+}
+
+void StruckBeam::use_modes() {
   modal_stiffness_ = mesh_->modal_stiffness();
   if (modal_stiffness_.empty()) return;
   modal_loads_.assign(n_, 0.0);
@@ -55,13 +54,6 @@ State StruckBeam::initial_state() const {
   State y(2 * n_positions(), 0.0);
   y.back() = striker_velocity_;
   return y;
-}
-
-double StruckBeam::force(double indentation) const {
-  if (contact_evaluation_ == Evaluation::switching) {
-    return contact_law_->force(contact_history_, indentation);
-  }
-  return contact_law_->branch_force(contact_branch_, contact_history_, indentation);
 }
 
 void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces) {
@@ -82,7 +74,7 @@ void StruckBeam::acceleration(std::span<const double> positions, std::span<doubl
   ++n_accelerations_;
   const auto unknowns = positions.first(n_);
   const auto forces = result.first(n_);
-  const double contact = force(positions[n_] - mesh_->struck_point()(unknowns));
+  const double contact = contact_.force(positions[n_] - mesh_->struck_point()(unknowns));
   if (!modal_frequencies_squared_.empty()) {
     result[n_] = -contact / striker_mass_;
     const double* q = unknowns.data();
@@ -110,16 +102,9 @@ void StruckBeam::force(std::span<const double> positions, Part part, std::span<d
   }
   result[n_] = 0.0;
   if (part == Part::stiff) return;
-  const double contact = force(positions[n_] - mesh_->struck_point()(unknowns));
+  const double contact = contact_.force(positions[n_] - mesh_->struck_point()(unknowns));
   mesh_->struck_point().add_to(forces, contact);
   result[n_] = -contact;
-}
-
-double StruckBeam::force_slope(double indentation) const {
-  const ContactBranch branch = contact_evaluation_ == Evaluation::switching
-                                   ? contact_law_->branch(contact_history_, indentation)
-                                   : contact_branch_;
-  return contact_law_->branch_slope(branch, contact_history_, indentation);
 }
 
 void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
@@ -135,7 +120,7 @@ void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
     }
   }
   const double slope =
-      part == Part::stiff ? 0.0 : force_slope(positions[n_] - mesh_->struck_point()(unknowns));
+      part == Part::stiff ? 0.0 : contact_.slope(positions[n_] - mesh_->struck_point()(unknowns));
   jacobian().stiffness_entries(moments_, slope, values);
 }
 
@@ -147,101 +132,37 @@ double StruckBeam::indentation_rate(const State& y) const {
   return y.back() - mesh_->struck_point()(beam_velocities(y));
 }
 
-// --- memory -------------------------------------------------------------------------------------
+double StruckBeam::displacement_rounding(const State& y) const {
+  const double size = std::abs(y[n_]) + std::abs(mesh_->struck_point()(beam_positions(y)));
+  return 8.0 * std::numeric_limits<double>::epsilon() * size;
+}
 
-void StruckBeam::apply(const Guard& guard, const State& y) {
-  switch (guard.kind) {
-    case EventKind::contact_begins:
-      contact_branch_ = contact_law_->first_branch(contact_history_);
-      break;
-    case EventKind::contact_yields:
-      contact_branch_ = ContactBranch::plastic;
-      break;
-    case EventKind::contact_unloads:
-      contact_history_ = contact_law_->commit(contact_history_, indentation(y));
-      contact_branch_ = ContactBranch::elastic;
-      break;
-    case EventKind::contact_ends:
-      contact_branch_ = ContactBranch::separated;
-      break;
-    case EventKind::section_reverses:
-      break;  // see put_right
+void StruckBeam::read_motion(const State& y, SectionMotion& motion) const {
+  mesh_->curvatures(beam_positions(y), motion.curvatures);
+  mesh_->curvatures(beam_velocities(y), motion.rates);
+}
+
+GuardValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
+  if (function.kind == EventKind::contact_unloads) {
+    acceleration({y.data(), n_ + 1}, trial_);
+    const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
+    return {-function.sense * indentation_rate(y), -function.sense * second};
   }
+  return contact_.event_function(function.kind, indentation(y), indentation_rate(y));
 }
 
 bool StruckBeam::commit(const State& y) {
-  if (contact_branch_ == ContactBranch::plastic || contact_evaluation_ == Evaluation::switching) {
-    contact_history_ = contact_law_->commit(contact_history_, indentation(y));
-  }
+  contact_.commit(indentation(y));
   if (!sections_.can_yield()) return false;
-  read_motion(y, start_);
+  read_motion(y, committed_);
   return section_evaluation_ == Evaluation::smooth
-             ? sections_.commit(start_.curvatures, start_.rates) > 0
-             : sections_.commit(start_.curvatures) > 0;
-}
-
-void StruckBeam::follow_branch(const State& y) {
-  contact_branch_ = contact_law_->branch(contact_history_, indentation(y));
-}
-
-void StruckBeam::read_motion(const State& y, SectionMotion& at) const {
-  mesh_->curvatures(beam_positions(y), at.curvatures);
-  mesh_->curvatures(beam_velocities(y), at.rates);
-}
-
-// --- accounts -----------------------------------------------------------------------------------
-
-Energies StruckBeam::energies(const State& y) {
-  Energies sum;
-  sum.striker = 0.5 * striker_mass_ * y.back() * y.back();
-  sum.beam_kinetic = 0.5 * mesh_->mass().quadratic_form(beam_velocities(y));
-  if (!modal_stiffness_.empty()) {
-    for (std::size_t i = 0; i < n_; ++i) sum.bending_elastic += modal_stiffness_[i] * y[i] * y[i];
-    sum.bending_elastic *= 0.5;
-  } else {
-    mesh_->curvatures(beam_positions(y), curvatures_);
-    const auto bending = sections_.energies(curvatures_, mesh_->section_weights());
-    sum.bending_elastic = bending.elastic;
-    sum.bending_plastic = bending.plastic;
-  }
-  const double lambda = indentation(y);
-  const bool advances =
-      contact_branch_ == ContactBranch::plastic || contact_evaluation_ == Evaluation::switching;
-  const ContactHistory reached =
-      advances ? contact_law_->commit(contact_history_, lambda) : contact_history_;
-  sum.contact_plastic = contact_law_->dissipated_energy(reached);
-  if (in_contact()) sum.contact_elastic = contact_law_->recoverable_energy(reached, lambda);
-  return sum;
-}
-
-double StruckBeam::momentum(const State& y) const {
-  return striker_mass_ * y.back() + beam_momentum(y);
-}
-
-double StruckBeam::beam_momentum(const State& y) const {
-  return dot(mesh_->momentum_functional().data(), beam_velocities(y).data(), n_);
+             ? sections_.commit(committed_.curvatures, committed_.rates) > 0
+             : sections_.commit(committed_.curvatures) > 0;
 }
 
 BeamJacobian& StruckBeam::jacobian() const {
   if (!jacobian_) jacobian_ = std::make_unique<BeamJacobian>(*mesh_, striker_mass_);
   return *jacobian_;
-}
-
-StruckBeam::Displacements StruckBeam::displacements(const State& y) const {
-  const auto unknowns = beam_positions(y);
-  return {mesh_->struck_point()(unknowns), y[n_], mesh_->first_end()(unknowns)};
-}
-
-StruckBeam::Bending StruckBeam::bending(const State& y) {
-  mesh_->curvatures(beam_positions(y), curvatures_);
-  sections_.moments(curvatures_, moments_);
-  return {curvatures_, moments_};
-}
-
-double StruckBeam::back_stress(const State& y) {
-  const std::size_t section = mesh_->struck_section();
-  return sections_.outer_stress(section, mesh_->curvature(section, beam_positions(y)),
-                                outer_stiffness_);
 }
 
 }  // namespace subimpact

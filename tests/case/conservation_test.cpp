@@ -13,19 +13,17 @@ namespace {
 // Looks at every accepted state: the start of every step, and both sides of every event.
 class Conserved final : public RunObserver {
  public:
-  Conserved(StruckBeam& beam, const State& initial)
-      : energy_(beam.energies(initial).total()), momentum_(beam.momentum(initial)) {}
+  Conserved(const StruckBeam& beam, const State& initial)
+      : accounts_(beam),
+        energy_(accounts_.energies(initial).total()),
+        momentum_(accounts_.momentum(initial)) {}
 
-  void on_step(const StepEnds& step, StruckBeam& beam, Integrator&) override {
-    look_at(step.y0, beam);
+  void on_step(const ObservedStep& step, StruckBeam&) override {
+    look_at(step.y0());
     ++steps;
   }
-  void before_event(const Transition&, const State& y, StruckBeam& beam) override {
-    look_at(y, beam);
-  }
-  void after_event(const Transition&, const State& y, StruckBeam& beam) override {
-    look_at(y, beam);
-  }
+  void before_event(const Transition&, const State& y, StruckBeam&) override { look_at(y); }
+  void after_event(const Transition&, const State& y, StruckBeam&) override { look_at(y); }
 
   double energy_error = 0.0;    // largest, relative
   double momentum_error = 0.0;  // largest, relative
@@ -33,14 +31,15 @@ class Conserved final : public RunObserver {
   long steps = 0;
 
  private:
-  void look_at(const State& y, StruckBeam& beam) {
-    const Energies now = beam.energies(y);
+  void look_at(const State& y) {
+    const Energies now = accounts_.energies(y);
     energy_error = std::max(energy_error, std::abs(now.total() / energy_ - 1.0));
-    momentum_error = std::max(momentum_error, std::abs(beam.momentum(y) / momentum_ - 1.0));
+    momentum_error = std::max(momentum_error, std::abs(accounts_.momentum(y) / momentum_ - 1.0));
     plastic_loss = std::max({plastic_loss, dissipated_.bending_plastic - now.bending_plastic,
                              dissipated_.contact_plastic - now.contact_plastic});
     dissipated_ = now;
   }
+  Accounts accounts_;
   double energy_;
   double momentum_;
   Energies dissipated_;

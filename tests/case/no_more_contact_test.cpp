@@ -65,7 +65,7 @@ TEST(NoMoreContact, HoldsAgainstABeamBentTheWorstWay) {
     input.model.segments = 61;
     if (modal) input.solver.method = Method::exponential;
     StruckBeam beam = make_struck_beam(input);
-    beam.set_contact(ContactBranch::separated, {});
+    beam.contact().set(ContactBranch::separated, {});
     NoMoreContact proof(beam, input.scene.beam);
     // That shape, u = sum S phi/omega^2 phi, from the modes of the physical mesh.
     Case physical = input;

@@ -13,14 +13,14 @@ TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
   for (const char* piece : {"run", "work-precision", "stability", "plan", "plot", "report",
-                            "explain", "methods", "keys", "Examples:", "Exit status"}) {
+                            "explain", "methods", "keys", "columns", "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
 }
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
   for (const std::string command : {"run", "work-precision", "stability", "plan", "plot", "report",
-                                    "explain", "methods", "keys"}) {
+                                    "explain", "methods", "keys", "columns"}) {
     const Finished finished = run_program({command, "--help"});
     EXPECT_EQ(finished.status, 0) << command;
     expect_in(finished.output, "Example");
@@ -40,6 +40,15 @@ TEST(Methods, AreListedWithTheirTables) {
   const Finished finished = run_program({"methods"});
   EXPECT_EQ(finished.status, 0);
   for (const char* piece : {"central-difference ", "erk ", "dop853 ", "8(5)"}) {
+    expect_in(finished.output, piece);
+  }
+}
+
+TEST(Columns, AreListedByTable) {
+  const Finished finished = run_program({"columns"});
+  EXPECT_EQ(finished.status, 0);
+  for (const char* piece :
+       {"events.csv: one row per sub-impact\n", "history.csv: ", "\n  w_c_m ", "sections.csv: "}) {
     expect_in(finished.output, piece);
   }
 }

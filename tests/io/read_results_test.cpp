@@ -115,6 +115,12 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
   expect_in(refusal_of(directory.path), "events.csv:2: has 1 cell where the header has 2");
   std::ofstream(directory.path / "events.csv") << "index,zone\n1,2\n";
   expect_in(refusal_of(directory.path), "events.csv: has no column subzone");
+  std::ofstream(directory.path / "events.csv") << events_csv({});
+  std::ofstream(directory.path / "transitions.csv")
+      << "time_s,kind,section,value\n0,contact_begins,,0\n1e-6,contact_melts,,0\n";
+  expect_in(refusal_of(directory.path), "transitions.csv:3: kind is \"contact_melts\"");
+  std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n,,,\n";
+  expect_in(refusal_of(directory.path), "transitions.csv:2: time_s is \"\"; allowed: a number");
   std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n";
   std::ofstream(directory.path / "events.csv") << events_csv({});
   std::ofstream(directory.path / "summary.json") << "{}";

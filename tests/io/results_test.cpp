@@ -1,4 +1,5 @@
 #include "subimpact/io/results.h"
+#include "subimpact/io/report.h"
 
 #include <gtest/gtest.h>
 
@@ -106,6 +107,21 @@ TEST(HistoryCsv, LeavesTheMomentumsErrorEmptyWhereSupportsTakeMomentumUp) {
   EXPECT_NE(rows[1].back(), "");
   ASSERT_EQ(rows[2].size(), rows[0].size());
   EXPECT_EQ(rows[2].back(), "");
+}
+
+TEST(ColumnListing, NamesAndExplainsEveryColumnOfEveryTable) {
+  const std::string listing = column_listing();
+  Result result = sample_result();
+  result.sub_impacts[0].start_error = 1e-9;
+  for (const std::string& table :
+       {events_csv(result.sub_impacts), transitions_csv({}), history_csv({}), sections_csv({})}) {
+    const Table rows = parse_csv(table);
+    for (const std::string& column : rows[0]) {
+      const std::size_t at = listing.find("\n  " + column + " ");
+      ASSERT_NE(at, std::string::npos) << column;
+      EXPECT_GT(listing.find('\n', at + 1), at + 32) << column << " is not explained";
+    }
+  }
 }
 
 TEST(SummaryJson, EchoesEveryKeyOfTheCase) {

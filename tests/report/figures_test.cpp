@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "report/figure_script.h"
+#include "report/files.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/case_file.h"
 #include "temporary_directory.h"
@@ -89,26 +90,20 @@ double largest_distance(const std::vector<Point>& from, const std::vector<Point>
   return largest;
 }
 
-// The data that a script gives a name.
-std::vector<Point> data_in(const std::string& script, const std::string& name) {
+// The table that a script gives a name: the first two columns of its rows.
+std::vector<Point> table_in(const std::string& script, const std::string& name) {
   std::istringstream lines(script.substr(script.find(name + " << EOD\n")));
   std::string line;
   std::getline(lines, line);
+  std::getline(lines, line);  // the heading
   std::vector<Point> points;
   while (std::getline(lines, line) && line != "EOD") {
     Point p{};
-    std::istringstream(line) >> p.x >> p.y;
+    char comma = 0;
+    std::istringstream(line) >> p.x >> comma >> p.y;
     points.push_back(p);
   }
   return points;
-}
-
-std::size_t count(const std::string& text, const std::string& piece) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) {
-    ++n;
-  }
-  return n;
 }
 
 TEST(ThinOut, KeepsTheExtremeOfAPathThatGoesBackAlongItself) {
@@ -150,17 +145,15 @@ TEST(ThinOut, StaysWithinTheToleranceOfALoopInBothDirections) {
   EXPECT_LE(largest_distance(thin, loop), tolerance * (1.0 + 1e-9));
 }
 
-TEST(FigureScript, ThinsALineByWhatThePanelShowsAndNotByWhatLiesOutside) {
+TEST(ThinForPanel, ThinsALineByWhatThePanelShowsAndNotByWhatLiesOutside) {
   std::vector<Point> line;  // visible from 0 to 1; far excursions beyond
   for (int i = 0; i <= 100; ++i) line.push_back({0.01 * i, std::pow(0.01 * i, 1.5)});
   line.push_back({-1000.0, 0.0});
   for (int i = 0; i <= 100; ++i) line.push_back({0.01 * i, std::pow(0.01 * i, 1.5)});
-  FigureScript figure("a", "b", {800, 500});
-  const std::string name = figure.line(line, {0.0, 1.0, 0.0, 1.0}, AxisRange{0.0, 1.0});
+  const std::vector<Point> drawn = thin_for_panel(line, {800, 500}, AxisRange{0.0, 1.0});
   for (const Point& p : line) {
     if (p.x < 0.0) continue;
     double nearest = 1e300;  // in pixels
-    const std::vector<Point> drawn = data_in(figure.text(), name);
     for (std::size_t j = 1; j < drawn.size(); ++j) {
       const auto pixels = [](Point q) { return Point{800.0 * q.x, 500.0 * q.y}; };
       nearest = std::min(nearest, distance(pixels(p), pixels(drawn[j - 1]), pixels(drawn[j])));
@@ -177,8 +170,8 @@ TEST(Figures, DrawElasticContactAlongItsLaw) {
   const Result result = simulate(input);
   ASSERT_GT(result.sub_impacts.size(), 2u);
   const std::string script = indentation_figure(input, result).text();
-  for (const std::string name : {"$data1", "$data2"}) {  // later sub-impacts, the first one
-    const std::vector<Point> drawn = data_in(script, name);
+  for (const std::string name : {"$later", "$first"}) {  // sub-impacts
+    const std::vector<Point> drawn = table_in(script, name);
     for (std::size_t j = 1; j < drawn.size(); ++j) {
       const double middle = 0.5 * (drawn[j - 1].x + drawn[j].x);  // mm
       if (drawn[j - 1].x < 0.0 || drawn[j].x < 0.0) continue;
@@ -191,7 +184,7 @@ TEST(Figures, DrawElasticContactAlongItsLaw) {
 TEST(Figures, ShowTheBendingOfEverySectionAskedFor) {
   const Case input = short_case({parse_override("output.sections=0.5,0.45,0.4,0.3,0.2,0.1,0.05")});
   const std::string script = bending_figure(input, simulate(input)).text();
-  EXPECT_EQ(count(script, "set title 'x = "), 7u);
+  EXPECT_EQ(table_in(script, "$sections").size(), 7u);
   EXPECT_TRUE(figures_left_out(input, simulate(input)).empty());
 }
 
@@ -220,12 +213,25 @@ TEST(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
   }
 }
 
-TEST(TicSpacing, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {
-  EXPECT_DOUBLE_EQ(tic_spacing(8.0, 8), 1.0);
-  EXPECT_DOUBLE_EQ(tic_spacing(0.18, 4), 0.05);
-  EXPECT_DOUBLE_EQ(tic_spacing(234.0, 6), 50.0);
-  EXPECT_DOUBLE_EQ(tic_spacing(9.0, 10), 1.0);
-  EXPECT_GT(tic_spacing(0.0, 5), 0.0);
+TEST(SpacingOfTics, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {
+  const TemporaryDirectory directory;
+  draw_figure(
+      directory.path, "tics",
+      std::string(embedded_file("figures/tables.gp")) +
+          "set title sprintf('[%g %g %g %g %g]', tics(8.0, 8), tics(0.18, 4), tics(234, 6), "
+          "tics(9, 10), tics(0.0, 5))\nplot x\n");
+  expect_in(content(directory.path / "tics.svg"), "[1 0.05 50 1 1]");
+}
+
+TEST(Figures, AreDrawnAgainFromTheirScriptsAlone) {
+  const TemporaryDirectory directory;
+  const Case input = short_case({parse_override("output.sections=0.5")});
+  const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
+  const TemporaryDirectory other;
+  for (const DrawnFigure& figure : figures.drawn) {
+    draw_figure(other.path, figure.name, content(directory.path / (figure.name + ".gp")));
+    EXPECT_GT(content(other.path / (figure.name + ".svg")).size(), 1000u) << figure.name;
+  }
 }
 
 TEST(Figures, OfARunAreSixEachAsSvgAndPngAndScript) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "report/html_text.h"
+#include "report/inlined_svg.h"
 #include "report/strike_words.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/study/strike_account.h"

@@ -25,11 +25,11 @@ struct SmoothImpact {
   // The end of the contact that begins at t = 0.
   static double end(const Way& way) {
     StruckBeam beam = bodies().make(way.in_modes());
-    beam.set_contact(ContactBranch::elastic, {largest});
+    beam.contact().set(ContactBranch::elastic, {largest});
     const auto integrator = way.make(beam);
     struct Ends final : RunObserver {
       double time = 0.0;
-      void on_step(const StepEnds&, StruckBeam&, Integrator&) override {}
+      void on_step(const ObservedStep&, StruckBeam&) override {}
       void before_event(const Transition& event, const State&, StruckBeam&) override {
         if (event.kind == EventKind::contact_ends) time = event.time;
       }

@@ -129,7 +129,7 @@ TEST(AGraze, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
                   {},
                   EventHandling::located};
     StruckBeam beam = bodies.make(way.in_modes());
-    beam.set_contact(ContactBranch::separated, {});
+    beam.contact().set(ContactBranch::separated, {});
     const Result result = run_two_bodies(beam, way, graze.time + 1.2 / graze.omega, graze.state());
     std::size_t n_begin = 0;
     std::size_t n_end = 0;
@@ -206,7 +206,7 @@ TEST(AChainOfThousandsOfBounces, LosesNoneAndRepeatsNone) {
   bodies.velocity = 0.02;
   const double end_time = 0.5;
   StruckBeam beam = bodies.make();
-  beam.set_contact(ContactBranch::separated, {});
+  beam.contact().set(ContactBranch::separated, {});
   const Result result = run_two_bodies(beam, {"dop853", 1e-12, {}, EventHandling::located},
                                        end_time, {1e-3, -1.2e-3, 0.0, 0.002});
   const std::vector<double> expected = bounce_times(bodies, {1e-3, -1.2e-3, 0.0, 0.002}, end_time);
@@ -226,11 +226,11 @@ TEST(AChainOfThousandsOfBounces, LosesNoneAndRepeatsNone) {
 TEST(AStrikerThatNeverArrives, HasNoEvents) {
   TwoBodies bodies;
   StruckBeam beam = bodies.make();
-  beam.set_contact(ContactBranch::separated, {});
+  beam.contact().set(ContactBranch::separated, {});
   const Result away = run_two_bodies(beam, {}, 1.0, {0.0, -1e-3, 0.0, -1.0});
   EXPECT_TRUE(away.transitions.empty());
   StruckBeam same = bodies.make();
-  same.set_contact(ContactBranch::separated, {});
+  same.contact().set(ContactBranch::separated, {});
   const Result alongside = run_two_bodies(same, {}, 1.0, {0.0, -1e-12, 1.0, 1.0});
   EXPECT_TRUE(alongside.transitions.empty());
   EXPECT_EQ(alongside.striker_velocity, 1.0);
@@ -274,7 +274,7 @@ TEST(ASecondImpactBelowTheFirst, IsElasticAndShiftedByTheResidualIndentation) {
   bodies.velocity = 0.2;
   StruckBeam beam = bodies.make();
   const double largest = 4e-4;
-  beam.set_contact(ContactBranch::separated, {largest});
+  beam.contact().set(ContactBranch::separated, {largest});
   const double residual = largest - bodies.yield_indentation;
   const Result result = run_two_bodies(beam, {}, 1e-2, {0.0, 0.0, 0.0, bodies.velocity});
   ASSERT_EQ(result.transitions.size(), 2u);
@@ -305,7 +305,7 @@ TEST(AnEventAtTheEndTime, IsCountedOnceAndARunJustShortOfItEndsOpen) {
 TEST(AContactAtTheStartTime, BeginsThereOnce) {
   const TwoBodies bodies;
   StruckBeam beam = bodies.make();
-  beam.set_contact(ContactBranch::separated, {});
+  beam.contact().set(ContactBranch::separated, {});
   const Result result = run_two_bodies(beam, {}, 5.0 * bodies.duration(), {0.0, 0.0, 0.0, 1.0});
   ASSERT_EQ(result.transitions.size(), 2u);
   EXPECT_EQ(result.transitions[0].kind, EventKind::contact_begins);

@@ -87,17 +87,7 @@ inline State along_the_flow(StruckBeam& beam, const State& y, double h) {
 
 /// Puts a beam into a branch of the contact, with a given largest indentation.
 inline void enter(StruckBeam& beam, ContactBranch branch, double max_indentation) {
-  State y = beam.initial_state();
-  if (max_indentation > 0.0) {
-    beam.apply({EventKind::contact_yields}, y);
-    y[beam.n_positions() - 1] = max_indentation;
-    beam.commit(y);
-    beam.apply({EventKind::contact_unloads}, y);
-  }
-  beam.apply({branch == ContactBranch::separated ? EventKind::contact_ends
-              : branch == ContactBranch::elastic ? EventKind::contact_begins
-                                                 : EventKind::contact_yields},
-             y);
+  beam.contact().set(branch, {max_indentation});
 }
 
 }  // namespace subimpact

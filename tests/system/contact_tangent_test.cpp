@@ -86,7 +86,7 @@ TEST_P(Tangent, FollowsTheIndentationWhereTheForceDoes) {
   const Contact& contact = GetParam();
   StruckBeam beam = make_beam(models().back());
   enter(beam, ContactBranch::separated, contact.largest * unit);
-  beam.set_contact_evaluation(StruckBeam::Evaluation::switching);
+  beam.contact().set_evaluation(Evaluation::switching);
   const State y = smooth_state(beam, 6, 0.8, contact.now * unit, 1.0);
   EXPECT_LT(worst_column(beam, y), 2e-5);
 }

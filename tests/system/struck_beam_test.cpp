@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "beam_under_test.h"
+#include "system/accounts.h"
 
 namespace subimpact {
 namespace {
@@ -32,10 +33,10 @@ TEST(StruckBeam, BeginsTouchingWithAllEnergyAndMomentumInTheStriker) {
     SCOPED_TRACE(model.name);
     StruckBeam beam = make_beam(model);
     const State y = beam.initial_state();
-    const Energies energies = beam.energies(y);
+    const Energies energies = Accounts(beam).energies(y);
     EXPECT_EQ(energies.total(), energies.striker);
     EXPECT_NEAR(energies.striker, 25.4074, 0.5e-4);
-    EXPECT_NEAR(beam.momentum(y), 3.1959, 0.5e-4);
+    EXPECT_NEAR(Accounts(beam).momentum(y), 3.1959, 0.5e-4);
     EXPECT_NEAR(beam.mesh().beam_mass(), 0.2260549, 0.5e-7);
     EXPECT_EQ(beam.indentation(y), 0.0);
     EXPECT_EQ(beam.indentation_rate(y), 15.9);
@@ -58,7 +59,8 @@ TEST(StruckBeam, AccelerationLeavesTheTotalMomentumAlone) {
         for (std::size_t i = n; i + 1 < 2 * n; ++i) {
           size += std::abs(rates[i]) * beam.mesh().beam_mass() / static_cast<double>(n);
         }
-        EXPECT_NEAR(beam.momentum(rates), 0.0, 1e-12 * size) << model.name << ", " << now.name;
+        EXPECT_NEAR(Accounts(beam).momentum(rates), 0.0, 1e-12 * size)
+            << model.name << ", " << now.name;
       }
     }
   }
@@ -74,8 +76,8 @@ TEST(StruckBeam, EveryJouleStaysInTheAccountsAlongTheFlow) {
         beam.commit(smooth_state(beam, seed + 70, 0.6 * now.bending, 0.8 * now.indentation, 0.0));
         const State y = smooth_state(beam, seed, now.bending, now.indentation, now.rate);
         const double h = 1e-9;
-        const Energies behind = beam.energies(along_the_flow(beam, y, h));
-        const Energies before = beam.energies(along_the_flow(beam, y, -h));
+        const Energies behind = Accounts(beam).energies(along_the_flow(beam, y, h));
+        const Energies before = Accounts(beam).energies(along_the_flow(beam, y, -h));
         const double power = (behind.total() - before.total()) / (2.0 * h);
         const double exchanged = (std::abs(behind.striker - before.striker) +
                                   std::abs(behind.beam_kinetic - before.beam_kinetic)) /
@@ -118,7 +120,7 @@ TEST(StruckBeam, AskingForAccelerationsChangesNoHistory) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const State wild = smooth_state(beam, seed, 9.0, 9.0 * lambda_s, 1.0);
     beam.acceleration({wild.data(), n}, ignored);
-    beam.energies(wild);
+    Accounts(beam).energies(wild);
   }
   beam.acceleration({probe.data(), n}, b);
   EXPECT_EQ(a, b);
@@ -149,9 +151,10 @@ TEST(StruckBeam, HalfAndWholeMoveAlike) {
     const double size = *std::max_element(a.begin(), a.end());
     for (std::size_t i = 0; i + 1 < n_half; ++i) EXPECT_NEAR(a_half[i], a[i], 1e-10 * size) << i;
     EXPECT_NEAR(a_half.back(), a.back(), 1e-12 * std::abs(a.back()));
-    EXPECT_NEAR(half.energies(y_half).total(), whole.energies(y).total(), 1e-12 * 25.0);
-    EXPECT_NEAR(half.momentum(y_half), whole.momentum(y), 1e-12);
-    EXPECT_NEAR(half.back_stress(y_half), whole.back_stress(y), 1e-3);
+    EXPECT_NEAR(Accounts(half).energies(y_half).total(), Accounts(whole).energies(y).total(),
+                1e-12 * 25.0);
+    EXPECT_NEAR(Accounts(half).momentum(y_half), Accounts(whole).momentum(y), 1e-12);
+    EXPECT_NEAR(Accounts(half).back_stress(y_half), Accounts(whole).back_stress(y), 1e-3);
   }
 }
 
@@ -163,7 +166,7 @@ TEST(StruckBeam, SmoothContactGoesOnWhereSwitchingContactLetsGo) {
   const double force = beam.contact_force(inside);
   EXPECT_GT(force, 0.0);
   EXPECT_LT(beam.contact_force(apart), 0.0);
-  beam.set_contact_evaluation(StruckBeam::Evaluation::switching);
+  beam.contact().set_evaluation(Evaluation::switching);
   EXPECT_EQ(beam.contact_force(inside), force);
   EXPECT_EQ(beam.contact_force(apart), 0.0);
 }
@@ -175,11 +178,11 @@ TEST(StruckBeam, MeasuresDisplacementsWhereTheyAreAsked) {
   const double dx = 0.7112 / static_cast<double>(n);
   for (std::size_t i = 0; i < n; ++i) y[i] = 0.01 + 0.1 * (static_cast<double>(i) + 0.5) * dx;
   y[n] = 0.5;
-  const StruckBeam::Displacements at = beam.displacements(y);
+  const Accounts::Displacements at = Accounts(beam).displacements(y);
   EXPECT_NEAR(at.struck, 0.01 + 0.1 * 0.317 * 0.7112, 1e-15);
   EXPECT_NEAR(at.first_end, 0.01, 1e-15);
   EXPECT_EQ(at.striker, 0.5);
-  EXPECT_NEAR(beam.back_stress(y), 0.0, 1e-3);  // straight
+  EXPECT_NEAR(Accounts(beam).back_stress(y), 0.0, 1e-3);  // straight
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ void prepare_output_directory(const std::filesystem::path& directory);
 /// at all: it is written under another name and then moved into place. Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
-/// Writes comparison.csv (a row a method) and matches.csv (a row a method and sub-impact).
+/// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact).
 void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
 std::string matches_csv(const Comparison& comparison);

@@ -23,7 +23,7 @@ struct PointMotion {
 /// Striker and beam at one instant of a run. Valid only within the call that hands it over.
 class RunView {
  public:
-  RunView(double time, const std::vector<double>& state, StruckBeam& beam)
+  RunView(double time, const std::vector<double>& state, const StruckBeam& beam)
       : time_(time), state_(state), beam_(beam) {}
 
   double time() const { return time_; }  ///< s
@@ -39,7 +39,7 @@ class RunView {
  private:
   double time_;
   const std::vector<double>& state_;
-  StruckBeam& beam_;
+  const StruckBeam& beam_;
 };
 
 /// Watches a run: derive from this class, override what is of interest, and hand the object to

@@ -1,5 +1,5 @@
-// Sections that begin to flow, turn back or close loops within a step, and what putting that right
-// at the step's end is worth.
+// Sections that begin to flow, reverse or close loops within a step of a whole run, and what the
+// correction of the step's end is worth. (One section alone: tests/system/section_*_test.cpp.)
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,10 @@
 namespace subimpact {
 namespace {
 
-// The paper's beam from 8 us, just before anything flows, over 52 us and some hundred turns, by
+// The paper's beam from 8 us, just before anything flows, over 52 us and some hundred reversals, by
 // fixed steps that are never cut. (What happens at the first touch, F ~ lambda^1.5, is left out: it
 // has an order of its own.)
-State state_after(double step, double kink_tolerance) {
+State state_after(double step, double correction_tolerance) {
   Case input = paper_case(SectionKind::exact, 8e-6);
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-12;
@@ -36,7 +36,7 @@ State state_after(double step, double kink_tolerance) {
   const auto fixed = make_integrator(input, used, beam);
   LoopOptions options = loop_options(input, used);
   options.end_time = 52e-6;
-  options.kink_tolerance = kink_tolerance;
+  options.correction_tolerance = correction_tolerance;
   EventLoop loop(beam, *fixed, nobody, audit, options);
   loop.start_from(beginning.state());
   while (!loop.finished()) loop.advance();
@@ -55,23 +55,24 @@ double largest_difference(const State& a, const State& b) {
 constexpr double never_cut = 1e3;
 constexpr double only_at_ends = std::numeric_limits<double>::infinity();
 
-OrderTable errors(const std::string& title, double kink_tolerance) {
+OrderTable errors(const std::string& title, double correction_tolerance) {
   const State exact = state_after(5e-9, never_cut);
   OrderTable table(title);
   for (const double step : {2e-7, 1e-7, 5e-8}) {
-    const State y = state_after(step, kink_tolerance);
+    const State y = state_after(step, correction_tolerance);
     table.add(1e-6 / step, largest_difference(y, exact));
   }
   table.print();
   return table;
 }
 
-TEST(SectionKinks, PutRightAtStepEndsLeaveAMethodMostOfItsOrder) {
-  errors("steps a us, kinks put right", never_cut).expect_overall_order_within(4.5, 7.5);
+TEST(SectionEvents, CorrectedByTheFirstTermLeaveFifthOrder) {
+  errors("steps per us, corrected by the first term", never_cut)
+      .expect_overall_order_within(4.5, 5.5);
 }
 
 // Steps of 0.2 us are 1.4 radians of the beam's highest frequency.
-TEST(SectionKinks, ArePutRightAsWellAsIsAsked) {
+TEST(SectionEvents, AreCorrectedToTheTolerance) {
   const State exact = state_after(5e-9, never_cut);
   const double loose = largest_difference(state_after(2e-7, never_cut), exact);
   const double tight = largest_difference(state_after(2e-7, 1e-8), exact);
@@ -80,13 +81,13 @@ TEST(SectionKinks, ArePutRightAsWellAsIsAsked) {
   EXPECT_LT(tight, 0.1 * loose);
 }
 
-TEST(SectionKinks, HardlyEverCutAStep) {
+TEST(SectionEvents, HardlyEverCutAStep) {
   Case input = paper_case(SectionKind::exact, 0.5e-3);
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-8;
   struct Counter : RunObserver {
-    long turns = 0;
-    void on_turn(const Transition&) override { ++turns; }
+    long reversals = 0;
+    void on_reversal(const Transition&) override { ++reversals; }
   } counter;
   StruckBeam beam = make_struck_beam(input);
   const Used used = describe(input, beam);
@@ -96,10 +97,10 @@ TEST(SectionKinks, HardlyEverCutAStep) {
   loop.start();
   while (!loop.finished()) loop.advance();
   const WorkCounts work = integrator->work();
-  std::printf("%ld steps, %ld turns, %ld partial steps for %ld events and all cuts\n", work.steps,
-              counter.turns, work.partial_steps, loop.n_events());
-  EXPECT_GT(counter.turns, 500);
-  EXPECT_LT(work.partial_steps, counter.turns / 5);
+  std::printf("%ld steps, %ld reversals, %ld partial steps for %ld events and all cuts\n",
+              work.steps, counter.reversals, work.partial_steps, loop.n_events());
+  EXPECT_GT(counter.reversals, 500);
+  EXPECT_LT(work.partial_steps, counter.reversals / 5);
 }
 
 State state_late(double rtol) {
@@ -117,16 +118,16 @@ State state_late(double rtol) {
   return loop.state();
 }
 
-// A kink that moves the next one in its step, or undoes it: what is left out then does not shrink
-// with the tolerance.
-TEST(SectionKinks, OfOneStepAreFollowedInWhatTheyDoToEachOther) {
+// An event that moves the next one in its step, or undoes it: an error that would not shrink with
+// the tolerance.
+TEST(SectionEvents, OfOneStepAreCoupled) {
   const double off = largest_difference(state_late(1e-11), state_late(1e-12));
   std::printf("velocities at rtol 1e-11 and 1e-12 differ by %.2e m/s\n", off);
   EXPECT_LT(off, 1e-7);
 }
 
-TEST(SectionKinks, LeftAloneBringAnyMethodDownToSecondOrder) {
-  errors("steps a us, memory advanced at step ends", only_at_ends)
+TEST(SectionEvents, NotCorrectedBringAnyMethodDownToSecondOrder) {
+  errors("steps per us, histories advanced at step ends", only_at_ends)
       .expect_overall_order_within(1.0, 2.6);
 }
 

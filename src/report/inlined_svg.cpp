@@ -1,4 +1,4 @@
-#include "report/html_text.h"
+#include "report/inlined_svg.h"
 
 #include <initializer_list>
 
@@ -21,29 +21,6 @@ void erase_between(std::string& text, const std::string& from, const std::string
 }
 
 }  // namespace
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string inlined_svg(const std::string& svg, const std::string& prefix) {
   std::string text = svg.substr(svg.find("<svg"));

@@ -1,36 +1,39 @@
-// Event functions of the struck beam, and the crossings found within a step.
+// Event functions of the contact, and where they cross zero within a step.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "beam_under_test.h"
+#include "model/contact_laws.h"
 #include "print.h"
+#include "system/contact_events.h"
+#include "system/section_correction.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double unit = 1.56337e-5;  // yield indentation
 
-TEST(Guards, RatesAreThoseOfTheirValuesAlongTheFlow) {
+TEST(EventFunctions, RatesAreThoseOfTheirValuesAlongTheFlow) {
   const struct {
     EventKind kind;
     ContactBranch branch;
-  } guards[] = {{EventKind::contact_begins, ContactBranch::separated},
-                {EventKind::contact_ends, ContactBranch::elastic},
-                {EventKind::contact_yields, ContactBranch::elastic},
-                {EventKind::contact_unloads, ContactBranch::plastic}};
+  } functions[] = {{EventKind::contact_begins, ContactBranch::separated},
+                   {EventKind::contact_ends, ContactBranch::elastic},
+                   {EventKind::contact_yields, ContactBranch::elastic},
+                   {EventKind::contact_unloads, ContactBranch::plastic}};
   for (const Model& model : models()) {
-    for (const auto& [kind, branch] : guards) {
+    for (const auto& [kind, branch] : functions) {
       for (const double sense : {1.0, -1.0}) {
         StruckBeam beam = make_beam(model);
         enter(beam, branch, 2.0 * unit);
-        const Guard guard{kind, sense};
+        const EventFunction function{kind, sense};
         const State y = smooth_state(beam, 5, 2.0, 3.0 * unit, 4.0);
         const double h = 1e-9;
-        const GuardValue at = beam.evaluate(guard, y);
-        const double before = beam.evaluate(guard, along_the_flow(beam, y, -h)).value;
-        const double behind = beam.evaluate(guard, along_the_flow(beam, y, h)).value;
+        const GuardValue at = beam.evaluate(function, y);
+        const double before = beam.evaluate(function, along_the_flow(beam, y, -h)).value;
+        const double behind = beam.evaluate(function, along_the_flow(beam, y, h)).value;
         EXPECT_NEAR(at.rate, (behind - before) / (2.0 * h), 1e-5 * std::abs(at.rate))
             << model.name << ", " << to_string(kind);
         EXPECT_NE(at.rate, 0.0);
@@ -39,7 +42,7 @@ TEST(Guards, RatesAreThoseOfTheirValuesAlongTheFlow) {
   }
 }
 
-TEST(Guards, AreNegativeBeforeTheirEventAndPositiveAfter) {
+TEST(EventFunctions, AreNegativeBeforeTheirEventAndPositiveAfter) {
   StruckBeam beam = make_beam(models()[0]);
   enter(beam, ContactBranch::elastic, 3.0 * unit);
   const auto value = [&](EventKind kind, double indentation, double rate) {
@@ -55,105 +58,103 @@ TEST(Guards, AreNegativeBeforeTheirEventAndPositiveAfter) {
   EXPECT_GT(value(EventKind::contact_unloads, 3.0 * unit, -1.0), 0.0);
 }
 
-// A beam at rest and the striker alone in motion: the indentation over a step is the cubic through
-// these ends.
+// The indentation over a step is the cubic through these ends.
 class ContactCrossing : public testing::Test {
  protected:
-  State state(double indentation, double rate) {
-    return smooth_state(beam_, 1, 1e-9, indentation, rate);
+  // Puts the contact into a branch, with a given largest indentation.
+  void enter(ContactBranch branch, double max_indentation) {
+    contact_.set(branch, {max_indentation});
   }
   bool find(double lambda0, double rate0, double lambda1, double rate1,
-            const GuardList& without = {}) {
-    y0_ = state(lambda0, rate0);
-    y1_ = state(lambda1, rate1);
-    beam_.commit(y0_);
-    return beam_.find_crossing({2.0, 2.0 + step_, y0_, y1_}, without, crossing_);
+            const std::vector<EventFunction>& without = {}) {
+    const auto found = find_crossing(contact_, {2.0, 2.0 + step_, lambda0, rate0, lambda1, rate1},
+                                     {without, true, 1e-18});
+    if (found) crossing_ = *found;
+    return found.has_value();
   }
-  // Where the striker's motion, uniform in time, is a part of the step.
+  // The estimate, as a part of the step.
   double part() const { return (crossing_.guess - 2.0) / step_; }
 
-  StruckBeam beam_ = make_beam(models()[0]);
+  ContactState contact_{make_contact_law(paper_scene())};
   double step_ = 1e-6;
-  State y0_, y1_;
-  Crossing crossing_;
+  Crossing crossing_{};
 };
 
 TEST_F(ContactCrossing, EndOfContactIsWhereTheIndentationMeetsTheResidualOne) {
-  enter(beam_, ContactBranch::elastic, 3.0 * unit);
+  enter(ContactBranch::elastic, 3.0 * unit);
   const double rate = -unit / step_;
   ASSERT_TRUE(find(2.25 * unit, rate, 1.25 * unit, rate));
-  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
-  EXPECT_FALSE(crossing_.in_doubt);
+  EXPECT_EQ(crossing_.function.kind, EventKind::contact_ends);
+  EXPECT_FALSE(crossing_.unresolved);
   EXPECT_NEAR(part(), 0.25, 1e-6);
-  EXPECT_LE(crossing_.after, crossing_.guess);
-  EXPECT_GE(crossing_.before, crossing_.guess);
+  EXPECT_LE(crossing_.t_lower, crossing_.guess);
+  EXPECT_GE(crossing_.t_upper, crossing_.guess);
 }
 
 TEST_F(ContactCrossing, YieldIsWhereTheIndentationExceedsTheLargest) {
-  enter(beam_, ContactBranch::elastic, 0.0);
+  enter(ContactBranch::elastic, 0.0);
   const double rate = unit / step_;
   ASSERT_TRUE(find(0.5 * unit, rate, 1.5 * unit, rate));
-  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_yields);
+  EXPECT_EQ(crossing_.function.kind, EventKind::contact_yields);
   EXPECT_NEAR(part(), 0.5, 1e-4);
   EXPECT_FALSE(find(0.1 * unit, 0.5 * rate, 0.6 * unit, 0.5 * rate));
 }
 
 TEST_F(ContactCrossing, BeginOfContactIsWhereTheGapCloses) {
-  enter(beam_, ContactBranch::separated, 3.0 * unit);
+  enter(ContactBranch::separated, 3.0 * unit);
   const double rate = unit / step_;
   ASSERT_TRUE(find(1.6 * unit, rate, 2.6 * unit, rate));
-  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_begins);
+  EXPECT_EQ(crossing_.function.kind, EventKind::contact_begins);
   EXPECT_NEAR(part(), 0.4, 1e-4);
   EXPECT_FALSE(find(1.0 * unit, 0.5 * rate, 1.5 * unit, 0.5 * rate));
 }
 
 TEST_F(ContactCrossing, UnloadingIsWhereTheIndentationStopsGrowing) {
-  enter(beam_, ContactBranch::plastic, 3.0 * unit);
+  enter(ContactBranch::plastic, 3.0 * unit);
   // Rate falls from 3 to -1 units a step: zero at 0.75.
   ASSERT_TRUE(find(4.0 * unit, 3.0 * unit / step_, 5.0 * unit, -1.0 * unit / step_));
-  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_unloads);
+  EXPECT_EQ(crossing_.function.kind, EventKind::contact_unloads);
   EXPECT_NEAR(part(), 0.75, 1e-6);
   EXPECT_FALSE(find(6.0 * unit, 3.0 * unit / step_, 8.0 * unit, 1.0 * unit / step_));
 }
 
 TEST_F(ContactCrossing, ABranchLeftAndRegainedWithinOneStepIsNotMissed) {
-  enter(beam_, ContactBranch::elastic, 3.0 * unit);
+  enter(ContactBranch::elastic, 3.0 * unit);
   // A parabola that dips by 0.25 at half the step: below the residual 2, barely above, far above.
   const double rate = unit / step_;
   ASSERT_TRUE(find(2.1 * unit, -rate, 2.1 * unit, rate));
-  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
-  EXPECT_TRUE(crossing_.in_doubt);
+  EXPECT_EQ(crossing_.function.kind, EventKind::contact_ends);
+  EXPECT_TRUE(crossing_.unresolved);
   EXPECT_NEAR(part(), 0.5, 1e-5);
   ASSERT_TRUE(find(2.2501 * unit, -rate, 2.2501 * unit, rate));
-  EXPECT_TRUE(crossing_.in_doubt);
+  EXPECT_TRUE(crossing_.unresolved);
   EXPECT_FALSE(find(2.9 * unit, -rate, 2.9 * unit, rate));
 }
 
 TEST_F(ContactCrossing, TheEarlierOfTwoIsFound) {
-  enter(beam_, ContactBranch::elastic, 2.1 * unit);  // residual 1.1, yields again at 2.1
+  enter(ContactBranch::elastic, 2.1 * unit);  // residual 1.1, yields again at 2.1
   // First up through 2.1, at the end below 1.1.
   ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_));
-  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_yields);
-  const GuardList yields{crossing_.guard};
+  EXPECT_EQ(crossing_.function.kind, EventKind::contact_yields);
+  const std::vector<EventFunction> yields{crossing_.function};
   ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_, yields));
-  EXPECT_EQ(crossing_.guard.kind, EventKind::contact_ends);
+  EXPECT_EQ(crossing_.function.kind, EventKind::contact_ends);
 }
 
-TEST_F(ContactCrossing, EventsSwitchTheBranchTheySpeakOf) {
-  const State y = state(3.0 * unit, 1.0);
-  beam_.apply({EventKind::contact_begins}, y);
-  EXPECT_EQ(beam_.contact_branch(), ContactBranch::elastic);
-  beam_.apply({EventKind::contact_yields}, y);
-  EXPECT_EQ(beam_.contact_branch(), ContactBranch::plastic);
-  beam_.apply({EventKind::contact_unloads}, y);
-  EXPECT_EQ(beam_.contact_branch(), ContactBranch::elastic);
-  EXPECT_NEAR(beam_.contact_history().max_indentation, 3.0 * unit, 1e-18);
-  beam_.apply({EventKind::contact_ends}, y);
-  EXPECT_EQ(beam_.contact_branch(), ContactBranch::separated);
-  EXPECT_FALSE(beam_.in_contact());
+TEST_F(ContactCrossing, EventsChangeTheBranch) {
+  contact_.pass(EventKind::contact_begins, 3.0 * unit);
+  EXPECT_EQ(contact_.branch(), ContactBranch::elastic);
+  contact_.pass(EventKind::contact_yields, 3.0 * unit);
+  EXPECT_EQ(contact_.branch(), ContactBranch::plastic);
+  contact_.pass(EventKind::contact_unloads, 3.0 * unit);
+  EXPECT_EQ(contact_.branch(), ContactBranch::elastic);
+  EXPECT_NEAR(contact_.history().max_indentation, 3.0 * unit, 1e-18);
+  contact_.pass(EventKind::contact_ends, 3.0 * unit);
+  EXPECT_EQ(contact_.branch(), ContactBranch::separated);
+  EXPECT_FALSE(contact_.is_closed());
 }
 
-TEST(SectionCrossing, FirstFlowIsWhenTheFirstSectionLeavesItsWindow) {
+TEST(FirstFlow, IsWhenTheFirstSectionLeavesItsWindow) {
   StruckBeam beam = make_beam(models()[1]);
   const State y0 = smooth_state(beam, 6, 0.6, 0.0, 0.0);
   const State y1 = smooth_state(beam, 6, 1.4, 0.0, 0.0);
@@ -162,10 +163,11 @@ TEST(SectionCrossing, FirstFlowIsWhenTheFirstSectionLeavesItsWindow) {
   const double step = 1e-6;
   for (std::size_t i = 0; i < n; ++i) a[n + i] = b[n + i] = (y1[i] - y0[i]) / step;
   beam.commit(a);
-  const auto first = beam.first_flow({0.0, step, a, b});
+  FirstFlow first_flow(beam.sections().size());
+  const auto first = first_flow.find(beam, {0.0, step, a, b});
   ASSERT_TRUE(first.has_value());
   EXPECT_NEAR(*first, 0.5 * step, 1e-6 * step);
-  EXPECT_FALSE(beam.first_flow({0.0, step, a, a}).has_value());
+  EXPECT_FALSE(first_flow.find(beam, {0.0, step, a, a}).has_value());
 }
 
 }  // namespace

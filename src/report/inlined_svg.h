@@ -1,12 +1,8 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 namespace subimpact {
-
-/// Text as HTML shows it literally.
-std::string escaped(std::string_view text);
 
 /// An SVG file as an element of an HTML page: without prologue and name spaces, its ids prefixed so
 /// that several figures on a page do not share them.

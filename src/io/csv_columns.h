@@ -1,0 +1,133 @@
+#pragma once
+
+/// Columns of CSV tables. A column stands in one place, with its name, its meaning and the member
+/// that it holds; heading, writer, reader and documentation follow from the list of columns.
+///
+/// Numbers have the 17 digits that determine a double. A value that is absent is an empty cell. No
+/// cell is quoted: commas within texts become semicolons.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace subimpact {
+
+inline void append_cell(std::string& text, double value) {
+  fmt::format_to(std::back_inserter(text), "{:.17g}", value);
+}
+inline void append_cell(std::string& text, std::integral auto value) {
+  fmt::format_to(std::back_inserter(text), "{}", value);
+}
+inline void append_cell(std::string& text, std::string_view words) {
+  for (const char c : words) text.push_back(c == ',' ? ';' : c == '\n' ? ' ' : c);
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+void append_cell(std::string& text, Enum value) {
+  append_cell(text, std::string_view(to_string(value)));
+}
+template <class Value>
+void append_cell(std::string& text, const std::optional<Value>& value) {
+  if (value) append_cell(text, *value);
+}
+
+/// Each reads a whole cell; false if the cell is no value of that type.
+template <class Number>
+requires std::is_arithmetic_v<Number>
+bool read_cell(std::string_view cell, Number& value) {
+  const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return end.ec == std::errc() && end.ptr == cell.data() + cell.size();
+}
+inline bool read_cell(std::string_view cell, std::string& words) {
+  words = cell;
+  return true;
+}
+template <class Value>
+bool read_cell(std::string_view cell, std::optional<Value>& value) {
+  value.reset();
+  return cell.empty() || read_cell(cell, value.emplace());
+}
+template <class Enum, std::size_t n>
+bool read_choice(std::string_view cell, Enum& value, const Enum (&all)[n]) {
+  const auto found = std::find_if(all, all + n, [&](Enum e) { return to_string(e) == cell; });
+  if (found != all + n) value = *found;
+  return found != all + n;
+}
+
+/// A column of a table whose rows are objects of type Row.
+template <class Row>
+struct Column {
+  /// `value`: a pointer to a member of the row; or a function of the row that returns a reference
+  /// to what the cell holds; or a function of the row, or of the row and its index, that returns a
+  /// value, which is then written and never read.
+  template <class Value>
+  Column(std::string name_with_unit, std::string meaning_of_value, Value value)
+      : name(std::move(name_with_unit)), meaning(std::move(meaning_of_value)) {
+    append = [value](std::string& text, const Row& row, [[maybe_unused]] std::size_t index) {
+      if constexpr (std::is_invocable_v<Value, const Row&, std::size_t>) {
+        append_cell(text, std::invoke(value, row, index));
+      } else {
+        append_cell(text, std::invoke(value, row));
+      }
+    };
+    if constexpr (std::is_invocable_v<Value, Row&>) {
+      if constexpr (std::is_lvalue_reference_v<std::invoke_result_t<Value, Row&>>) {
+        using Held = std::invoke_result_t<Value, Row&>;
+        if (std::is_enum_v<std::remove_reference_t<Held>>) allowed = "one of its names";
+        read = [value](std::string_view cell, Row& row) {
+          return read_cell(cell, std::invoke(value, row));
+        };
+      }
+    }
+  }
+
+  template <class Value>
+  Column(std::string name_with_unit, Value value) : Column(std::move(name_with_unit), "", value) {}
+
+  std::string name;                  ///< with its unit
+  std::string meaning;               ///< for the documentation
+  const char* allowed = "a number";  ///< for messages
+  bool optional = false;             ///< whether a file may lack it
+  std::function<void(std::string& text, const Row&, std::size_t index)> append;
+  std::function<bool(std::string_view cell, Row&)> read;  ///< none: it follows from other columns
+};
+
+template <class Row>
+using Columns = std::vector<Column<Row>>;
+
+template <class Row>
+std::string csv_heading(const Columns<Row>& columns) {
+  std::string text;
+  for (const Column<Row>& column : columns) text += (text.empty() ? "" : ",") + column.name;
+  return text + '\n';
+}
+
+template <class Row>
+void append_row(std::string& text, const Columns<Row>& columns, const Row& row,
+                std::size_t index = 0) {
+  for (const Column<Row>& column : columns) {
+    if (&column != &columns.front()) text.push_back(',');
+    column.append(text, row, index);
+  }
+  text.push_back('\n');
+}
+
+/// The table: a heading, then one line per row.
+template <class Row>
+std::string csv_text(const Columns<Row>& columns, const std::vector<Row>& rows) {
+  std::string text = csv_heading(columns);
+  for (std::size_t i = 0; i < rows.size(); ++i) append_row(text, columns, rows[i], i);
+  return text;
+}
+
+}  // namespace subimpact

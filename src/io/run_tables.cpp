@@ -1,0 +1,149 @@
+#include "io/run_tables.h"
+
+#include <algorithm>
+
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/system/events.h"
+
+namespace subimpact {
+
+static bool read_cell(std::string_view cell, EventKind& kind) {
+  return read_choice(
+      cell, kind,
+      {EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
+       EventKind::contact_ends, EventKind::section_reverses});
+}
+
+namespace {
+
+std::size_t number_from_1(const SubImpact&, std::size_t index) { return index + 1; }
+
+std::optional<double> duration(const SubImpact& s) {
+  return s.end ? std::optional(*s.end - s.start) : std::nullopt;
+}
+
+Columns<SubImpact> with_error_bars(Columns<SubImpact> columns, const Columns<SubImpact>& errors) {
+  for (Column<SubImpact> column : errors) {
+    column.optional = true;
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+template <class Row>
+std::string listing(const char* file, const char* rows, const Columns<Row>& columns) {
+  std::string text = fmt::format("{}: {}\n", file, rows);
+  for (const Column<Row>& column : columns) {
+    text += fmt::format("  {:<25} {}\n", column.name, column.meaning);
+  }
+  return text;
+}
+
+}  // namespace
+
+const Columns<SubImpact>& events_columns() {
+  static const Columns<SubImpact> columns = with_error_bars(
+      {{"index", "number of the sub-impact, from 1", number_from_1},
+       {"zone", "number of its zone, from 1", &SubImpact::zone},
+       {"subzone", "number of its sub-zone within the zone, from 1", &SubImpact::subzone},
+       {"start_s", "instant at which contact begins", &SubImpact::start},
+       {"end_s", "instant at which the contact force returns to zero; empty: after the run's end",
+        &SubImpact::end},
+       {"duration_s", "end_s - start_s", duration},
+       {"peak_force_N", "largest contact force", &SubImpact::peak_force},
+       {"impulse_Ns", "momentum that the striker loses", &SubImpact::impulse},
+       {"max_indentation_m", "largest indentation", &SubImpact::max_indentation},
+       {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
+       {"striker_velocity_m_per_s", "velocity of the striker at the end",
+        &SubImpact::striker_velocity}},
+      {{"start_error_s", "with error bars: error of start_s, sum of its parts",
+        &SubImpact::start_error},
+       {"end_error_s", "error of end_s, sum of its parts", &SubImpact::end_error},
+       {"error_time_s", "part of the integration in time", &SubImpact::error_time},
+       {"error_mesh_s", "part of the mesh", &SubImpact::error_mesh},
+       {"error_layers_s", "part of layers in place of the exact section", &SubImpact::error_layers},
+       {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes",
+        &SubImpact::start_mesh_limit},
+       {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
+       {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error}});
+  return columns;
+}
+
+const Columns<Transition>& transitions_columns() {
+  static const Columns<Transition> columns = {
+      {"time_s", "instant of the event", &Transition::time},
+      {"kind", "what happens: contact_begins, contact_yields, ...", &Transition::kind},
+      {"section", "index of the section, from 0; empty for events of the contact",
+       &Transition::section},
+      {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value}};
+  return columns;
+}
+
+const Columns<HistoryRow>& history_columns() {
+  static const Columns<HistoryRow> columns = {
+      {"time_s", "time", &HistoryRow::time},
+      {"force_N", "contact force", &HistoryRow::force},
+      {"indentation_m", "indentation", &HistoryRow::indentation},
+      {"w_c_m", "displacement of the struck point", &HistoryRow::struck_displacement},
+      {"w_m_m", "displacement of the striker", &HistoryRow::striker_displacement},
+      {"f_c_m", "deflection w_c - w(0) of the struck point", &HistoryRow::struck_deflection},
+      {"u_mf_m", "w_m - w(0)", &HistoryRow::striker_relative},
+      {"v_c_m_per_s", "velocity of the struck point", &HistoryRow::struck_velocity},
+      {"v_m_m_per_s", "velocity of the striker", &HistoryRow::striker_velocity},
+      {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension",
+       &HistoryRow::back_stress},
+      {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
+      {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
+      {"U_e_J", "elastic energy of bending", &HistoryRow::bending_elastic},
+      {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
+      {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
+      {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
+      {"energy_error", "relative error of the sum of these six", &HistoryRow::energy_error},
+      {"momentum_error", "relative error of the momentum; empty where supports take momentum up",
+       &HistoryRow::momentum_error}};
+  return columns;
+}
+
+const Columns<SectionRow>& sections_columns() {
+  static const Columns<SectionRow> columns = {
+      {"time_s", "time", &SectionRow::time},
+      {"position_m", "position of the section along the beam", &SectionRow::position},
+      {"curvature_per_m", "curvature", &SectionRow::curvature},
+      {"moment_Nm", "bending moment M, -E I kappa while elastic", &SectionRow::moment},
+      {"plastic_curvature_per_m", "curvature + M/(E I)", &SectionRow::plastic_curvature}};
+  return columns;
+}
+
+std::string events_csv(const std::vector<SubImpact>& sub_impacts) {
+  Columns<SubImpact> columns = events_columns();
+  const bool with_errors =
+      std::any_of(sub_impacts.begin(), sub_impacts.end(),
+                  [](const SubImpact& s) { return s.start_error.has_value(); });
+  if (!with_errors) std::erase_if(columns, [](const auto& column) { return column.optional; });
+  return csv_text(columns, sub_impacts);
+}
+
+std::string transitions_csv(const std::vector<Transition>& transitions) {
+  return csv_text(transitions_columns(), transitions);
+}
+
+std::string history_csv(const std::vector<HistoryRow>& history) {
+  return csv_text(history_columns(), history);
+}
+
+std::string sections_csv(const std::vector<SectionRow>& sections) {
+  return csv_text(sections_columns(), sections);
+}
+
+std::string column_listing() {
+  return listing("events.csv", "one row per sub-impact", events_columns()) + "\n" +
+         listing("transitions.csv", "one row per located event", transitions_columns()) + "\n" +
+         listing("history.csv", "one row per output.interval, and two per event of the contact",
+                 history_columns()) +
+         "\n" +
+         listing("sections.csv", "one row per section of output.sections and row of history.csv",
+                 sections_columns());
+}
+
+}  // namespace subimpact

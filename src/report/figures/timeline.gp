@@ -1,0 +1,42 @@
+# Tables: $columns (from, to, left, right: what a column of panels shows and where), $sub_impacts
+# (column, number, start, duration_us, impulse_mNs; label_duration_us, label_impulse_mNs: whether
+# there is room for the number). Variables: titles of the columns, time_unit.
+n = |$columns| - 1
+array from[n]
+array to[n]
+array left[n]
+array right[n]
+stats $columns using (k = int($0) + 1, from[k] = column('from'), to[k] = column('to'), \
+                      left[k] = column('left'), right[k] = column('right'), 0) nooutput
+of(c, name) = column('column') == c ? column(name) : NaN
+number(c, name) = column('label_'.name) == 1 ? of(c, name) : NaN
+
+set multiplot title marks font ',12'
+set logscale y
+unset key
+do for [name in 'duration_us impulse_mNs'] {
+  first = name eq 'duration_us'
+  bottom = first ? 0.55 : 0.12
+  low = 1e300
+  high = 0
+  set autoscale  # "stats" heeds the ranges of the panel before
+  stats $sub_impacts using (v = column(name), low = v > 0 && v < low ? v : low, \
+                            high = v > high ? v : high, 0) nooutput
+  if (high == 0) { low = 0.2; high = 10/3.0 }
+  set yrange [low/2:3*high]
+  set format x (first ? '' : '% h')
+  do for [c=1:n] {
+    eval placed(left[c], right[c], bottom, bottom + 0.38)
+    set xrange [from[c]:to[c]]
+    set xtics tics(to[c] - from[c], 5)
+    set title (first ? word(titles, c) : '') offset 0, -0.5
+    set ylabel (c > 1 ? '' : first ? 'duration, µs' : 'impulse, mN s')
+    set format y (c > 1 ? '' : '%g')
+    set xlabel (first ? '' : 'start, '.time_unit)
+    plot $sub_impacts using 'start':(of(c, name)) with impulses lc (first ? 1 : 2) lw 2, \
+         $sub_impacts using 'start':(of(c, name)) with points lc (first ? 1 : 2) pt 7 ps 0.8, \
+         $sub_impacts using 'start':(number(c, name)):'number' with labels center offset 0, 0.8 \
+           font ',11'
+  }
+}
+unset multiplot

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string_view>
+
+namespace subimpact {
+
+/// The text of a file of this folder, "figures/response.gp" for example, from within the library.
+/// Throws std::logic_error for a file that the build does not list.
+std::string_view embedded_file(std::string_view name);
+
+}  // namespace subimpact

@@ -1,0 +1,151 @@
+#include "simulate/event_location.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "numerics/trajectory_root.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// Rounding of the velocity at which the contact closes, as part of the striker's: it is the
+// difference of two velocities, each a sum over the stages of a step.
+constexpr double velocity_rounding = 1e-12;
+
+// Roots are found to rounding.
+RootOptions to_rounding(double time) {
+  RootOptions options;
+  options.tolerance = 8.0 * epsilon * time;
+  return options;
+}
+
+}  // namespace
+
+IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step) {
+  return {step.t0,
+          step.t1,
+          beam.indentation(step.y0),
+          beam.indentation_rate(step.y0),
+          beam.indentation(step.y1),
+          beam.indentation_rate(step.y1)};
+}
+
+double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
+                   const GuardValue& at) {
+  const double of_value = function.kind == EventKind::contact_unloads
+                              ? velocity_rounding * beam.scales().velocity
+                              : beam.displacement_rounding(y);
+  return of_value + epsilon * t * std::abs(at.rate);
+}
+
+std::optional<Crossing> EventLocator::find_crossing_in(const StepEnds& step) {
+  if (step.event_free) return std::nullopt;
+  return find_crossing(beam_.contact(), indentation_step(beam_, step),
+                       {dealt_with_, double_roots_, beam_.displacement_rounding(step.y1)});
+}
+
+std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, double& t1,
+                                                    const State*& y1,
+                                                    SectionCorrection& correction) {
+  const State& y0 = whole.y0;
+  const double t0 = whole.t0;
+  t1 = whole.t1;
+  y1 = &whole.y1;
+  for (;;) {
+    std::optional<EventFunction> event;
+    dealt_with_.clear();
+    while (auto crossing = find_crossing_in({t0, t1, y0, *y1, whole.event_free})) {
+      const StepEnds step{t0, t1, y0, *y1};
+      dealt_with_.push_back(crossing->function);
+      if (crossing->unresolved && !resolve(*crossing, step)) continue;
+      t1 = locate(*crossing, step);
+      std::swap(end_, trial_);
+      y1 = &end_;
+      event = crossing->function;
+    }
+    corrector_.correct({t0, t1, y0, *y1, whole.event_free}, correction);
+    if (!(correction.valid_until < t1)) {
+      const bool moves = event && !correction.is_empty();
+      if (moves && !relocate(*event, {t0, t1, y0, *y1}, whole.t1, t1, correction)) return {};
+      return event;
+    }
+    t1 = correction.valid_until;
+    integrator_.state_at(t1, end_);
+    y1 = &end_;
+  }
+}
+
+bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {
+  // The event function is largest where the indentation reverses: from growing, or from falling for
+  // the end of contact.
+  const double sense = crossing.function.kind == EventKind::contact_ends ? -1.0 : 1.0;
+  const EventFunction reversal{EventKind::contact_unloads, sense};
+  const double top = find_rise(
+      [&](double t) {
+        integrator_.state_at(t, trial_);
+        return beam_.evaluate(reversal, trial_);
+      },
+      step.t0, step.t1, crossing.guess, to_rounding(step.t1));
+  const double height = beam_.evaluate(crossing.function, trial_).value;
+  if (!(height > beam_.displacement_rounding(trial_))) return false;
+  crossing.t_upper = top;
+  crossing.guess = 0.5 * (crossing.t_lower + top);
+  return true;
+}
+
+double EventLocator::locate(const Crossing& crossing, const StepEnds& step) {
+  if (!(crossing.t_upper > step.t0)) {  // it happened at the start
+    trial_ = step.y0;
+    return step.t0;
+  }
+  const auto value_at = [&](double t) {
+    integrator_.state_at(t, trial_);
+    return beam_.evaluate(crossing.function, trial_);
+  };
+  double lower = crossing.t_lower;
+  double upper = crossing.t_upper;
+  double guess = crossing.guess;
+  // Where the cubic has its lowest point the function may already have risen again.
+  if (lower > step.t0 && value_at(lower).value > 0.0) {
+    upper = lower;
+    lower = step.t0;
+    guess = 0.5 * (lower + upper);
+  }
+  return find_rise(value_at, lower, upper, guess, to_rounding(step.t1));
+}
+
+bool EventLocator::relocate(const EventFunction& function, const StepEnds& step, double latest,
+                            double& time, SectionCorrection& correction) {
+  const RootOptions options = to_rounding(step.t1);
+  // The state at t without the correction is left in end_.
+  const auto value_at = [&](double t) {
+    integrator_.state_at(t, end_);
+    corrector_.correct({step.t0, t, step.y0, end_}, correction);
+    trial_ = end_;
+    correction.add_to(trial_);
+    return beam_.evaluate(function, trial_);
+  };
+  trial_ = end_;
+  correction.add_to(trial_);
+  const GuardValue here = beam_.evaluate(function, trial_);
+  if (std::abs(here.value) <= rounding_of(function, beam_, trial_, step.t1, here)) return true;
+  const double guess = step.t1 - here.value / here.rate;
+  if (here.value > 0.0) {
+    time = find_rise(value_at, step.t0, step.t1, guess, options);
+    return true;
+  }
+  // Not reached yet: a little later, if the function rises fast enough to be sure of it.
+  const double ahead = std::min(step.t1 - 2.0 * here.value / here.rate, latest);
+  if (here.rate > 0.0 && ahead > step.t1 && value_at(ahead).value > 0.0) {
+    time = find_rise(value_at, step.t1, ahead, guess, options);
+    return true;
+  }
+  value_at(step.t1);
+  return false;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ode/integrator.h"
+#include "ode/step_ends.h"
+#include "system/contact_events.h"
+#include "system/section_correction.h"
+
+namespace subimpact {
+
+/// The indentation at both ends of a step.
+IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step);
+
+/// What rounding may make of an event function at a state y, time t (s), that meets it: m, or m/s
+/// for contact_unloads.
+double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
+                   const GuardValue& at);
+
+/// Finds the end of a step: its first event of the contact, or where its section correction stops
+/// being valid, or its own end.
+///
+/// Events are located on the method's own trajectory to rounding: each trial state is a step of the
+/// method from the start (Integrator::state_at). The earliest event by estimate is located; the
+/// step then ends there, and what remains is searched again, in case an estimate had the order
+/// wrong. If sections leave their smooth pieces before the event, it is located again on the
+/// corrected trajectory.
+class EventLocator {
+ public:
+  EventLocator(StruckBeam& beam, Integrator& integrator, SectionCorrector& corrector,
+               bool double_roots)
+      : beam_(beam), integrator_(integrator), corrector_(corrector), double_roots_(double_roots) {}
+
+  /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, the pointer then moved to a
+  /// state kept here until the next call. Returns the event at the end, if there is one.
+  /// `correction`: that of the step as it then is, not yet added to y1.
+  std::optional<EventFunction> find_end(const StepEnds& whole, double& t1, const State*& y1,
+                                        SectionCorrection& correction);
+
+ private:
+  std::optional<Crossing> find_crossing_in(const StepEnds& step);
+  // Whether the double root of a crossing exists; if so, narrows it to the first of the two.
+  bool resolve(Crossing& crossing, const StepEnds& step);
+  // The instant of a crossing, its state in trial_.
+  double locate(const Crossing& crossing, const StepEnds& step);
+  // Moves an event found at step.t1, with step.y1 in end_, to where the corrected state meets its
+  // event function; false if that is not before `latest`: the step then has no event.
+  bool relocate(const EventFunction& function, const StepEnds& step, double latest, double& time,
+                SectionCorrection& correction);
+
+  StruckBeam& beam_;
+  Integrator& integrator_;
+  SectionCorrector& corrector_;
+  bool double_roots_;
+  std::vector<EventFunction> dealt_with_;  // in the step being searched
+  State end_, trial_;
+};
+
+}  // namespace subimpact

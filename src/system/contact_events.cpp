@@ -1,0 +1,116 @@
+#include "system/contact_events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "numerics/hermite.h"
+
+namespace subimpact {
+namespace {
+
+// A cubic through a step's ends is trusted to have the height of a local maximum between them right
+// to this part of the height; a maximum that comes closer to zero is searched on the trajectory.
+constexpr double uncertain_share = 0.5;
+
+using MaybeCrossing = std::optional<Crossing>;
+
+MaybeCrossing crossing_at(EventKind kind, const IndentationStep& step, double lower, double guess) {
+  return Crossing{
+      {kind}, step.t0 + lower * step.length(), step.t1, step.t0 + guess * step.length(), false};
+}
+
+// A double root: negative at both ends, with a local maximum near or above zero in between.
+MaybeCrossing find_double_root(EventKind kind, const IndentationStep& step, const GuardValue& g0,
+                               const GuardValue& g1, double rounding) {
+  if (!(g0.rate > 0.0 && g1.rate < 0.0)) return std::nullopt;
+  const HermiteCubic path(g0.value, g0.rate, g1.value, g1.rate, step.length());
+  const double peak = path.peak();
+  const double height = path(peak) - std::max(g0.value, g1.value);
+  if (!(path(peak) > rounding - uncertain_share * height)) return std::nullopt;
+  return Crossing{{kind}, step.t0, step.t1, step.t0 + peak * step.length(), true};
+}
+
+MaybeCrossing find_rise_of(EventKind kind, const IndentationStep& step, const GuardValue& g0,
+                           const GuardValue& g1) {
+  if (g0.value >= 0.0 && g0.rate > 0.0 && g1.rate > 0.0) {  // positive from the start on
+    return Crossing{{kind}, step.t0, step.t0, step.t0, false};
+  }
+  const HermiteCubic path(g0.value, g0.rate, g1.value, g1.rate, step.length());
+  // A function that is still at zero from the event before first falls: its root lies behind its
+  // lowest point.
+  double lower = 0.0;
+  if (g0.rate < 0.0 && g1.rate > 0.0) {
+    lower = HermiteCubic(-g0.value, -g0.rate, -g1.value, -g1.rate, step.length()).peak();
+  }
+  return crossing_at(kind, step, lower, path.rise(lower, 1.0));
+}
+
+MaybeCrossing find_unloading(const IndentationStep& step, const GuardValue& g0,
+                             const GuardValue& g1) {
+  if (!(g1.value > 0.0)) return std::nullopt;
+  const double guess = g0.value < 0.0 ? g0.value / (g0.value - g1.value) : 0.0;
+  return crossing_at(EventKind::contact_unloads, step, 0.0, guess);
+}
+
+}  // namespace
+
+std::optional<Crossing> find_crossing(const ContactState& contact, const IndentationStep& step,
+                                      const CrossingSearch& search) {
+  std::optional<Crossing> earliest;
+  const auto consider = [&](EventKind kind) {
+    const auto is_kind = [&](const EventFunction& function) { return function.kind == kind; };
+    if (std::any_of(search.without.begin(), search.without.end(), is_kind)) return;
+    const GuardValue g0 = contact.event_function(kind, step.lambda0, step.rate0);
+    const GuardValue g1 = contact.event_function(kind, step.lambda1, step.rate1);
+    std::optional<Crossing> found;
+    if (kind == EventKind::contact_unloads) {
+      found = find_unloading(step, g0, g1);
+    } else if (g1.value > 0.0) {
+      found = find_rise_of(kind, step, g0, g1);
+    } else if (search.double_roots) {
+      found = find_double_root(kind, step, g0, g1, search.rounding);
+    }
+    if (found && !(earliest && earliest->guess <= found->guess)) earliest = found;
+  };
+  switch (contact.branch()) {
+    case ContactBranch::separated:
+      consider(EventKind::contact_begins);
+      break;
+    case ContactBranch::elastic:
+      consider(EventKind::contact_ends);
+      consider(EventKind::contact_yields);
+      break;
+    case ContactBranch::plastic:
+      consider(EventKind::contact_unloads);
+      break;
+  }
+  return earliest;
+}
+
+std::vector<InterpolatedEvent> interpolate_events(const ContactState& contact,
+                                                  const IndentationStep& step,
+                                                  ContactBranch after) {
+  const ContactBranch before = contact.branch();
+  std::vector<InterpolatedEvent> events;
+  const auto add = [&](EventKind kind, double s) {
+    events.push_back({kind, step.t0 + s * step.length()});
+  };
+  const auto add_rise = [&](EventKind kind) {
+    const GuardValue g0 = contact.event_function(kind, step.lambda0, step.rate0);
+    const GuardValue g1 = contact.event_function(kind, step.lambda1, step.rate1);
+    add(kind, HermiteCubic(g0.value, g0.rate, g1.value, g1.rate, step.length()).rise(0.0, 1.0));
+  };
+  if (before == ContactBranch::separated) add_rise(EventKind::contact_begins);
+  if (before == ContactBranch::plastic) {
+    const bool turns = step.rate0 > 0.0 && step.rate1 < 0.0;
+    add(EventKind::contact_unloads, turns ? step.rate0 / (step.rate0 - step.rate1) : 0.0);
+  }
+  if (after == ContactBranch::plastic) add_rise(EventKind::contact_yields);
+  if (after == ContactBranch::separated) add_rise(EventKind::contact_ends);
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+  return events;
+}
+
+}  // namespace subimpact

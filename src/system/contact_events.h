@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "system/contact_state.h"
+
+namespace subimpact {
+
+/// The indentation (m) and its rate (m/s) at both ends of a step or a part of one.
+struct IndentationStep {
+  double t0, t1;  ///< s
+  double lambda0, rate0, lambda1, rate1;
+  double length() const { return t1 - t0; }
+};
+
+/// An event of the contact within a step: a bracket of its time (s).
+struct Crossing {
+  EventFunction function;
+  double t_lower = 0.0;  ///< the event function is not positive here
+  double t_upper = 0.0;  ///< it is positive here
+  double guess = 0.0;    ///< estimate of the instant
+  /// The event function is negative at both ends of the step and comes close to zero in between,
+  /// near `guess`: whether it has a double root must be found out on the trajectory.
+  bool unresolved = false;
+};
+
+/// What find_crossing looks for.
+struct CrossingSearch {
+  /// Event functions left out, because they have been dealt with in the step.
+  const std::vector<EventFunction>& without;
+  /// Whether a branch left and regained within one step is looked for; off only to show what is
+  /// then missed.
+  bool double_roots = true;
+  /// m: an excursion smaller than this is below the rounding of the displacements.
+  double rounding = 0.0;
+};
+
+/// The earliest end of the branch in force within a step that began at the last committed state, by
+/// the cubic through the ends of the step; nothing if the branch holds throughout.
+std::optional<Crossing> find_crossing(const ContactState& contact, const IndentationStep& step,
+                                      const CrossingSearch& search);
+
+/// An event whose time is interpolated within a step.
+struct InterpolatedEvent {
+  EventKind kind;
+  double time;  ///< s
+};
+
+/// The events of a step that ends on the branch `after`, another one than that in force, in their
+/// order in time.
+std::vector<InterpolatedEvent> interpolate_events(const ContactState& contact,
+                                                  const IndentationStep& step, ContactBranch after);
+
+}  // namespace subimpact
