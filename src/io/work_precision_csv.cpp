@@ -32,49 +32,51 @@ struct LoggedPoint {
   WorkPrecisionPoint point;
 };
 
+// The member of a row that a path of members leads to.
+template <auto... members>
+constexpr auto member = [](auto& row) -> auto& {
+  return (row.*....*members);
+};
+
+template <auto found>
+constexpr auto errors = member<&LoggedPoint::point, &WorkPrecisionPoint::errors, found>;
+template <auto count>
+constexpr auto work = member<&LoggedPoint::point, &WorkPrecisionPoint::work, count>;
+template <auto part>
+constexpr auto of_setting = member<&LoggedPoint::point, &WorkPrecisionPoint::setting, part>;
+
 const Columns<LoggedPoint>& point_columns() {
-  const auto errors = [](auto EventErrors::*member) {
-    return [member](auto& row) -> auto& { return row.point.errors.*member; };
-  };
-  const auto work = [](auto Work::*member) {
-    return [member](auto& row) -> auto& { return row.point.work.*member; };
-  };
   static const Columns<LoggedPoint> columns = {
-      {"case", &LoggedPoint::id}, {"label", &LoggedPoint::label},
-      {"method", [](auto& row) -> auto& {return row.point.setting.method;
-}
-}  // namespace
-, {"kind", &LoggedPoint::kind}, {"setting", [](auto& row) -> auto& {return row.point.setting.value;
-}  // namespace subimpact
-}
-, {"verdict", [](auto& row) -> auto& {return row.point.verdict;
-}
-}
-, {"reference_sub_impacts", errors(&EventErrors::n_reference)},
-    {"sub_impacts", errors(&EventErrors::n_found)},
-    {"corresponding", errors(&EventErrors::n_corresponding)},
-    {"first_odd_s", &LoggedPoint::odd_start}, {"odd_duration_s", &LoggedPoint::odd_duration},
-    {"median_error_s", errors(&EventErrors::median)},
-    {"max_error_s", errors(&EventErrors::maximum)}, {"first_error_s", errors(&EventErrors::first)},
-    {"last_error_s", errors(&EventErrors::last)},
-    {"peak_force_error", errors(&EventErrors::peak_force)},
-    {"striker_velocity_error", errors(&EventErrors::striker_velocity)},
-    {"beam_velocity_error", errors(&EventErrors::beam_velocity)},
-    {"wall_s", [](auto& row) -> auto& {return row.point.seconds;
-}
-}
-, {"repeats", [](auto& row) -> auto& {return row.point.repeats;
-}
-}
-, {"setup_s", work(&Work::setup_seconds)}, {"steps", work(&Work::steps)},
-    {"rejected_steps", work(&Work::rejected_steps)},
-    {"right_hand_sides", work(&Work::right_hand_sides)}, {"mass_solves", work(&Work::mass_solves)},
-    {"jacobians", work(&Work::jacobians)}, {"factorisations", work(&Work::factorisations)}, {
-  "message", [](auto& row) -> auto& { return row.point.message; }
-}
-}
-;
-return columns;
+      {"case", &LoggedPoint::id},
+      {"label", &LoggedPoint::label},
+      {"method", of_setting<&Setting::method>},
+      {"kind", &LoggedPoint::kind},
+      {"setting", of_setting<&Setting::value>},
+      {"verdict", member<&LoggedPoint::point, &WorkPrecisionPoint::verdict>},
+      {"reference_sub_impacts", errors<&EventErrors::n_reference>},
+      {"sub_impacts", errors<&EventErrors::n_found>},
+      {"corresponding", errors<&EventErrors::n_corresponding>},
+      {"first_odd_s", &LoggedPoint::odd_start},
+      {"odd_duration_s", &LoggedPoint::odd_duration},
+      {"median_error_s", errors<&EventErrors::median>},
+      {"max_error_s", errors<&EventErrors::maximum>},
+      {"first_error_s", errors<&EventErrors::first>},
+      {"last_error_s", errors<&EventErrors::last>},
+      {"peak_force_error", errors<&EventErrors::peak_force>},
+      {"striker_velocity_error", errors<&EventErrors::striker_velocity>},
+      {"beam_velocity_error", errors<&EventErrors::beam_velocity>},
+      {"wall_s", member<&LoggedPoint::point, &WorkPrecisionPoint::seconds>},
+      {"repeats", member<&LoggedPoint::point, &WorkPrecisionPoint::repeats>},
+      {"setup_s", work<&Work::setup_seconds>},
+      {"steps", work<&Work::steps>},
+      {"rejected_steps", work<&Work::rejected_steps>},
+      {"right_hand_sides", work<&Work::right_hand_sides>},
+      {"mass_solves", work<&Work::mass_solves>},
+      {"jacobians", work<&Work::jacobians>},
+      {"factorisations", work<&Work::factorisations>},
+      {"message", member<&LoggedPoint::point, &WorkPrecisionPoint::message>},
+  };
+  return columns;
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
