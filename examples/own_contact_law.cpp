@@ -1,5 +1,5 @@
-// A contact law of one's own: loading along k1, un- and reloading along the steeper k2 (Walton and
-// Braun 1986). Whatever the velocity, the bodies part with the restitution sqrt(k1/k2).
+// A user-defined contact law: loading along k1, unloading and reloading along the steeper k2 (Walton
+// and Braun 1986). The restitution is sqrt(k1/k2) at any velocity.
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
-// A mesh of one's own: a chain of rigid bars between point masses, hinged where the masses are and
-// held by a rotary spring in every hinge (Hencky 1920). The end of its first sub-impact is compared
-// with that on the built-in cells.
+// A user-defined mesh: a chain of rigid bars between point masses, with a hinge and a rotational
+// spring at every mass (Hencky 1920). The end of the first sub-impact on this mesh is compared with
+// that on the built-in cells.
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
-// An observer of one's own: follows the gap between striker and beam, and the rate at which plastic
-// hinges take energy up, in a run that keeps no history.
+// A user-defined observer: follows the gap between striker and beam, and the rate at which plastic
+// hinges dissipate energy, in a run that stores no history.
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
-// A section of one's own: a sandwich of two strong faces on a soft core that yields late, beside a
-// solid beam of the same size. Its elastic stiffness is checked against the sum over the
-// strips.
+// A user-defined section: a sandwich of two strong faces and a compliant core that yields at a larger
+// strain, compared with a solid beam of the same size. The elastic stiffness of the sandwich is
+// checked against the sum over the strips.
 
 #include <cmath>
 #include <cstdio>
@@ -10,8 +10,8 @@
 using subimpact::Fibres;
 
 int main() {
-  constexpr double face = 0.2;           // part of the half thickness
-  constexpr double core_modulus = 0.05;  // over that of the faces
+  constexpr double face = 0.2;           // fraction of the half thickness
+  constexpr double core_modulus = 0.05;  // as a fraction of that of the faces
   constexpr double core_yield = 0.2;     // likewise
   constexpr double core_density = 0.1;   // likewise
 
