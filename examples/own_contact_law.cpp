@@ -1,5 +1,5 @@
-// A user-defined contact law: loading along k1, unloading and reloading along the steeper k2 (Walton
-// and Braun 1986). The restitution is sqrt(k1/k2) at any velocity.
+// A user-defined contact law: loading along k1, unloading and reloading along the steeper k2
+// (Walton and Braun 1986). The restitution is sqrt(k1/k2) at any velocity.
 
 #include <cmath>
 #include <cstdio>

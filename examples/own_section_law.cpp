@@ -1,6 +1,6 @@
-// A user-defined section: a sandwich of two strong faces and a compliant core that yields at a larger
-// strain, compared with a solid beam of the same size. The elastic stiffness of the sandwich is
-// checked against the sum over the strips.
+// A user-defined section: a sandwich of two strong faces and a compliant core that yields at a
+// larger strain, compared with a solid beam of the same size. The elastic stiffness of the sandwich
+// is checked against the sum over the strips.
 
 #include <cmath>
 #include <cstdio>
