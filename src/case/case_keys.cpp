@@ -60,7 +60,7 @@ struct Member<std::vector<double>> {
   static constexpr KeyType type = KeyType::numbers;
   static KeyValue to_value(const std::vector<double>& x) { return x; }
   static std::vector<double> from_value(const KeyValue& v) {
-    // An empty list of a case file does not say what it is a list of.
+    // An empty list in a case file has no element type.
     const auto* numbers = std::get_if<std::vector<double>>(&v);
     return numbers != nullptr ? *numbers : std::vector<double>{};
   }

@@ -18,8 +18,7 @@ constexpr int batch = 64;
 // header for what they are worth): the angle omega_max h of a step at rtol 1e-8 is proportional to
 // what the step evaluates, and a Nystroem evaluation takes it twice as far.
 constexpr double reference_tolerance = 1e-8;
-// A beam that yields has steps cut, put right and restarted where its sections begin to flow or
-// turn.
+// The steps of a beam that yields are cut, corrected and restarted at section events.
 constexpr double share_of_yielding = 2.1;
 // Vector work, event search and recording, in right-hand sides.
 constexpr double overhead = 2.3;

@@ -7,7 +7,8 @@
 
 namespace subimpact {
 
-/// The noun as it follows a number: "zone" after 1, else "zones". For nouns whose plural adds an s.
+/// The form of a noun after a number: "zone" after 1, else "zones". For nouns whose plural adds an
+/// s.
 template <class Count>
 std::string noun_after(Count n, std::string_view noun) {
   return fmt::format("{}{}", noun, n == 1 ? "" : "s");

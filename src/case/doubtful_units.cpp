@@ -106,7 +106,7 @@ class Doubts {
         mass >= 1e4 ? fmt::format("{:.0f} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
   }
 
-  // A density that is wrong itself says nothing about lengths.
+  // A wrong density gives no information about lengths.
   bool is_too_large() const {
     const double volume = beam_.length * beam_.width * beam_.thickness;
     return volume * std::clamp(beam_.density, 1e3, heaviest) > heaviest_beam;

@@ -1,4 +1,4 @@
-// What case keys say of themselves and of values they refuse.
+// Descriptions of case keys, and messages about refused values.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

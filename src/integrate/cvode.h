@@ -8,7 +8,7 @@
 
 namespace subimpact {
 
-/// The highest orders CVODE knows.
+/// The highest orders of CVODE.
 constexpr int adams_order_limit = 12;
 constexpr int bdf_order_limit = 5;
 

@@ -62,8 +62,8 @@ std::string section_text(const Case& input, const ResolvedSettings& used) {
   return fmt::format("exact: first yield at a curvature of {:.6g} 1/m", used.yield_curvature);
 }
 
-// A nose radius describes the striker whether or not the law asks for it; where it does not, that
-// is said.
+// A nose radius describes the striker whether or not the law uses it; where it does not, the
+// explanation states this.
 std::string contact_stiffness_text(const Case& input, const ResolvedSettings& used) {
   const Contact& contact = input.scene.contact;
   const std::string unit =

@@ -103,7 +103,7 @@ void read_contact_stiffness(const Json& json, ResolvedSettings& used) {
     used.contact_stiffness = number(value);
     return;
   }
-  used.contact_stiffness = number(json.at(start + "1.5"));  // says what is missing
+  used.contact_stiffness = number(json.at(start + "1.5"));  // throws, naming the missing field
 }
 
 ResolvedSettings used_from(const Json& json) {

@@ -5,8 +5,8 @@
 
 namespace subimpact {
 
-/// Writes the whole file or none of it: under another name, then moved into place. Throws
-/// OutputError.
+/// Writes the file under another name and moves it into place, so that it is never incomplete.
+/// Throws OutputError.
 void write_file(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace subimpact

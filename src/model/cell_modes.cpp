@@ -49,7 +49,7 @@ void fill_shape(double theta, double c, double rho, bool symmetric, std::span<do
   const double amplitude = wave.stretch * at_end / (1.0 + sign * full);
   const double cosine = std::cos(theta);
   const double sine = std::sin(theta);
-  // Turned inwards from the end, cell by cell: cos and sin of theta d, e^-phi(c - d), e^-phi(c +
+  // Rotated inwards from the end, cell by cell: cos and sin of theta d, e^-phi(c - d), e^-phi(c +
   // d).
   double x = std::cos(theta * c);
   double y = std::sin(theta * c);

@@ -12,14 +12,15 @@ namespace {
 constexpr int n_histories = 8;
 constexpr int n_panels = 64;  // of an integral, even
 constexpr double tolerance = 1e-3;
-constexpr double slope_tolerance = 2e-2;  // a slope may begin as the root of the indentation
+constexpr double slope_tolerance = 2e-2;  // a slope may begin as the square root of the indentation
 
 class BrokenRule : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// By Simpson's rule in s with x = from + (to - from) s^3: branches change fastest where they begin.
+// By Simpson's rule in s with x = from + (to - from) s^3: forces change fastest where a branch
+// begins.
 template <class F>
 double integral(F f, double from, double to) {
   constexpr double h = 1.0 / n_panels;
@@ -143,7 +144,7 @@ class Rules {
   const ContactLaw& law_;
   double depth_;
   double first_yield_;
-  double force_, energy_;  // their scales
+  double force_, energy_;  // scales, N and J
   double last_residual_ = 0.0, last_threshold_ = 0.0;
 };
 

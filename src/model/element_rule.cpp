@@ -77,8 +77,8 @@ ElementRule rule_beside_hinges(bool at_start, bool at_end) {
       rule = {{far, near}, {pair.far_weight, pair.near_weight}, {}};
     }
   }
-  // mean = sum w kappa and half = 3 sum w eta kappa is what the moments' condition says; solved for
-  // the two kappa.
+  // mean = sum w kappa and half = 3 sum w eta kappa is the condition on the moments; solved for the
+  // two kappa.
   const auto& eta = rule.points;
   const auto& w = rule.weights;
   const double apart = eta[1] - eta[0];

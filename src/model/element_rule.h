@@ -6,8 +6,8 @@
 
 namespace subimpact {
 
-/// The sections of a Hermite element, whose curvature is mean + eta half, eta in [-1, 1]: where
-/// they stand, what they weigh, and what each sees of the curvature.
+/// The sections of a Hermite element, whose curvature is mean + eta half, eta in [-1, 1]: their
+/// positions, their weights, and the curvature of each.
 struct ElementRule {
   std::vector<double> points;   ///< eta
   std::vector<double> weights;  ///< shares of the element's length
@@ -21,18 +21,20 @@ struct ElementRule {
 /// for any other number.
 ElementRule gauss_rule(std::size_t n);
 
-/// The length of a hinge, as a share of the elements beside it: each gives it as much of its own.
+/// The length that each element beside a hinge gives to the hinge, as a share of the element's
+/// length.
 constexpr double hinge_share = 0.05;
 
 /// Two sections of an element with a hinge at its start, its end, or both. Under a concentrated
 /// force the moment has a peak; where it comes near the plastic moment, curvatures grow as the
-/// inverse root of the distance and at last a hinge turns. No linear curvature follows either. So a
-/// section at the node turns by itself, and the two others see
+/// inverse root of the distance and finally a hinge rotates. A linear curvature can represent
+/// neither. So the node has a section of its own, and the two other sections have curvatures such
+/// that
 ///
 ///     sum w M = mean of M,  sum w eta M = mean of eta M   for every linear M,
 ///
-/// that is, two unknowns of the element's curvature find the very moments of a linear moment in two
-/// sections, whatever their law. With the hinge's share of the weights the three integrate any
+/// that is, the two unknowns of the element's curvature determine a linear moment from two sections
+/// exactly, for any section law. With the hinge's share of the weights the three integrate any
 /// quadratic, so that an elastic beam bends as it should under linear moments; the two alone
 /// integrate x^(-1/2), x the distance from the hinge (not between two hinges).
 ElementRule rule_beside_hinges(bool at_start, bool at_end);

@@ -17,9 +17,9 @@ namespace subimpact {
 ///
 ///     kappa = (t_1 - t_0)/a + eta [6 (w_0 - w_1)/a^2 + 3 (t_0 + t_1)/a],  t = w',  eta in [-1, 1]
 ///
-/// and known (with the law that makes a moment of it) at 2 to 4 Gauss points, which are the
-/// sections: two integrate the elastic stiffness exactly. The mass is consistent, integral of
-/// rho A N^T N + J N'^T N', and banded with three entries beside the diagonal.
+/// and known (with the section law that gives the moment) at 2 to 4 Gauss points, which are the
+/// sections: two integrate the elastic stiffness exactly. The mass is consistent, integral of rho A
+/// N^T N + J N'^T N', and banded with three entries beside the diagonal.
 ///
 /// Unknowns, node by node: w and h t, both in m, with h = l/n. Supports leave out what they hold: w
 /// at a pinned end, both at a clamped one, the slope in the middle of the half model. There is a
@@ -47,7 +47,7 @@ class HermiteMesh final : public BeamMesh {
 
   /// `position` is the struck point as a fraction of the length, `n_elements` counts those of the
   /// whole beam. Throws std::invalid_argument for fewer than 4 elements, other than 2, 3 or 4
-  /// sections an element, a strike on a support, a half model of an odd number of elements, of
+  /// sections per element, a strike on a support, a half model of an odd number of elements, of
   /// unlike ends or struck off mid-span.
   HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
               std::size_t sections_per_element, Extent extent, const Options& options);

@@ -225,7 +225,7 @@ class Finder {
   void add_phases(Parity parity, Band band, std::vector<Mode>& modes) const {
     const bool below = (parity == Parity::even) == (band == Band::acoustic);  // k pi
     const double last = below ? std::floor(m_) : std::ceil(m_) - 1.0;
-    // Roots before tell about where the next ones are and how steep the phase is there.
+    // Earlier roots give estimates of the next one and of the slope of the phase there.
     double phase_before = below ? -0.25 * pi : 0.25 * pi;
     double change = 0.0;
     for (double first = 1.0; first <= last; first += static_cast<double>(n_lanes)) {

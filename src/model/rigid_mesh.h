@@ -4,7 +4,7 @@
 
 namespace subimpact {
 
-/// The beam as a rigid body, free at both ends: what remains of it as its bending stiffness grows
+/// The beam as a rigid body, free at both ends: the limit of a beam whose bending stiffness grows
 /// without bound. For impacts of two bodies, which have answers in closed form.
 ///
 ///     w(x) = q_0 + q_1 (x - l/2),   Mass = diag(rho A l, rho A l^3/12 + J l)

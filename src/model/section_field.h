@@ -10,14 +10,15 @@ namespace subimpact {
 
 /// The bending law of every section of a beam, with the memory of those that have yielded.
 ///
-/// A section costs memory only once it has yielded, and the law is asked only for a section whose
-/// curvature has left the window in which none of its fibres flows; inside it M is linear in
-/// kappa. Curvatures and moments are arrays of size() entries, one a section, in 1/m and N m.
+/// A section costs memory only once it has yielded, and the law is evaluated only for a section
+/// whose curvature has left the window in which none of its fibres flows; inside it M is linear in
+/// kappa. Curvatures and moments are arrays of size() entries, one per section, in 1/m and N m; M
+/// has the sign of the curvature.
 class SectionField {
  public:
   enum class Storage {
     when_yielded,  ///< memory and law calls only where needed
-    always         ///< every section stored and asked every time: the same numbers, for comparison
+    always         ///< every section stored and evaluated: the same numbers, for comparison
   };
 
   /// A field that never yields, M = stiffness kappa.
@@ -37,31 +38,32 @@ class SectionField {
   double tangent(std::size_t section, double curvature) const;
 
   /// The same on the smooth pieces that held at the last commit, each continued beyond its range: a
-  /// section that flowed on stays on its branch, every other one is linear. No kink lies in them.
+  /// section that continued to flow stays on its branch, every other one is linear. Neither has a
+  /// discontinuity of slope.
   void smooth_moments(std::span<const double> curvatures, std::span<double> moments) const;
   double smooth_tangent(std::size_t section, double curvature) const;
 
-  /// M of a section at rest, its window continued.
+  /// M of a section in which no fibre flows, its elastic window continued.
   double resting_moment(std::size_t section, double curvature) const {
     return stiffness_ * curvature - offset_[section];
   }
 
   /// Takes the curvatures as reached (an accepted state). Returns how many sections flowed.
   std::size_t commit(std::span<const double> curvatures);
-  /// The same, and notes which of the sections that flowed flow on, by their curvature rates (1/(m
-  /// s)).
+  /// The same; the curvature rates (1/(m s)) decide which of the sections that flowed continue to
+  /// flow.
   std::size_t commit(std::span<const double> curvatures, std::span<const double> rates);
-  /// Takes one section's curvature as reached on the way, where it reversed.
+  /// Commits the curvature at which one section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature);
 
-  /// A section that flows on from its edge.
+  /// A section that continues to flow from its edge.
   struct Flow {
     std::size_t section;
     SectionBranch branch;
   };
-  /// Those that flowed on at the last commit, in the order of their sections.
+  /// The sections that continued to flow at the last commit, in ascending order.
   const std::vector<Flow>& flowing() const { return flowing_; }
-  /// The law (none for a field that never yields) and a section's memory.
+  /// The law (none for a field that never yields) and the history of a section.
   const SectionLaw& law() const { return *law_; }
   const SectionHistory& history(std::size_t section) const;
 

@@ -7,15 +7,15 @@
 
 namespace subimpact {
 
-/// What a section remembers of its plastic bending. Curvatures x in units of kappa_y, moments
-/// m = M/M_y, work in units of M_y kappa_y per length.
+/// The history of the plastic bending of a section. Curvatures x in units of kappa_y, moments m =
+/// M/M_y, work in units of M_y kappa_y per length.
 struct SectionHistory {
   struct Point {
     double x, m;
   };
   std::vector<Point>
-      reversals;         ///< turning points still in force, alternating, ever closer together
-  Point edge{0.0, 0.0};  ///< where the last flow ended; the next reversal point if it turned
+      reversals;         ///< reversal points still in force, alternating, ever closer together
+  Point edge{0.0, 0.0};  ///< end of the last flow; perhaps the next reversal point
   int direction = 0;     ///< sense of the last flow, +1 or -1; 0: has never yielded
   double work = 0.0;     ///< integral of m dx up to the edge
 };
@@ -38,13 +38,12 @@ struct SectionBranch {
 
 /// Moment of a section whose fibres are elastic-perfectly plastic, with memory.
 ///
-/// The virgin curve is that of the fibres (Fibres). From a reversal point r the branch is
-/// m = m_r +- 2 f(|x - x_r|/2) with f the virgin curve (Masing); a branch that reaches the previous
+/// The virgin curve is that of the fibres (Fibres). From a reversal point r the branch is m = m_r
+/// +- 2 f(|x - x_r|/2) with f the virgin curve (Masing); a branch that reaches the previous
 /// reversal point continues the older branch, and beyond the largest amplitude the virgin curve
-/// holds again. For such fibres this is no approximation: it is what the sum
-/// over the fibres does (a Prandtl-Ishlinskii operator), for the continuous section and for layers
-/// alike. After flow in one sense ends at `edge`, nothing flows within 2 x_1 behind it (x_1: first
-/// yield).
+/// holds again. For such fibres this is exact: the sum over the fibres is a Prandtl-Ishlinskii
+/// operator, for the continuous section and for layers alike. After flow in one sense has ended at
+/// `edge`, no fibre flows within 2 x_1 of the edge on the side of unloading (x_1: first yield).
 ///
 /// Bending moment M in N m, with the sign of the curvature (1/m). All functions are const in the
 /// history; `commit` alone advances it, at accepted states. Curvature is taken to move
@@ -64,7 +63,7 @@ class SectionLaw {
   double moment(const SectionHistory& history, double curvature) const;   ///< M, N m
   double tangent(const SectionHistory& history, double curvature) const;  ///< dM/dkappa, N m2
 
-  /// The branch on which a section goes on that flows on from the edge of its history.
+  /// The branch of a section that continues to flow from the edge of its history.
   SectionBranch branch_from_edge(const SectionHistory& history) const;
   double moment_on(const SectionBranch& branch, double curvature) const;   ///< M, N m
   double tangent_on(const SectionBranch& branch, double curvature) const;  ///< dM/dkappa, N m2

@@ -13,9 +13,9 @@ struct SinCos {
 
 /// Sine and cosine of eight numbers at once, to two units in the last place.
 ///
-/// The quarter turns k next to y are taken off in three parts of pi/2, the first two of 33 bits, so
-/// that their products with k are exact; then come the polynomials of fdlibm (Sun Microsystems
-/// 1993) for up to an eighth of a turn. Beyond 1e6 the standard library is asked.
+/// The multiple k pi/2 nearest to y is subtracted in three parts of pi/2, the first two of 33 bits,
+/// so that their products with k are exact; then come the polynomials of fdlibm (Sun Microsystems
+/// 1993) for angles up to pi/4. Beyond 1e6 the standard library is used.
 inline SinCos sin_cos(const Lanes& y) {
   constexpr double largest = 1e6;
   constexpr double to_integer = 0x1.8p52;  // added: the sum's last bits are the nearest integer's

@@ -19,9 +19,9 @@ struct RootOptions {
 
 /// The time in (a, b] at which `guard(t)` rises through zero: Newton's method from `guess`, kept
 /// inside a bracket that shrinks with every evaluation, and bisection where Newton would leave it
-/// or stalls. The caller vouches for a sign change: value <= 0 just after a, > 0 at b. `guard` is
-/// evaluated on the trajectory, so that the root is the trajectory's and not that of an
-/// interpolant. Returns the last time at which `guard` was evaluated.
+/// or stalls. The caller guarantees a sign change: value <= 0 just after a, > 0 at b. `guard` is
+/// evaluated on the trajectory, so that the root lies on the trajectory and not on an interpolant.
+/// Returns the last time at which `guard` was evaluated.
 template <class Guard>
 double find_rise(Guard guard, double a, double b, double guess, RootOptions options) {
   assert(a <= b && options.tolerance >= 0.0 && options.max_iterations > 0);

@@ -8,7 +8,8 @@
 
 namespace subimpact {
 
-/// An integrator that cannot go on. `what()` says all; the parts are kept for reports.
+/// Thrown by an integrator that cannot continue. `what()` is the whole message; its parts are
+/// stored for reports.
 class IntegrationFailure : public std::runtime_error {
  public:
   IntegrationFailure(double time, const std::string& function, const std::string& flag,
@@ -20,12 +21,12 @@ class IntegrationFailure : public std::runtime_error {
         flag(flag) {}
   double time;           ///< s, up to which the solution is good
   std::string function;  ///< library function or own routine
-  std::string flag;      ///< its error's name
+  std::string flag;      ///< name of the error
 };
 
-/// One method's way through a smooth stretch of q'' = a(q). It knows neither beams nor events: the
-/// caller looks at each step, may ask for the state anywhere inside it, and restarts after an
-/// event.
+/// Integrates q'' = a(q) over an interval in which a is smooth, with one method. Integrators
+/// contain nothing about beams or events: the caller examines each step, may request the state at
+/// any time inside the step, and restarts after an event.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -48,8 +49,8 @@ class Integrator {
   /// the start, not an interpolant of lower order).
   virtual void state_at(double t, State& y) = 0;
 
-  /// The same, followed backwards from the step's end. It differs from state_at by the step's own
-  /// error, which is large only where the force changes within the step.
+  /// The same, integrated backwards from the end of the step. The result differs from state_at by
+  /// the step's own error, which is large only where the force changes within the step.
   virtual void state_before_end(double t, State& y) { state_at(t, y); }
 
   /// Whether the integrator has proven that no event happened in the last step, however long:

@@ -9,8 +9,8 @@ namespace subimpact {
 /// Positions and velocities in one array, [q, v], both of n entries.
 using State = std::vector<double>;
 
-/// q'' = a(q), autonomous: all an explicit integrator needs to know. Between two events, and with
-/// the memory of the laws frozen, the acceleration depends on positions alone.
+/// q'' = a(q), autonomous: all that an explicit integrator needs. Between two events, and with the
+/// memory of the laws frozen, the acceleration depends on positions alone.
 class SecondOrderOde {
  public:
   virtual ~SecondOrderOde() = default;
@@ -37,9 +37,9 @@ struct SparsityPattern {
   std::size_t n_entries() const { return rows.size(); }
 };
 
-/// Mass q'' = f(q): what implicit integrators need to know besides the acceleration. Mass and the
-/// tangent stiffness K = -df/dq share one pattern, which never changes; their entries are handed
-/// out as arrays in its order.
+/// Mass q'' = f(q): what implicit integrators need besides the acceleration. Mass and the tangent
+/// stiffness K = -df/dq share one pattern, which never changes; their entries are arrays in the
+/// order of that pattern.
 class MechanicalSystem : public SecondOrderOde {
  public:
   /// f is the sum of a stiff part, which only implicit methods can take with long steps, and the

@@ -39,7 +39,7 @@ class FigureScript {
   const std::string& caption() const { return caption_; }
   /// With the room that marks take.
   FigureSize size() const;
-  /// Writes a line across the top, above the panels: what to know before looking at it.
+  /// Writes a line across the top, above the panels: a warning about the whole figure.
   void mark(const std::string& text) { marks_.push_back(text); }
   /// The script as gnuplot wants it, tables and variables included.
   std::string text() const;

@@ -8,8 +8,9 @@
 
 namespace subimpact {
 
-/// A strike told in sentences: sub-impacts and zones, first yields, what the striker lost, and
-/// compression and recovery in terms of the beam's elastic energy. A paragraph an entry.
+/// A description of a strike in sentences: sub-impacts and zones, first yields, what the striker
+/// lost, and compression and recovery in terms of the beam's elastic energy. One paragraph per
+/// entry.
 std::vector<std::string> strike_words(const Case& input, const Result& result);
 
 }  // namespace subimpact

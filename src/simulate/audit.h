@@ -10,7 +10,7 @@
 
 namespace subimpact {
 
-/// The run ends here: what follows cannot be trusted.
+/// Ends a run; later results would not be valid.
 class RunStopped : public std::runtime_error {
  public:
   RunStopped(OutcomeKind kind, const std::string& message,
@@ -27,17 +27,17 @@ struct AuditLimits {
 };
 
 /// The accounts of a run. Energy and (where no support takes it up) momentum are conserved exactly
-/// by the equations of motion, so whatever they are off by is the integration's error. Every check
-/// either passes and is remembered as the last time at which all was well, or throws RunStopped
-/// with the interval in which the run went wrong: `unstable` for a value that is not finite or an
-/// energy far above the initial one, else `inaccurate`.
+/// by the equations of motion, so any deviation is the error of the time integration. Every check
+/// either passes, and its time is stored as the last valid one, or throws RunStopped with the
+/// interval in which the failure began: `unstable` for a value that is not finite or an energy far
+/// above the initial one, else `inaccurate`.
 class Audit {
  public:
   Audit(const StruckBeam& beam, const State& initial, AuditLimits limits = {});
 
   /// Judges the accepted state y at time t (s).
   void check(double t, const State& y) { check(t, y, accounts_.energies(y)); }
-  /// The same with the energies already at hand.
+  /// The same with energies that are already computed.
   void check(double t, const State& y, const Energies& energies);
   /// A cheap look at the struck point, for every step: throws if its motion is not finite; returns
   /// whether its speed is suspicious enough for a full check.

@@ -13,8 +13,8 @@ namespace subimpact {
 /// The indentation at both ends of a step.
 IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step);
 
-/// What rounding may make of an event function at a state y, time t (s), that meets it: m, or m/s
-/// for contact_unloads.
+/// Bound of the rounding error of an event function at a state y, time t (s), at which it vanishes:
+/// m, or m/s for contact_unloads.
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at);
 
@@ -23,8 +23,8 @@ double rounding_of(const EventFunction& function, const StruckBeam& beam, const 
 ///
 /// Events are located on the method's own trajectory to rounding: each trial state is a step of the
 /// method from the start (Integrator::state_at). The earliest event by estimate is located; the
-/// step then ends there, and what remains is searched again, in case an estimate had the order
-/// wrong. If sections leave their smooth pieces before the event, it is located again on the
+/// step then ends there, and what remains is searched again, in case the estimates have the wrong
+/// order. If sections leave their smooth pieces before the event, it is located again on the
 /// corrected trajectory.
 class EventLocator {
  public:
@@ -32,9 +32,9 @@ class EventLocator {
                bool double_roots)
       : beam_(beam), integrator_(integrator), corrector_(corrector), double_roots_(double_roots) {}
 
-  /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, the pointer then moved to a
-  /// state kept here until the next call. Returns the event at the end, if there is one.
-  /// `correction`: that of the step as it then is, not yet added to y1.
+  /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, by moving the pointer to a
+  /// state stored in this object until the next call. Returns the event at the end, if there is
+  /// one. `correction`: that of the step as it then is, not yet added to y1.
   std::optional<EventFunction> find_end(const StepEnds& whole, double& t1, const State*& y1,
                                         SectionCorrection& correction);
 
@@ -45,7 +45,7 @@ class EventLocator {
   // The instant of a crossing, its state in trial_.
   double locate(const Crossing& crossing, const StepEnds& step);
   // Moves an event found at step.t1, with step.y1 in end_, to where the corrected state meets its
-  // event function; false if that is not before `latest`: the step then has no event.
+  // event function; false if that is not before `latest`: then the step has no event.
   bool relocate(const EventFunction& function, const StepEnds& step, double latest, double& time,
                 SectionCorrection& correction);
 

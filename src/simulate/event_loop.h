@@ -12,8 +12,8 @@
 
 namespace subimpact {
 
-/// Watches a run from inside; this one ignores everything. Observers of users see less: see
-/// Observer and Observers. All states handed over are accepted ones, except the ends of steps.
+/// An observer inside the program; the base class ignores all calls. Observers of users receive
+/// less (Observer, Observers). All states passed are accepted ones, except the ends of steps.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
@@ -38,7 +38,7 @@ struct LoopOptions {
   /// Tolerance of the section correction (m/s, see SectionCorrector); infinite: no correction,
   /// histories of sections advance at step ends only.
   double correction_tolerance = std::numeric_limits<double>::infinity();
-  double largest_indentation = 0.0;  ///< m; beyond it the contact law means nothing
+  double largest_indentation = 0.0;  ///< m; the contact law is not valid beyond it
   /// Steps between two full checks of energy and momentum; events and history rows are checked too.
   long audit_interval = 32;
   /// s: the shortest time that a contact takes. Many more events than fit into it are chattering.
@@ -47,8 +47,8 @@ struct LoopOptions {
   bool double_roots = true;
 };
 
-/// The loop that all methods share: take a step, find the first event in it, end the step there,
-/// change the equations, go on.
+/// The loop that all methods share: take a step, find its first event, end the step there, change
+/// the equations, continue.
 class EventLoop {
  public:
   EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
@@ -63,7 +63,7 @@ class EventLoop {
   void advance();
 
   /// After advance() found the energy too high: whether it grows without bound in the steps that
-  /// follow. Nothing of these is observed; the loop cannot go on afterwards.
+  /// follow. Observers do not receive these steps; the loop cannot continue afterwards.
   bool energy_keeps_growing();
 
   bool finished() const { return time_ >= options_.end_time; }

@@ -10,10 +10,10 @@ namespace subimpact {
 /// striker's velocity, whose change it must equal.
 ///
 /// Over a step the indentation is taken as the cubic through its values and rates at both ends and
-/// the force of it integrated by Gauss' rule, with an error c h^5. The constant c follows from two
-/// neighbouring steps taken as one; it corrects the step's integral. Where no neighbour is known
-/// yet, or where c h^5 is above the tolerance, the step is halved, with states that the integrator
-/// gives for times within it.
+/// the force at that indentation is integrated by Gauss' rule, with an error c h^5. The constant c
+/// follows from two neighbouring steps taken as one; it corrects the step's integral. Where no
+/// neighbour is known yet, or where c h^5 is above the tolerance, the step is halved, with states
+/// that the integrator gives for times within it.
 class ForceQuadrature {
  public:
   /// `tolerance` of a step's integral, N s.

@@ -32,7 +32,7 @@ struct MethodDescriptor {
   /// Whether an elastic beam is integrated in its natural modes.
   enum class Modes {
     never,
-    where_cheaper,  ///< where the mesh says that a step in modes costs less
+    where_cheaper,  ///< where BeamMesh::prefers_modes()
     always
   };
   Modes modes = Modes::never;
@@ -69,7 +69,7 @@ const MethodDescriptor& descriptor_of(Method method);
 /// step of central differences.
 constexpr double default_part_of_critical = 0.9;
 
-/// What is asked for or, where that is left open, the default of the method.
+/// The given value or, if none is given, the default of the method.
 EventHandling events_of(const Options& options);
 ReversalHandling reversals_of(const Options& options);
 

@@ -8,7 +8,7 @@ namespace subimpact {
 
 /// A step, or a part of one between two interpolated events, as observers see it: before the
 /// correction of its end and before it is committed. The equations are still those of the step, so
-/// the states within it can be asked for.
+/// states within the step can be computed.
 class ObservedStep {
  public:
   /// `from_end`: whether states within the step are its end followed backwards
@@ -24,7 +24,7 @@ class ObservedStep {
   const State& y1() const { return ends_.y1; }
   const StepEnds& ends() const { return ends_; }
 
-  /// The method's state at a time (s) within the step, without what sections do in it.
+  /// The method's state at a time (s) within the step, without the section correction.
   void state_at(double t, State& y) const {
     if (from_end_) {
       integrator_.state_before_end(t, y);

@@ -35,8 +35,8 @@ constexpr double most_tolerated_energy = 1e-3;
 constexpr double tolerated_momentum = 1e-9;
 
 // How far the section correction of a step may be off, in units of the integrator's own tolerance
-// on velocities. At 1 it is off by a third of it, root mean square over the steps of the paper's
-// beam; a tighter one costs more steps than the events gain.
+// on velocities. At 1 the error is a third of that tolerance, root mean square over the steps of
+// the paper's beam; a smaller share costs more steps than it gains in accuracy of the events.
 constexpr double correction_share = 1.0;
 
 std::vector<std::string> tables_of(const MethodDescriptor& method) {
@@ -91,7 +91,7 @@ void check_method(const Options& options, const ResolvedSettings& used, bool can
   if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
 }
 
-// The table asked for, or the method's first; nothing for a method without tables.
+// The given table, or the first one of the method; nothing for a method without tables.
 std::optional<std::string> table_used(const Options& options) {
   const std::vector<std::string> names = tables_of(descriptor_of(options.solver.method));
   const std::optional<std::string>& asked = options.solver.table;
@@ -258,8 +258,8 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   return used;
 }
 
-// The sections nearest to the positions asked for; in a half model their mirror images stand for
-// those of the other half.
+// The sections nearest to the given positions; in a half model their mirror images stand for those
+// of the other half.
 std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
                                      const BeamMesh& mesh) {
   std::vector<std::size_t> sections;

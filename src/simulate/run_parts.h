@@ -13,7 +13,7 @@ namespace subimpact {
 
 /// In which unknowns a beam is integrated.
 enum class Coordinates {
-  chosen,  ///< natural modes for an elastic beam where the method asks for them or they are cheaper
+  chosen,  ///< natural modes for an elastic beam where the method needs them or they are cheaper
   of_mesh  ///< the mesh's own
 };
 

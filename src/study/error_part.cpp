@@ -13,9 +13,9 @@
 namespace subimpact {
 namespace {
 
-// Of a duration or separation, the error that makes it uncertain. Two errors of half of it may
-// close it; small differences in time may grow faster than one refined run tells, so there half of
-// that.
+// The share of a duration or separation at which an error makes it uncertain. Two errors of half a
+// separation may close it; small differences in time may grow faster than one refined run shows, so
+// the share for time is half as large.
 constexpr double unresolved_share = 0.5;
 constexpr double unresolved_share_in_time = 0.25;
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
@@ -42,7 +42,7 @@ std::string unresolved_reason(const std::vector<SubImpact>& all, std::size_t i, 
   return {};
 }
 
-// The trust that some errors deserve; `n_refined` sub-impacts were there to correspond.
+// The error estimate from one refined run, which has `n_refined` sub-impacts.
 ErrorEstimate::Part judge(const std::vector<SubImpact>& all, const ErrorPart& part) {
   ErrorEstimate::Part estimate{part.name, part.refined_run, std::nullopt, {}, 0.0};
   const std::size_t n = part.errors.size();
@@ -114,7 +114,7 @@ void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
   total.n_refined = all.size();
   if (parts.size() == 1) total.name = parts.front().name;
   const ErrorEstimate::Part together = judge(all, total);
-  // A part by itself comes first where it says why.
+  // A single part takes precedence, because it names the cause.
   const auto first = [](const ErrorEstimate::Part& part) {
     return part.first_unresolved.value_or(std::numeric_limits<std::size_t>::max());
   };

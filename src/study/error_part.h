@@ -8,7 +8,7 @@
 
 namespace subimpact {
 
-/// What one refined run says of the errors of another run's sub-impacts.
+/// Errors of the sub-impacts of a run, from one refined run.
 struct ErrorPart {
   std::string name;            ///< "time", "mesh", "layers"
   std::string refined_run;     ///< the refined run, in words
@@ -19,12 +19,12 @@ struct ErrorPart {
 
 /// The error of each leading sub-impact that both runs have: `factor` times the largest difference
 /// of starts and ends over it and its neighbours, so that a difference that happens to pass through
-/// zero does not pose as accuracy.
+/// zero is not taken for accuracy.
 ErrorPart compare_events(const Result& result, const Result& refined_run, std::string name,
                          std::string description, double factor);
 
-/// Gives every sub-impact its errors, part by part and in sum, and says from where on neither count
-/// nor order is certain: Result::error_estimate.
+/// Gives every sub-impact its errors, part by part and in sum, and finds the first one from which
+/// neither count nor order is certain: Result::error_estimate.
 void set_error_bars(Result& result, const std::vector<ErrorPart>& parts);
 
 }  // namespace subimpact

@@ -21,9 +21,9 @@ namespace subimpact {
 namespace {
 
 constexpr double safety = 3.0;              // of differences in time
-constexpr double mesh_safety = 1.5;         // of what the finer mesh tells
+constexpr double mesh_safety = 1.5;         // times the difference from the finer mesh
 constexpr double layers_safety = 1.5;       // of one that is the error but for the mesh
-constexpr double order_uncertainty = 0.35;  // of the ratio of differences that an order asks for
+constexpr double order_uncertainty = 0.35;  // of the ratio of differences for an order
 
 // The whole number nearest to x that is odd (or even), or just the nearest.
 int nearest(double x, bool any, bool odd) {

@@ -12,7 +12,7 @@
 namespace subimpact {
 namespace {
 
-// The reference is to be this much better than the finest error there is advice for.
+// Error of the reference over the finest error with a recommendation, at most.
 constexpr double reference_share = 0.1;
 // A tolerance ten times tighter costs up to this many times more (order 3: 2.2).
 constexpr double growth_of_a_decade = 2.2;

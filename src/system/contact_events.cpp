@@ -9,8 +9,9 @@
 namespace subimpact {
 namespace {
 
-// A cubic through a step's ends is trusted to have the height of a local maximum between them right
-// to this part of the height; a maximum that comes closer to zero is searched on the trajectory.
+// A cubic through the ends of a step is assumed to have the height of a local maximum between them
+// right to this part of the height; a maximum that comes closer to zero is searched on the
+// trajectory.
 constexpr double uncertain_share = 0.5;
 
 using MaybeCrossing = std::optional<Crossing>;

@@ -21,16 +21,16 @@ struct Crossing {
   double t_upper = 0.0;  ///< it is positive here
   double guess = 0.0;    ///< estimate of the instant
   /// The event function is negative at both ends of the step and comes close to zero in between,
-  /// near `guess`: whether it has a double root must be found out on the trajectory.
+  /// near `guess`: whether it has a double root is decided on the trajectory.
   bool unresolved = false;
 };
 
 /// What find_crossing looks for.
 struct CrossingSearch {
-  /// Event functions left out, because they have been dealt with in the step.
+  /// Event functions that are left out, because their events in this step have been treated.
   const std::vector<EventFunction>& without;
-  /// Whether a branch left and regained within one step is looked for; off only to show what is
-  /// then missed.
+  /// Whether a branch left and regained within one step is looked for; off only to show which
+  /// events are then missed.
   bool double_roots = true;
   /// m: an excursion smaller than this is below the rounding of the displacements.
   double rounding = 0.0;

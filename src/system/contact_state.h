@@ -9,7 +9,7 @@
 
 namespace subimpact {
 
-/// How laws with branches are evaluated between two commits.
+/// Evaluation of laws with branches between two commits.
 enum class Evaluation {
   smooth,    ///< the branch in force is continued beyond its range; its end is located as an event
   switching  ///< the branch follows the motion, as in schemes that do not locate events
@@ -19,11 +19,11 @@ enum class Evaluation {
 /// before and positive after its event.
 struct EventFunction {
   EventKind kind;
-  double sense = 1.0;  ///< of the indentation's motion before contact_unloads
+  double sense = 1.0;  ///< sign of the indentation rate before contact_unloads
 };
 
 /// The contact between striker and beam in one run: the law, the branch in force and the history.
-/// A function of the indentation lambda (m) and its rate (m/s) alone.
+/// Force and event functions depend on the indentation lambda (m) and its rate (m/s) alone.
 ///
 /// Event functions, by branch (lambda_r, lambda_y: residual indentation, yield threshold):
 ///
@@ -49,17 +49,17 @@ class ContactState {
   };
   Energies energies(double indentation) const;
 
-  /// Value (m) and rate (m/s) of an event function; for contact_unloads the value is -rate, and its
-  /// own rate, which needs the acceleration, is left at 0.
+  /// Value (m) and rate (m/s) of an event function; for contact_unloads the value is -rate, and the
+  /// rate of that value, which needs the acceleration, is left at 0.
   EventValue event_function(EventKind kind, double indentation, double rate) const;
 
   void set_evaluation(Evaluation how) { evaluation_ = how; }
-  /// Starts from a state of the caller's choice.
+  /// Sets a branch and a history, as at the start of a run.
   void set(ContactBranch branch, ContactHistory history) {
     branch_ = branch;
     history_ = history;
   }
-  /// Takes the indentation as reached.
+  /// Advances the history to this indentation.
   void commit(double indentation);
   /// Changes the branch at an event of the contact.
   void pass(EventKind event, double indentation);
@@ -67,7 +67,7 @@ class ContactState {
   void follow(double indentation) { branch_ = law_->branch(history_, indentation); }
 
  private:
-  // Whether the history grows with the indentation.
+  // Whether the largest indentation grows with the present one.
   bool loads() const {
     return branch_ == ContactBranch::plastic || evaluation_ == Evaluation::switching;
   }

@@ -17,15 +17,16 @@ namespace subimpact {
 /// the curvatures of the shape u that a unit force at the struck point gives the beam when the
 /// inertia of its rigid motion balances it: d = u^T K w for any w. Let C = sum W k kbar^2 be that
 /// shape's compliance and E the energy of the beam beyond its rigid motion, kinetic and elastic.
-/// Plastic work D still to come takes from E and nothing adds to it, so
+/// Future plastic work D reduces E, and nothing increases E, so
 ///
 ///   - |sum W kbar M| <= sqrt(2 C U_e) <= sqrt(2 C (E - D)), since M^2/(2 k) is at most the elastic
 ///     energy of a section (both by Cauchy and Schwarz);
 ///   - the plastic part of d changes by no more than a D, a = max|kbar| modulus h/(2 Y) (times
-///     Fibres::extent, 1 for a rectangle), since a fibre that flows by d eps takes Y |d eps| of
-///     energy.
+///     Fibres::extent, 1 for a rectangle), since a fibre that flows by d eps dissipates Y |d eps|
+///     per volume.
 ///
-/// Over 0 <= D <= E their sum is at most f = sqrt(2 C E), or a E + C/(2 a) if 2 a^2 E > C. Hence
+/// Over 0 <= D <= E the sum of both parts is at most f = sqrt(2 C E), or a E + C/(2 a) if 2 a^2 E >
+/// C. Hence
 ///
 ///     lambda(t) <= [w_m - R - d_p + f] + (v_m - R') t   for all later t,
 ///

@@ -13,9 +13,9 @@ namespace {
 // A step that must be cut ends after its first event, by this part of what is estimated to be
 // tolerable.
 constexpr double cut_safety = 0.8;
-// The coupling of events is followed to first order. This part of it is taken to be left: with it
-// steps of the paper's beam at rtol 1e-11 are off by 0.7 of the tolerance (root mean square),
-// without it single ones by 600 times the tolerance.
+// The coupling of events is followed to first order. This share of the coupling is assumed to
+// remain: with it steps of the paper's beam at rtol 1e-11 are off by 0.7 of the tolerance (root
+// mean square), without it single ones by 600 times the tolerance.
 constexpr double coupling_left = 0.03;
 // Steps shorter than this, in radians of the highest frequency, are not cut: in a very short step
 // curvatures reverse by rounding.

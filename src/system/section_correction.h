@@ -21,15 +21,16 @@ struct SectionCorrection {
   SectionField reversed(const SectionField& sections) const;
 };
 
-/// Defect correction of a step for what sections do in it beyond the smooth pieces of their laws.
+/// Defect correction of a step for section events: sections that leave, within the step, the smooth
+/// pieces of their laws.
 ///
 /// With A = Mass^-1 B^T W (-dM/dkappa) B and a_k = Mass^-1 (-B^T W) (k-th moments of the defects),
 ///
 ///     change of w' = a_0 + A a_2 + A^2 a_4 + ..,   change of w = a_1 + A a_3 + A^2 a_5 + ..,
 ///
-/// expansions in the time since the first event, taken as far as the tolerance asks. The a_k come
-/// without mass solves (SectionInfluence); each further pair of terms costs two. Changes nothing in
-/// the beam.
+/// expansions in the time since the first event, continued until the next term is below the
+/// tolerance. The a_k come without mass solves (SectionInfluence); each further pair of terms costs
+/// two. The beam is not changed.
 class SectionCorrector {
  public:
   /// `beam` must outlive this. `tolerance`: how far velocities at the step's end may be off by the

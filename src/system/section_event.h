@@ -18,13 +18,13 @@ struct SectionInStep {
   std::optional<double> reverses;  ///< when its undisturbed path reverses, if it does
 };
 
-/// What one section did within a step beyond the smooth piece of its law.
+/// An event of one section within a step: the section left the smooth piece of its law.
 ///
 /// From `start` on, the moment of the piece was wrong by the defect
 ///
 ///     d(t) = M(kappa(t), history) - M_piece(kappa(t)),
 ///
-/// with the piece's linear answer `tangent` to the changes of kappa by events left out of it.
+/// without the linear response (`tangent`) of the piece to changes of kappa by events.
 struct SectionEvent {
   std::size_t section;
   double start;  ///< s: when the section left its piece
@@ -46,9 +46,9 @@ class SectionFollower {
   explicit SectionFollower(const SectionField& sections) : sections_(sections) {}
 
   /// The event of a section on `path`, in a step from t0 (s) of a length (s); nothing if the
-  /// section, disturbed by earlier events, stays on its piece. `own_coupling`: how the section's
-  /// curvature answers its own moment, 1/(m s2) per N m; its own flow is added to `path`.
-  /// `first_event`: part of the step from which on the path is disturbed, at most 1.
+  /// section, disturbed by earlier events, stays on its piece. `own_coupling`: curvature
+  /// acceleration of the section due to its own moment, 1/(m s2) per N m; its own flow is added to
+  /// `path`. `first_event`: part of the step from which on the path is disturbed, at most 1.
   std::optional<SectionEvent> follow(const SectionInStep& section, SectionPath& path,
                                      double own_coupling, double first_event, double t0,
                                      double length);

@@ -10,7 +10,7 @@
 
 namespace subimpact {
 
-/// What moves the sections at one end of a step: W_j times the moments M of the smooth pieces and
+/// The loads on the sections at one end of a step: W_j times the moments M of the smooth pieces and
 /// their rates (N m2, N m2/s), one entry per section, and the contact force with its rate (N, N/s).
 struct SectionLoads {
   std::vector<double> weighted_moments, weighted_moment_rates;

@@ -51,7 +51,7 @@ class SectionInfluence {
 
   const BeamMesh& mesh_;
   const MassSolver& mass_solver_;
-  std::vector<int> slot_;  // index into known_, -1: not asked for yet
+  std::vector<int> slot_;  // index into known_, -1: not computed yet
   std::vector<Influence> known_;
 };
 

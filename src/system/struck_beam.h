@@ -38,9 +38,9 @@ struct SectionMotion {
 ///     Mass w'' = -B^T W M(kappa, history) + S F,   m w_m'' = -F,   F = F(lambda, history),
 ///     kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) of the sign of the curvature. What the branches of the laws do within a step is a
-/// matter of the parts beside this one: ContactState and find_crossing, SectionCorrector; energies
-/// and momenta are those of Accounts.
+/// with M (N m) of the sign of the curvature. Other classes treat changes of branch within a step:
+/// ContactState and find_crossing for the contact, SectionCorrector for the sections. Accounts
+/// computes energies and momenta.
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
@@ -88,10 +88,9 @@ class StruckBeam final : public MechanicalSystem {
 
   void set_section_evaluation(Evaluation how) { section_evaluation_ = how; }
   Evaluation section_evaluation() const { return section_evaluation_; }
-  /// Takes y as reached: advances the histories of contact and sections. Returns whether any
-  /// section flowed.
+  /// Accepts y: advances the histories of contact and sections. Returns whether any section flowed.
   bool commit(const State& y);
-  /// Takes a section's curvature (1/m) as reached on the way to the next state, where it reversed.
+  /// Commits the curvature (1/m) at which a section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature) {
     sections_.commit_reversal(section, curvature);
   }
@@ -124,7 +123,7 @@ class StruckBeam final : public MechanicalSystem {
   double highest_frequency_;
   Scales scales_;
   Evaluation section_evaluation_ = Evaluation::switching;
-  mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first asks
+  mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first needs it
   long n_accelerations_ = 0;
   long n_forces_ = 0;
   AlignedVector curvatures_, moments_;  // of the last evaluation

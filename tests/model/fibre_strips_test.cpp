@@ -40,7 +40,7 @@ class FibreSum {
       }
     }
   }
-  /// -M, N m, and the memory advanced.
+  /// M, N m; advances the history.
   double bend(double curvature) {
     double moment = 0.0;
     energy_ = 0.0;

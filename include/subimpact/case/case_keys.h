@@ -22,7 +22,7 @@ using KeyValue = std::variant<bool, std::int64_t, double, std::string, std::vect
 
 enum class KeyType {
   text,    ///< any text
-  number,  ///< finite, unless the key says that infinity is allowed
+  number,  ///< finite, unless the key allows infinity
   count,   ///< whole number
   flag,    ///< true or false
   choice,  ///< one of the key's choices

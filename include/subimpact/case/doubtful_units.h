@@ -7,9 +7,10 @@
 
 namespace subimpact {
 
-/// Values that are probably given in another unit than the case file's, as lengths in mm or
-/// stresses in MPa: one sentence a key, with the value, what makes it doubtful and what to write if
-/// that unit was meant. Empty for every plausible scene; a doubtful one can be run all the same.
+/// Values that are probably given in another unit than that of the case file, such as lengths in mm
+/// or stresses in MPa: one sentence per key, with the value, what makes it doubtful and what to
+/// write if that unit was meant. Empty for every plausible scene; a doubtful one can be run all the
+/// same.
 std::vector<std::string> doubtful_units(const Case& input);
 
 }  // namespace subimpact

@@ -51,8 +51,8 @@ class LoadedCase {
   std::map<std::string, std::string> places_;  // key -> "file:line:column" or an override's origin
 };
 
-/// Reads a case file, lets the overrides replace what it says, and checks the whole. Every problem
-/// found is reported at once. Throws CaseFileError.
+/// Reads a case file, replaces its values by the overrides, and checks the whole case. Every
+/// problem found is reported at once. Throws CaseFileError.
 LoadedCase read_case_file(const std::filesystem::path& path,
                           const std::vector<Override>& overrides = {});
 

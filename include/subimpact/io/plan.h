@@ -10,7 +10,7 @@ namespace subimpact {
 /// Extrapolated times with their uncertainty, and every mesh's error against them.
 std::string mesh_limit_table(const MeshLimit& limit);
 
-/// What was tried on which mesh, and the cheapest combination with the options that ask for it.
+/// What was tried on which mesh, and the cheapest combination with the options that select it.
 std::string plan_table(const Plan& plan);
 
 /// Writes meshes.csv, mesh_limit.csv and plan.csv. Throws OutputError.

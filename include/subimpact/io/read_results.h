@@ -1,6 +1,6 @@
 #pragma once
 
-/// A run read back from the files it left.
+/// A finished run, read back from its files.
 
 #include <filesystem>
 #include <stdexcept>
@@ -13,8 +13,8 @@
 
 namespace subimpact {
 
-/// Files of a run that are missing or not what write_results() writes; `what()` names file and
-/// line, what was found, and what to do.
+/// Thrown if files of a run are missing or do not have the format of write_results(); `what()`
+/// names file and line, what was found, and what to do.
 class ResultsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

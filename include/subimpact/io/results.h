@@ -24,12 +24,13 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Makes the directory and tries it out, so that a run is not made for nothing. Throws OutputError.
+/// Creates the directory and tests that it can be written, before time is spent on a run. Throws
+/// OutputError.
 void prepare_output_directory(const std::filesystem::path& directory);
 
-/// Writes events.csv, transitions.csv, history.csv and summary.json, and sections.csv if sections
-/// were asked for. Each file appears whole or not
-/// at all: it is written under another name and then moved into place. Throws OutputError.
+/// Writes events.csv, transitions.csv, history.csv and summary.json, and sections.csv if
+/// output.sections is not empty. Each file appears whole or not at all: it is written under another
+/// name and then moved into place. Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
 /// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact).

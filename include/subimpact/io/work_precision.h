@@ -12,7 +12,7 @@
 
 namespace subimpact {
 
-/// The reference, one line a point, what went wrong in words.
+/// The reference, one line per point, and why a point is not right, in words.
 std::string work_precision_table(const WorkPrecision& study);
 
 /// One sentence for each wanted error.
@@ -39,7 +39,7 @@ class PointLog {
   std::map<std::string, WorkPrecisionPoint> known_;
 };
 
-/// Tells cases apart: a fingerprint of the program's version and of all keys of the case but those
+/// Identifies a case: a fingerprint of the program's version and of all keys of the case but those
 /// a study sets itself (method, table, tolerance, step), the title and the outputs.
 std::string case_id(const Case& input);
 

@@ -18,7 +18,7 @@ struct SparseFunctional {
     double coefficient;
   };
   std::vector<Term> terms;
-  std::vector<double> dense;  ///< the same, one coefficient an unknown, where the terms are many
+  std::vector<double> dense;  ///< the same, one coefficient per unknown, where the terms are many
 
   double operator()(std::span<const double> unknowns) const {
     if (!dense.empty()) return of_all(unknowns);
@@ -46,16 +46,18 @@ struct SparseFunctional {
 ///
 ///     Mass q'' = -B^T W M(kappa) + S F,
 ///
-/// S the struck point's functional, so that bending work is sum W M dkappa and contact work F dS
-/// q: no energy appears or is lost in space. Where symmetry halves the unknowns, the mirrored half
-/// is folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
+/// with the bending moments M, of the sign of the curvature, and the functional S of the struck
+/// point. Bending work is sum W M dkappa and contact work F d(S q), so the discretisation in space
+/// neither produces nor loses energy. Where symmetry halves the unknowns, the mirrored half is
+/// folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
 ///
-/// A mesh of one's own derives from this class, fills the protected members in its constructor and
-/// goes into `Case::parts.mesh` or `Problem::mesh`; the built-in meshes use the same door. What
-/// must hold: Mass is positive definite, of half bandwidth up to 3; curvatures(), bending_forces()
-/// and section_stencil() are one and the same B; the highest frequency is not below that of the
-/// mesh (time steps follow from it). The functions are pure: runs in several threads may share a
-/// mesh. A run whose mesh breaks these rules gains or loses energy and ends as `inaccurate`.
+/// A user-defined mesh derives from this class, fills the protected members in its constructor and
+/// is assigned to `Case::parts.mesh` or `Problem::mesh`; the built-in meshes use the same
+/// interface. Requirements: Mass is positive definite, of half bandwidth up to 3; curvatures(),
+/// bending_forces() and section_stencil() are one and the same B; the highest frequency is not
+/// below that of the mesh (time steps follow from it). The functions are pure: runs in several
+/// threads may share a mesh. A run whose mesh breaks these rules gains or loses energy and ends as
+/// `inaccurate`.
 ///
 /// Fixed today: one generalised strain per section, the curvature, and one elastic bending
 /// stiffness for all sections (the argument `bending_stiffness`). Shear, or a stiffness per

@@ -4,7 +4,7 @@
 
 namespace subimpact {
 
-/// What the contact remembers: the largest indentation that it has ever seen (m).
+/// The history of the contact: its largest indentation so far (m).
 struct ContactHistory {
   double max_indentation = 0.0;
 };
@@ -12,12 +12,12 @@ struct ContactHistory {
 /// The pieces of the force-indentation relation; each is smooth on its own.
 enum class ContactBranch {
   separated,  ///< no force
-  elastic,    ///< un- and reloading, reversible
+  elastic,    ///< unloading and reloading, reversible
   plastic     ///< virgin loading: the indentation grows beyond all earlier ones
 };
 
-/// The power law K lambda^n that a contact follows when it first closes, at least in size. Scales
-/// of time and tolerances of the run come from it, so it need not be exact.
+/// The power law K lambda^n of a contact that closes for the first time, at least in magnitude.
+/// Scales of time and tolerances of the run come from it, so it need not be exact.
 struct ContactScales {
   double stiffness;  ///< K, N/m^n
   double exponent;   ///< n, at least 1
@@ -26,9 +26,9 @@ struct ContactScales {
 /// Force F (N) between the striker's nose and the beam's surface as a function of the indentation
 /// lambda (m), the striker's displacement less that of the struck point.
 ///
-/// A law of one's own derives from this class and goes into `Case::parts.contact_law`; the built-in
-/// laws come in through the same door. With the largest indentation so far lambda_m (the history),
-/// the residual indentation lambda_r and the yield threshold lambda_y,
+/// A user-defined law derives from this class and is assigned to `Case::parts.contact_law`; the
+/// built-in laws use the same interface. With the largest indentation so far lambda_m (the
+/// history), the residual indentation lambda_r and the yield threshold lambda_y,
 ///
 ///     separated  lambda <= lambda_r               F = 0
 ///     elastic    lambda_r < lambda <= lambda_y    F = elastic_force(history, lambda)
@@ -37,24 +37,24 @@ struct ContactScales {
 /// A law that never yields has an infinite yield threshold and a residual indentation of zero. One
 /// that yields from the first touch on has the threshold lambda_m.
 ///
-/// **What must hold.** The run ends at events where one branch takes over from another, and its
-/// accounts of energy and impulse are closed with the law's own, so a law that does not keep to
+/// **Requirements.** Steps end at the events at which one branch follows another, and the balances
+/// of energy and impulse of the run contain the energies of the law, so a law that breaks one of
 /// these rules ends the run as `inaccurate`:
 ///
 ///   - the functions are pure: they depend on their arguments alone, change nothing, and may be
 ///     called from several threads at once;
 ///   - F is continuous: elastic_force is 0 at lambda_r; it equals plastic_force at lambda_y, both
 ///     for the history before yielding goes on and for the history {lambda} after it;
-///   - contact pushes: F > 0 in the elastic and plastic range;
+///   - the force is compressive: F > 0 in the elastic and plastic range;
 ///   - 0 <= lambda_r <= lambda_y, and neither falls while lambda_m grows;
 ///   - the slopes are the derivatives of the forces;
 ///   - the energies are the work of the force: d(recoverable)/d lambda = F on the elastic branch;
 ///     along the plastic branch recoverable + dissipated grow by F d lambda, and dissipated never
 ///     falls.
 ///
-/// Forces are asked for a little beyond their range too, inside steps whose end is then moved to
-/// the branch's end: there they should go on smoothly, whatever their sign. One evaluation of the
-/// equations of motion asks for one force.
+/// Forces are also evaluated a little beyond the range of their branch, in steps that are then cut
+/// at the end of the branch: there they should continue smoothly, with either sign. One evaluation
+/// of the equations of motion evaluates one force.
 ///
 /// The history is changed only by the run, at accepted steps and events, never inside an
 /// evaluation. A force that depends on velocities does not fit this interface.
@@ -77,13 +77,13 @@ class ContactLaw {
   virtual double plastic_force(double indentation) const = 0;  ///< N
   virtual double plastic_slope(double indentation) const = 0;  ///< N/m
 
-  /// Work (J) that the contact gives back on unloading from here. On the plastic branch `history`
-  /// is that of the indentation itself.
+  /// Work (J) that the contact returns on unloading from this indentation. On the plastic branch
+  /// `history` is that of the indentation itself.
   virtual double recoverable_energy(ContactHistory history, double indentation) const = 0;
   /// Work (J) that plastic indentation has consumed so far.
   virtual double dissipated_energy(ContactHistory history) const = 0;
 
-  /// The largest slope dF/dlambda (N/m) that any history shows up to an indentation: the step limit
+  /// The largest slope dF/dlambda (N/m) that any history has up to an indentation: the step limit
   /// of central differences follows from it. By default that of unloading from there.
   virtual double largest_slope(double indentation) const {
     return elastic_slope({indentation}, indentation);

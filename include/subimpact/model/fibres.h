@@ -15,12 +15,12 @@ struct FibreStrip {
   double yield = 1.0;    ///< yield stress over Beam::yield_stress
 };
 
-/// The bending law of a section: how the fibres of one half of it are spread.
+/// The bending law of a section: the distribution of fibres over one half of the section.
 ///
-/// A section of one's own is a list of strips (`strips`) and goes into `Case::parts.section`: any
+/// A user-defined section is a list of strips (`strips`), assigned to `Case::parts.section`: any
 /// section that is symmetric about its neutral axis, of elastic-perfectly plastic materials. The
-/// sections that a case file can name come in through the same door: `continuous`, the rectangle,
-/// and `layered`, the rectangle as p equal layers a half whose stress is taken at mid-layer.
+/// sections of a case file use the same interface: `continuous`, the rectangle, and `layered`, the
+/// rectangle as p equal layers per half whose stress is taken at mid-layer.
 ///
 /// Model: every fibre is linear elastic-perfectly plastic, strains are linear over the thickness.
 /// With the curvature x = kappa/kappa_y and the moment m = M/M_y in units of the rectangular beam
@@ -34,10 +34,10 @@ struct FibreStrip {
 ///
 ///     m(x) = 3 [x S_2(z_e) + S_1 - S_1(z_e)],  z_e = 1/x
 ///
-/// (fibres below z_e are elastic, the others carry their yield stress). Un- and reloading follow
-/// from it by Masing's rules, which are exact for such fibres. The rectangle has m = x up to 1 and
-/// 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a first yield at x = 2p/(2p - 1):
-/// properties of that law, not errors of this code.
+/// (fibres below z_e are elastic, the others carry their yield stress). Unloading and reloading
+/// follow from the virgin curve by Masing's rules, which are exact for such fibres. The rectangle
+/// has m = x up to 1 and 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a first yield
+/// at x = 2p/(2p - 1): properties of that law, not errors of this code.
 ///
 /// Mass and rotary inertia remain those of Beam: choose its density so that the mass per length is
 /// that of the section. Shear deformation is left out, so a core that is soft in shear is not

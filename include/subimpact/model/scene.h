@@ -1,7 +1,7 @@
 #pragma once
 
 /// The scene as plain data: a uniform rectangular beam, at rest, struck sideways by a rigid mass
-/// with a round nose. SI units. Nothing here knows about discretisation or time stepping.
+/// with a round nose. SI units. Nothing here depends on discretisation or time stepping.
 
 #include <array>
 #include <limits>

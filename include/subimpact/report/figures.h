@@ -29,7 +29,7 @@ std::vector<std::string> figures_left_out(const Case& input, const Result& resul
 /// (force and back stress), `indentation` (force against indentation), `energies` (with zones),
 /// `timeline` (start, duration and impulse of every sub-impact), `bending` (moment against
 /// curvature of the sections kept). The gnuplot scripts, tables included, stay beside them. Figures
-/// of a run that did not complete say so above their panels. Throws OutputError if gnuplot is
+/// of a run that did not complete state this above their panels. Throws OutputError if gnuplot is
 /// missing or fails.
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
                           const Result& result);

@@ -10,8 +10,8 @@ namespace subimpact {
 
 class StruckBeam;
 
-/// Called now and then with the simulated time, s; for progress displays. Returning false stops the
-/// run, which then ends as it does at its end time but with the outcome `stopped`.
+/// Called at intervals with the simulated time, s; for progress displays. Returning false ends the
+/// run as at its end time, but with the outcome `stopped`.
 using Progress = std::function<bool(double time)>;
 
 /// A point's motion across the beam, positive in the direction of the strike.
@@ -20,7 +20,7 @@ struct PointMotion {
   double velocity;      ///< m/s
 };
 
-/// Striker and beam at one instant of a run. Valid only within the call that hands it over.
+/// Striker and beam at one instant of a run. Valid only during the call that receives it.
 class RunView {
  public:
   RunView(double time, const std::vector<double>& state, const StruckBeam& beam)
@@ -54,7 +54,7 @@ class RunView {
 ///
 /// The calls come in the order of time, in the thread that runs simulate(). States are those that
 /// the run has accepted; nothing that is shown is taken back, unless the run ends as `inaccurate`
-/// or `unstable`, when Outcome::first_failure says how far to trust it. A run without an observer
+/// or `unstable`, when the states are valid up to Outcome::first_failure. A run without an observer
 /// costs nothing for this interface. An exception that leaves an observer ends the run and leaves
 /// simulate(); to end a run with results, let the progress function return false.
 class Observer {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How a run goes: method, tolerances, events, what is kept. Each member is a key of the case file
+/// Options of a run: method, tolerances, events, output. Each member is a key of the case file
 /// ("solver.rtol"); case_keys() (see case/case_keys.h) lists them with units, defaults and ranges.
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace subimpact {
 
-/// What becomes of an event inside a step.
+/// Treatment of an event inside a step.
 enum class EventHandling {
   located,      ///< the step is retaken to end at the event, found on the trajectory itself
   interpolated  ///< the step stands; the event's time is interpolated within it (the paper's
@@ -19,7 +19,7 @@ enum class EventHandling {
 };
 
 enum class ReversalHandling {
-  located,  ///< where sections begin to flow or turn is found, and the step's end corrected
+  located,  ///< section events are located, and the end of the step is corrected
   step_end  ///< history advances at step ends only
 };
 
@@ -37,7 +37,7 @@ struct SolverOptions {
   std::optional<int> max_order;               ///< adams and bdf; empty: default of the method
 };
 
-/// What results must come up to.
+/// Accuracy that results must have.
 struct AccuracyOptions {
   /// Largest error of the energy, relative to the initial energy, of a run that counts as
   /// completed; empty: follows from method and rtol, 1e-3 at most.
@@ -63,7 +63,7 @@ struct OutputOptions {
   }
 };
 
-/// Who solves with the mass matrix.
+/// Solver of systems with the mass matrix.
 enum class MassSolverKind { banded, klu };
 
 enum class VectorOperationsKind { project, library };
@@ -85,8 +85,8 @@ struct Options {
   StudyOptions study;
 };
 
-/// Settings that cannot be run as asked. `key` is the case file's ("solver.step"); `what()` says
-/// what is wrong, what is allowed and what to do.
+/// Settings that cannot be run as given. `key` is the key of the case file ("solver.step");
+/// `what()` says what is wrong, what is allowed and what to do.
 class InvalidCase : public std::runtime_error {
  public:
   InvalidCase(std::string key, const std::string& message)

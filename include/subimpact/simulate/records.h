@@ -1,6 +1,6 @@
 #pragma once
 
-/// The sub-impacts that events amount to.
+/// Sub-impacts, assembled from events.
 
 #include <cstddef>
 #include <optional>
@@ -22,13 +22,13 @@ struct SubImpact {
   double striker_velocity = 0.0;       ///< m/s, at its end
   int zone = 0;                        ///< numbered from 1
   int subzone = 0;                     ///< numbered from 1 within the zone
-  std::optional<double> start_error;   ///< s, estimated error of start, if asked for: sum of parts
-  std::optional<double> end_error;     ///< s, estimated error of end
+  std::optional<double> start_error;   ///< s, error estimate of start: sum of its parts
+  std::optional<double> end_error;     ///< s, error estimate of end
   std::optional<double> error_time;    ///< s, their part from the integration in time
   std::optional<double> error_mesh;    ///< s, from the mesh
   std::optional<double> error_layers;  ///< s, from layers in place of the exact section
-  /// Times extrapolated to the limit of fine meshes (s) and how far they are trusted, where a
-  /// sequence of meshes shows its order.
+  /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
+  /// meshes converges at the expected order.
   std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
 };
 

@@ -49,7 +49,7 @@ struct SectionRow {
 /// How a simulation ended.
 enum class OutcomeKind {
   completed,      ///< the end was reached, and energy, momentum and events were right all the way
-  stopped,        ///< the caller's progress function asked to stop
+  stopped,        ///< the caller's progress function returned false
   inaccurate,     ///< energy, momentum, an impulse or an event was off by more than the tolerance
   unstable,       ///< the energy grows without bound, or a value is not finite
   chattering,     ///< the contact opened and closed over and over while time stood still
@@ -107,15 +107,15 @@ struct ResolvedSettings {
   double energy_tolerance = 0.0;    ///< relative to the initial energy
 };
 
-/// The cost of a run: of the integration (mass solves and right-hand sides of the beam included)
-/// and of what goes with it.
+/// The cost of a run: of the integration (including mass solves and right-hand sides of the beam)
+/// and of event location.
 struct Work : WorkCounts {
   long roots = 0;  ///< events located
   double setup_seconds = 0.0;
   double wall_seconds = 0.0;  ///< whole, set-up included
 };
 
-/// How far the event times of a result can be trusted.
+/// Error estimates of the event times of a result.
 struct ErrorEstimate {
   std::string refined_run;  ///< the runs it was compared with, in words
   /// The first sub-impact (from 0) whose existence or place in the order is not certain; none if
@@ -137,7 +137,7 @@ struct ErrorEstimate {
 
 struct Result {
   Outcome outcome;
-  Options given;          ///< of the run, as they were asked for
+  Options given;          ///< of the run, as passed by the caller
   ResolvedSettings used;  ///< beside them
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
@@ -161,12 +161,12 @@ struct Result {
   std::optional<ErrorEstimate> error_estimate;  ///< with error bars
   Work work;
 
-  /// Whether all that the result holds passed every check. Of a result that is not usable the part
-  /// up to outcome.first_failure->from did.
+  /// Whether the whole result passed every check. If not, the part up to
+  /// outcome.first_failure->from did.
   bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
   /// One line: outcome, sub-impacts, error of the energy, steps and time.
   std::string brief_report() const;
-  /// That, warnings, and the settings: what was given beside what was used. For tables of
+  /// The brief report, warnings, and the settings given beside the settings used. For tables of
   /// sub-impacts see io/report.h.
   std::string full_report() const;
 };

@@ -13,8 +13,8 @@
 
 namespace subimpact {
 
-/// A strike made of parts. simulate(Case) makes one from the keys of a case; who has a mesh or laws
-/// and no case fills it in.
+/// A strike assembled from parts. simulate(Case) assembles one from the keys of a case; a caller
+/// with a mesh and laws but without a case fills in the members.
 ///
 /// Several runs may share the parts, at the same time too: nothing in a run changes them.
 struct Problem {

@@ -12,7 +12,7 @@ namespace subimpact {
 
 /// One method's run, set beside the reference run.
 struct ComparedRun {
-  std::string name;  ///< as asked for: "erk", "erk:dormand-prince"
+  std::string name;  ///< as given: "erk", "erk:dormand-prince"
   Case input;
   Result result;
   std::vector<MatchedPair> pairs;       ///< reference (first) against this run (second)

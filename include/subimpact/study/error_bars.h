@@ -4,11 +4,11 @@
 
 namespace subimpact {
 
-/// Runs a case and a refined run of it that integrates more accurately (rtol a hundred times
-/// smaller, or half the fixed step), and gives every sub-impact's start and end an estimated error:
-/// three times the largest difference between the two runs over the event and its neighbours, so
-/// that a difference that happens to pass through zero does not pose as accuracy, plus the rounding
-/// of the times themselves. It covers the integration in time alone, not mesh or model.
+/// Runs a case and a refined run, which integrates more accurately (rtol a hundred times smaller,
+/// or half the fixed step), and gives every sub-impact's start and end an estimated error: three
+/// times the largest difference between the two runs over the event and its neighbours, so that a
+/// difference that happens to pass through zero is not taken for accuracy, plus the rounding of the
+/// times themselves. It covers the integration in time alone, not mesh or model.
 ///
 /// From the first sub-impact on that the refined run does not have, or whose error reaches a
 /// quarter of its duration or of a separation beside it, neither count nor order is certain:
@@ -23,7 +23,7 @@ struct RefinedRun {
 };
 RefinedRun refined_run_of(const Case& input);
 
-/// Fills the errors and the trust of `result` from a refined run's sub-impacts.
+/// Fills the errors and the error estimate of `result` from the sub-impacts of a refined run.
 void add_error_bars(Result& result, const Result& refined_run, const std::string& description);
 
 }  // namespace subimpact

@@ -24,8 +24,8 @@ struct EventErrors {
   std::optional<UnmatchedSubImpact> unmatched;  ///< the first sub-impact that does not correspond
 
   bool all_correspond() const { return !unmatched; }
-  /// One figure for charts: the largest error; where a sub-impact is lost or invented, at least
-  /// that one's duration.
+  /// One figure for charts: the largest error; where a sub-impact is lost or invented, at least the
+  /// duration of that sub-impact.
   double overall() const {
     return unmatched && unmatched->duration > maximum ? unmatched->duration : maximum;
   }

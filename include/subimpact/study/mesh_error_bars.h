@@ -8,7 +8,7 @@
 
 namespace subimpact {
 
-/// Runs a case with refined runs for every source of error that a finer computation can tell:
+/// Runs a case with refined runs for every source of error that a finer computation reveals:
 ///
 /// | part | refined run | stated error |
 /// |---|---|---|
@@ -19,12 +19,12 @@ namespace subimpact {
 /// with d the largest difference between the two runs over a sub-impact and its neighbours, r the
 /// ratio of the meshes and p the order of the mesh (mesh_order). Parts add up to start_error and
 /// end_error. Result::error_estimate names the first sub-impact whose existence or order is not
-/// certain, in all and part by part. What the model leaves out (shear, friction, strain rates) is
-/// in none.
+/// certain, in all and part by part. No part contains the error of the model (shear, friction,
+/// strain rates).
 ///
-/// A third mesh, half as fine, shows whether times converge at order p; where their differences
-/// are in the ratio that p says, to 35 % either way, times are extrapolated to the limit of fine
-/// meshes, and trusted to what the extrapolation adds to the finest mesh's.
+/// A third mesh, half as fine, shows whether times converge at order p; where the ratio of their
+/// differences is within 35 % of the ratio for order p, times are extrapolated to the limit of fine
+/// meshes, with an uncertainty equal to the extrapolation beyond the finest mesh.
 ///
 /// The runs on finer and coarser meshes go on beside the others. `progress` follows the case's own
 /// run, then the refined run in time; returning false stops all. Throws InvalidCase.
@@ -36,7 +36,7 @@ std::optional<int> mesh_order(const Case& input);
 
 /// The same case on a mesh with `factor` times as many cells or elements, as nearly as the mesh
 /// allows, of the same grading; nothing for a rigid beam or where too few would be left. A fixed
-/// step beyond the finer mesh's limit is reduced to 0.9 of it.
+/// step above the stability limit of the finer mesh is reduced to 0.9 of that limit.
 std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
 
 /// Its cells or elements over the whole length; 1 for a rigid beam.

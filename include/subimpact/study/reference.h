@@ -8,8 +8,8 @@
 
 namespace subimpact {
 
-/// The event times of a case's semi-discrete equations, as true as the program can make them: what
-/// errors in time are measured against.
+/// The event times of a case's semi-discrete equations, as accurate as the program can compute
+/// them: errors of the time integration are measured against these.
 struct Reference {
   Case input;                          ///< of the run; ends at the horizon
   Result result;                       ///< up to the horizon
@@ -25,10 +25,10 @@ struct Reference {
 /// is three times the largest difference of the two over it and its neighbours (add_error_bars).
 ///
 /// A sub-impact counts if both runs have it and its stated error is at most `largest_error` (s):
-/// sub-impacts that graze amplify small differences until no computation can tell what comes next.
-/// The horizon lies in the middle of the separation after the last that counts, or at the case's
-/// end if that is separation too. Throws InvalidCase if nothing counts, if either run fails, or for
-/// the case itself.
+/// sub-impacts that graze amplify small differences until no computation can predict the next
+/// event. The horizon lies in the middle of the separation after the last that counts, or at the
+/// case's end if that is separation too. Throws InvalidCase if nothing counts, if either run fails,
+/// or for the case itself.
 Reference compute_reference(const Case& input, double largest_error, const Progress& progress = {});
 
 }  // namespace subimpact

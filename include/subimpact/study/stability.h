@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where methods fail, and how: measured on a case's own beam, beside what theory says.
+/// Where methods fail, and how: measured on the beam of a case, beside the prediction of theory.
 
 #include <functional>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace subimpact {
 
-/// A method counts as stable if no mode's amplitude grows by more than this a step.
+/// A method counts as stable if no mode's amplitude grows by more than this per step.
 constexpr double tolerated_growth = 1e-6;
 
 /// The largest stable step of an explicit method on one mesh of an elastic beam.
@@ -28,21 +28,21 @@ struct CriticalStep {
   double measured = 0.0;   ///< s, by stepping the highest mode and bisection
 };
 
-/// omega h up to which a method lets no undamped oscillation grow by more than tolerated_growth a
+/// omega h up to which a method lets no undamped oscillation grow by more than tolerated_growth per
 /// step, from its coefficients: central differences 2; Runge-Kutta tables by |R(i omega h)|;
 /// Nystroem tables by the spectral radius of a step. Throws InvalidCase for other methods.
 double stability_limit(const std::string& method);
 
-/// Narrow ranges of omega h below stability_limit() in which a method grows all the same: where a
-/// step takes an oscillation by nearly half a turn, its two eigenvalues meet and part again. Looked
-/// for in steps of 1e-4.
+/// Narrow ranges of omega h below stability_limit() in which the solution grows nevertheless: where
+/// a step advances an oscillation by nearly half a period, the two eigenvalues of the step meet and
+/// separate again. Searched in increments of 1e-4.
 struct Resonance {
   double from = 0.0, to = 0.0;  ///< omega h
-  double growth = 0.0;          ///< largest, a step
+  double growth = 0.0;          ///< largest, per step
 };
 std::vector<Resonance> resonances(const std::string& method);
 
-/// Whether a list of methods asks for this one: a name without a table stands for all its tables,
+/// Whether a list of methods includes this one: a name without a table stands for all its tables,
 /// an empty list for all methods.
 bool asked_for(const std::vector<std::string>& methods, const std::string& method);
 
@@ -70,7 +70,7 @@ struct Damping {
 };
 std::vector<Damping> damping_of_implicit_tables(const Case& input);
 
-/// Growth a step of the backward differentiation formulas on an undamped oscillation, from their
+/// Growth per step of the backward differentiation formulas on an undamped oscillation, from their
 /// coefficients.
 struct MultistepGrowth {
   int order = 0;
@@ -79,7 +79,7 @@ struct MultistepGrowth {
 };
 std::vector<MultistepGrowth> bdf_growths();
 
-/// One run, made to see how it comes out.
+/// One run and its verdict.
 struct OutcomePoint {
   std::string group;  ///< "fixed step" or "tolerance"
   std::string row;    ///< method, and what else sets the row apart
@@ -87,7 +87,7 @@ struct OutcomePoint {
   Verdict verdict = Verdict::refused;
   EventErrors errors;
   double energy_error = 0.0;  ///< largest relative one of the run
-  std::string message;        ///< what the user is told, where it is not right
+  std::string message;        ///< message to the user, where the run is not right
 };
 
 struct OutcomeMap {
@@ -98,7 +98,8 @@ struct OutcomeMap {
 /// Methods against fixed steps, from far below to far beyond what is stable, and against
 /// tolerances; backward differentiation order by order; implicit methods with steps at which high
 /// modes are damped away. Nothing is timed, so runs go on all cores. A run that takes more than
-/// `run_seconds` is left out. `progress` is told how many of how many are done.
+/// `run_seconds` is left out. `progress` is called with the numbers of finished runs and of all
+/// runs.
 using Count = std::function<bool(std::size_t done, std::size_t all)>;
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
                        double run_seconds = 20.0, const Count& progress = {});

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a strike amounts to as a story: who gained and lost energy, when.
+/// The course of a strike: which body gained or lost energy, and when.
 
 #include <optional>
 #include <vector>
@@ -13,7 +13,7 @@ namespace subimpact {
 struct StrikePart {
   enum class Kind { zone, subzone, separation, subzone_separation };
   Kind kind = Kind::zone;
-  int zone = 0;                ///< of a separation: the one before it
+  int zone = 0;                ///< of a separation: the zone before it
   int subzone = 0;             ///< 0 for zones and the separations between them
   double start = 0.0;          ///< s
   double end = 0.0;            ///< s
@@ -26,8 +26,8 @@ struct StrikePart {
   double elastic_change() const { return elastic_end - elastic_start; }
 };
 
-/// Poisson's picture in terms of the beam's elastic energy U_e: compression while it rises overall,
-/// recovery while it falls.
+/// Poisson's division of an impact, applied to the elastic energy U_e of the beam: compression
+/// while U_e rises overall, recovery while U_e falls.
 struct StrikeAccount {
   /// In order of time; a zone before its sub-zones. Zones and sub-zones run from their first
   /// contact to their last separation; separations lie between them.
@@ -36,8 +36,8 @@ struct StrikeAccount {
   double largest_elastic = 0.0;     ///< J, of U_e
   double largest_elastic_at = 0.0;  ///< s: compression before, recovery after
   double elastic_at_end = 0.0;      ///< J, at strike_end
-  /// The largest rise of the striker's energy above an earlier value, J; up to rounding 0 if it
-  /// only ever loses.
+  /// The largest rise of the striker's energy above an earlier value, J; 0, up to rounding, if the
+  /// striker never gains energy.
   double striker_gain = 0.0;
   double striker_loss = 0.0;  ///< J, from the first touch to strike_end
 };

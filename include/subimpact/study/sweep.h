@@ -17,7 +17,7 @@ struct Setting {
   bool operator==(const Setting&) const = default;
 };
 
-/// The case with that setting. Throws InvalidCase for a method it does not know.
+/// The case with that setting. Throws InvalidCase for an unknown method.
 Case with_setting(const Case& input, const Setting& setting);
 
 /// From coarse to fine. Adaptive methods: rtol from 1e-2 to 1e-12 in decades. Central differences:
@@ -25,8 +25,7 @@ Case with_setting(const Case& input, const Setting& setting);
 /// InvalidCase for an unknown method or table, and where the method cannot run the case.
 std::vector<Setting> settings_of(const Case& input, const std::string& method);
 
-/// What is swept if nobody says otherwise: every method that can run the case, with the tables that
-/// matter.
+/// The methods of a sweep by default: every method that can run the case, with its relevant tables.
 std::vector<std::string> default_methods(const Case& input);
 
 }  // namespace subimpact

@@ -7,15 +7,15 @@
 
 namespace subimpact {
 
-/// What a run set beside a reference amounts to.
+/// The verdict on a run compared with a reference.
 enum class Verdict {
   right,        ///< completed, and every sub-impact corresponds
   wrong_count,  ///< completed, but sub-impacts are missing, merged or invented
-  inaccurate,   ///< ended by one of its own checks, and the run said so
-  unstable,     ///< the solution grew without bound, and the run said so
-  failed,       ///< the solver could not go on, and said so
+  inaccurate,   ///< ended by one of its own checks, and the outcome reports it
+  unstable,     ///< the solution grew without bound, and the outcome reports it
+  failed,       ///< the solver could not continue, and the outcome reports it
   refused,      ///< the setting was not accepted
-  not_run       ///< left out: it would have taken longer than allowed
+  not_run       ///< not run: it would have taken longer than allowed
 };
 
 /// "right", "wrong count", ...

@@ -32,7 +32,7 @@ struct Recommendation {
   double wanted = 0.0;                      ///< s
   std::optional<WorkPrecisionPoint> point;  ///< nothing if no setting reaches it
   /// Where a finer setting of the same method misses the error, so that the cheapest one reaches it
-  /// by luck: the cheapest setting of any method whose finer ones all reach it too.
+  /// by chance: the cheapest setting of any method whose finer ones all reach it too.
   std::optional<WorkPrecisionPoint> steady;
 };
 
@@ -43,7 +43,7 @@ struct WorkPrecision {
   bool interrupted = false;
 };
 
-/// Errors of event times for which advice is given, s.
+/// Errors of event times for which settings are recommended, s.
 const std::vector<double>& recommended_errors();
 
 struct WorkPrecisionOptions {
@@ -53,9 +53,9 @@ struct WorkPrecisionOptions {
   int most_repeats = 7;
   /// A point that is known already, from a study that was interrupted.
   std::function<std::optional<WorkPrecisionPoint>(const Setting&)> known;
-  /// Told of each point as soon as it is there.
+  /// Called with each point as soon as it is computed.
   std::function<void(const WorkPrecisionPoint&)> finished;
-  /// Told what is about to run.
+  /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
   Progress progress;  ///< of a single run; returning false ends the study with what it has
 };

@@ -6,7 +6,7 @@
 
 namespace subimpact {
 
-/// The instants at which the equations of motion change.
+/// Events, at which the equations of motion change.
 enum class EventKind {
   contact_begins,    ///< the gap closes: indentation rises through the residual one
   contact_yields,    ///< the indentation rises through its largest value so far (or first yield)

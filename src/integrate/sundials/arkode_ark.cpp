@@ -26,7 +26,7 @@ constexpr double fastest_fall_of_rate = 1e-3;
 // means to make it, but before SUNDIALS 6.7 the mass solve of an explicit first stage wipes out the
 // note of the failure, and the matrix is made only if gamma changed by more than a fifth. With the
 // old matrix and the old, small estimate of the rate of convergence one iteration is taken for
-// enough, and stages are wrong by far more than the tolerance. So any change asks for the matrix.
+// enough, and stages are wrong by far more than the tolerance. So any change requires a new matrix.
 constexpr double largest_change_of_gamma = 1e-12;
 
 using Part = MechanicalSystem::Part;
@@ -107,7 +107,7 @@ class ArkSolver : private SolverFrame {
     check(ARKStepSetLinearSolver(memory, matrices_.newton_solver(), matrices_.newton_matrix()),
           "ARKStepSetLinearSolver");
     check(ARKStepSetLinSysFn(memory, newton_matrix), "ARKStepSetLinSysFn");
-    // No dense output is asked for, and Lagrange interpolation costs no evaluation.
+    // Dense output is not used, and Lagrange interpolation costs no evaluation.
     check(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
     check(ARKStepSetMaxNumSteps(memory, -1), "ARKStepSetMaxNumSteps");
     check(ARKStepSetLSetupFrequency(memory, steps_per_matrix), "ARKStepSetLSetupFrequency");

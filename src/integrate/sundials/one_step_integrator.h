@@ -10,8 +10,8 @@
 namespace subimpact {
 
 /// An integrator out of two solvers of one one-step method: one goes forward, the other retakes
-/// part of the last step, from its start, with a single step of the length asked for. A state
-/// inside a step so has the method's own order.
+/// part of the last step, from its start, with a single step of the required length. So a state
+/// inside a step has the method's own order.
 ///
 /// Solver(arguments..., context) is made twice, the second time with `as_partial` options; it
 /// offers reset(t, y), step(y) -> time reached, set_fixed_step(h), time() and

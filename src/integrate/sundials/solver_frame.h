@@ -14,16 +14,16 @@ namespace subimpact {
 
 /// What the C callbacks of every SUNDIALS solver here need; each solver's user data is its frame.
 ///
-/// No exception crosses a C frame: what a callback throws is kept, the library told to stop, and it
-/// is thrown again, whole, after the call. The library's own messages are kept for the failure that
-/// follows them.
+/// No exception crosses a C frame: an exception from a callback is stored, the library is stopped
+/// by a return value, and the exception is rethrown unchanged after the call. The library's own
+/// messages are kept for the failure that follows them.
 class SolverFrame {
  public:
   SolverFrame(SecondOrderOde& ode, double relative_tolerance, SUNContext context);
   SolverFrame(const SolverFrame&) = delete;
   SolverFrame& operator=(const SolverFrame&) = delete;
 
-  /// Error weights 1/(rtol * scale) of positions and velocities: asked for at every step, but
+  /// Error weights 1/(rtol * scale) of positions and velocities: evaluated at every step, but
   /// constant.
   static int error_weights(N_Vector y, N_Vector weights, void* frame);
 
@@ -65,7 +65,7 @@ class SolverFrame {
   std::string message_;
 };
 
-/// An output time for one-step modes, where it only says which way time runs.
+/// An output time for one-step modes, where only its sign relative to the present time matters.
 double time_ahead(double t);
 
 }  // namespace subimpact
