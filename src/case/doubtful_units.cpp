@@ -11,8 +11,8 @@
 namespace subimpact {
 namespace {
 
-// Beyond these a value is doubtful. They lie well outside what beams, strikers and their materials
-// are like, so that no plausible scene is doubted.
+// Beyond these a value is doubtful. They lie well outside the values of real beams, strikers and
+// materials, so that no plausible scene gets a warning.
 constexpr double softest = 1e6;            // Pa: soft rubber
 constexpr double stiffest = 2e12;          // Pa: diamond has 1.2e12
 constexpr double weakest = 1e4;            // Pa: lead yields at some 1e7
@@ -87,7 +87,8 @@ class Doubts {
     add(given(key, value, "m") + reason + proposal(value, {{"mm", 1e-3}}, {}));
   }
 
-  // A length that is out of proportion to another one of the beam, or doubtful because of all.
+  // A length that is out of proportion to another length of the beam, or doubtful because all
+  // lengths are.
   void length(const char* key, double value, bool out_of_proportion, double other,
               const char* other_name, bool because_of_all) {
     if (out_of_proportion) {

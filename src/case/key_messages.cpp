@@ -82,7 +82,7 @@ std::optional<std::string> choice_problem(const CaseKey& key, const std::string&
          (meant.empty() ? "" : "; did you mean " + quoted(meant) + "?");
 }
 
-// For one name where two are wanted: the pair meant.
+// For one name where two are required: the pair that is probably meant.
 std::string pair_hint(const CaseKey& key, const std::string& name) {
   if (key.name == "beam.ends" && name == "cantilever") {
     return R"(; did you mean ["clamped", "free"]?)";

@@ -43,7 +43,8 @@ void check_cells(const Case& input) {
   }
 }
 
-// The strike takes a node, and an element much shorter than the others would rule the time step.
+// There is a node at the strike, and an element much shorter than the others would determine the
+// time step.
 void check_elements(const Case& input) {
   const double elements = input.model.elements;
   const double at = input.scene.striker.position;

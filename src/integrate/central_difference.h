@@ -8,12 +8,12 @@ namespace subimpact {
 ///
 ///     (q[n+1] - 2 q[n] + q[n-1])/dt^2 = a(q[n]),
 ///
-/// written with the velocity so that it starts by itself and can take a partial step (the same
-/// positions to rounding): v[n+1/2] = v[n] + dt/2 a[n], q[n+1] = q[n] + dt v[n+1/2],
-/// v[n+1] = v[n+1/2] + dt/2 a[n+1]. One acceleration a step. Stable for dt * omega_max < 2.
+/// written with the velocity, so that the scheme is self-starting and can take a partial step (the
+/// same positions to rounding): v[n+1/2] = v[n] + dt/2 a[n], q[n+1] = q[n] + dt v[n+1/2], v[n+1] =
+/// v[n+1/2] + dt/2 a[n+1]. One acceleration per step. Stable for dt * omega_max < 2.
 class CentralDifference final : public Integrator {
  public:
-  /// `step` in s; whether it is below the critical one is for the caller to see to.
+  /// `step` in s; the caller must keep it below the critical step.
   CentralDifference(SecondOrderOde& ode, double step);
 
   void restart(double t, const State& y) override;

@@ -15,10 +15,9 @@ constexpr int bdf_order_limit = 5;
 /// SUNDIALS CVODE's multistep methods on y' = [v, a(q)], order and step chosen by error control
 /// with the constant weights of `erk`.
 ///
-/// A state inside the last step is that of the method's own polynomial (CVodeGetDky), as accurate
-/// as its order. A multistep method remembers steps, so a restart forgets them all (CVodeReInit):
-/// it begins again at order one with a step of its own estimate, and builds both up anew. There is
-/// no fixed step.
+/// A state inside the last step comes from the method's own polynomial (CVodeGetDky), with the
+/// order of the method. A restart (CVodeReInit) discards the past steps of a multistep method: it
+/// begins again at order one with an estimated step, and raises both. There is no fixed step.
 struct CvodeOptions {
   int max_order = 0;  ///< 1 to the limit above
   double relative_tolerance = 1e-8;

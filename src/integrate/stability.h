@@ -5,11 +5,11 @@
 
 namespace subimpact {
 
-/// What tables of coefficients promise for an undamped oscillation q'' = -omega^2 q taken in steps
-/// of omega h = y. All throw std::invalid_argument for an unknown table.
+/// Stability of tables of coefficients for an undamped oscillation q'' = -omega^2 q in steps of
+/// omega h = y. All throw std::invalid_argument for an unknown table.
 
-/// R(z) of an explicit or diagonally implicit Runge-Kutta table: y' = lambda y goes from y to
-/// R(h lambda) y in a step. On the oscillation, |R(i y)| is the growth of its amplitude.
+/// R(z) of an explicit or diagonally implicit Runge-Kutta table: y' = lambda y goes from y to R(h
+/// lambda) y in one step. On the oscillation, |R(i y)| is the growth of its amplitude.
 std::complex<double> explicit_stability(const std::string& table, std::complex<double> z);
 std::complex<double> dirk_stability(const std::string& table, std::complex<double> z);
 

@@ -57,7 +57,7 @@ std::string mass_text(double mass) {
   return fmt::format("{:.6g} kg", mass);
 }
 
-// Which sub-impacts the error bars vouch for, part by part and in all.
+// The sub-impacts that the error bars resolve, part by part and in total.
 void add_error_estimate(const Result& result, fmt::memory_buffer& text) {
   const ErrorEstimate& estimate = *result.error_estimate;
   const auto line = [&](const std::string& label, const std::string& value) {

@@ -16,10 +16,10 @@ namespace subimpact {
 /// Ends lie half a cell outside the outermost centres:
 ///
 ///     free     no moment in the end cell, no rotary inertia in its outer half (the paper's)
-///     pinned   the beam goes on as its mirror image upside down, w[-1] = -w[0]; so
+///     pinned   the displacement is continued antisymmetrically, w[-1] = -w[0]; so
 ///              kappa_0 = (w[1] - 3 w[0])/dx^2
-///     clamped  the beam goes on as its mirror image, w[-1] = w[0]; and w = 0 at the end of the
-///              parabola through the first centres, w[0] = w[1]/9, which is no unknown of its own
+///     clamped  the displacement is continued symmetrically, w[-1] = w[0]; w = 0 at the end of the
+///              parabola through the first centres, w[0] = w[1]/9, so w[0] is not an unknown
 ///
 /// A strike between two centres is shared between them by linear weights. In the symmetric half
 /// model (strike at mid-span, N odd, ends alike) the last unknown is the struck cell, N/2.

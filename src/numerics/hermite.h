@@ -12,7 +12,7 @@
 namespace subimpact {
 
 /// Cubic through a value and a rate at both ends of a step, as a function of s in [0, 1]. It only
-/// ever supplies first guesses: what is reported is found on the trajectory itself.
+/// ever supplies first guesses: reported values are located on the trajectory itself.
 class HermiteCubic {
  public:
   HermiteCubic(double value0, double rate0, double value1, double rate1, double step)

@@ -21,12 +21,12 @@ class MassSolver {
 
 /// Cholesky factorisation of a banded matrix, arranged so that its recurrences run block by block.
 ///
-/// With A = L L^T, L lower-banded, cut into blocks of 8 unknowns, forward substitution reads
-/// y_b = D_b^-1 b_b - P_b (last unknowns of y_{b-1}) with D_b^-1 and P_b = D_b^-1 C_b formed once,
-/// and backward substitution likewise. The products are independent of the recurrence and
-/// vectorise, so that the chain of dependent operations is one multiply-add a block instead of one
-/// an unknown. A diagonal matrix needs none of this. For half bandwidths up to 3. Throws
-/// std::invalid_argument if the matrix is not positive definite.
+/// With A = L L^T, L lower-banded, cut into blocks of 8 unknowns, forward substitution reads y_b =
+/// D_b^-1 b_b - P_b (last unknowns of y_{b-1}) with D_b^-1 and P_b = D_b^-1 C_b formed once, and
+/// backward substitution likewise. The products are independent of the recurrence and vectorise, so
+/// that the chain of dependent operations is one multiply-add per block instead of one per unknown.
+/// A diagonal matrix needs none of this. For half bandwidths up to 3. Throws std::invalid_argument
+/// if the matrix is not positive definite.
 class BandedSolver final : public MassSolver {
  public:
   explicit BandedSolver(const BandedMatrix& matrix);

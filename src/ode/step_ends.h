@@ -10,7 +10,7 @@ struct StepEnds {
   double t0, t1;
   const State& y0;
   const State& y1;
-  bool event_free = false;  ///< nothing happened in it, whatever its ends may suggest
+  bool event_free = false;  ///< proven to contain no event, whatever its ends suggest
   double length() const { return t1 - t0; }
 };
 

@@ -37,19 +37,19 @@ class FigureScript {
 
   const std::string& name() const { return name_; }
   const std::string& caption() const { return caption_; }
-  /// With the room that marks take.
+  /// Including the space for marks.
   FigureSize size() const;
   /// Writes a line across the top, above the panels: a warning about the whole figure.
   void mark(const std::string& text) { marks_.push_back(text); }
-  /// The script as gnuplot wants it, tables and variables included.
+  /// The complete script for gnuplot, with tables and variables.
   std::string text() const;
 
   FigureScript& set(const std::string& variable, double value);
   FigureScript& set(const std::string& variable, const std::string& value);
   /// Adds the table $name as it is.
   void table(const std::string& name, const std::string& columns, const NumberRows& rows);
-  /// Adds the table $name of the columns x and y: a line, thinned to what a panel of about that
-  /// size can show. `x_range`: what the panel shows of the x axis, if not all of the line.
+  /// Adds the table $name of the columns x and y: a line, with as many points as a panel of about
+  /// that size can show. `x_range`: what the panel shows of the x axis, if not all of the line.
   void line(const std::string& name, const std::vector<Point>& points, FigureSize panel,
             const std::optional<AxisRange>& x_range = {});
 

@@ -10,7 +10,7 @@
 namespace subimpact {
 namespace {
 
-// The sections that `bending` has no room for.
+// The sections for which the figure `bending` has no space.
 std::string sections_left_out(const std::vector<double>& sections) {
   std::string positions;
   for (std::size_t k = most_bending_panels; k < sections.size(); ++k) {

@@ -12,7 +12,7 @@ struct FigureSize {
 };
 
 /// What every figure begins with: lines and points 1 to 8 in the colours of Okabe and Ito, which
-/// distinguishable for the colour-blind, thin grey grid, borders on two sides.
+/// the colour-blind can distinguish, thin grey grid, borders on two sides.
 std::string figure_style();
 
 /// The script of a figure, figures/<name>.gp, after the style, what scripts share and the

@@ -66,7 +66,7 @@ class Audit {
   }
   std::optional<double> momentum_error(const State& y) const;
 
-  /// Largest errors that a check has seen, those that failed included.
+  /// Largest errors over all checks, including those that failed.
   double max_energy_error() const { return max_energy_error_; }
   std::optional<double> max_momentum_error() const { return max_momentum_error_; }
   double max_impulse_error() const { return max_impulse_error_; }

@@ -9,15 +9,15 @@
 namespace subimpact {
 namespace {
 
-// Within the shortest time that a contact takes there is room for a begin, a yield, an unloading
-// and an end. Many times as many events are chattering.
+// Within the shortest duration of a contact four events are possible: contact begins, yields,
+// unloads and ends. Many more than four events count as chattering.
 constexpr long most_events_in_place = 64;
 
-// By how many times the rounding of displacements, velocities and times a located event may miss
-// the zero of its event function.
+// Tolerated value of the event function at a located event, in units of the rounding of
+// displacements, velocities and times.
 constexpr double tolerated_rounding = 64.0;
 
-// How far a run whose energy is off is followed to see whether it blows up.
+// Steps for which a run with a wrong energy is continued, to decide whether it is unstable.
 constexpr long most_steps_ahead = 20000;
 
 constexpr double us = 1e6;  // per second

@@ -24,7 +24,7 @@ class ForceQuadrature {
 
   /// Integral over a step, N s.
   double over(const ObservedStep& step, const StruckBeam& beam);
-  /// The largest indentation (m) that over() has seen within the step, its ends left out.
+  /// The largest indentation (m) that over() has evaluated within the step, without its ends.
   double largest_indentation() const { return largest_indentation_; }
   /// The integral without correction or halving, for steps in pieces.
   double roughly_over(const ObservedStep& step, const StruckBeam& beam) const;

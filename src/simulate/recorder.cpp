@@ -11,10 +11,11 @@
 namespace subimpact {
 namespace {
 
-// Part of what an impulse may be off by that a step's integral of the force may be off by.
+// Tolerated error of the integral of the force over a step, as a share of that of an impulse.
 constexpr double share_of_step = 1.0 / 128.0;
 
-// Within so many times the rounding of displacements of its end a contact may pull.
+// A tensile force is tolerated within this many roundings of the displacements of the contact's
+// end.
 constexpr double tolerated_rounding = 64.0;
 
 }  // namespace
@@ -67,7 +68,7 @@ void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
   const double force = beam.contact_force(y);
   if (force >= 0.0) return;
   const double depth = beam.indentation(y) - beam.contact().residual_indentation();
-  if (depth <= tolerated_rounding * beam.displacement_rounding(y)) return;  // not the law's doing
+  if (depth <= tolerated_rounding * beam.displacement_rounding(y)) return;  // rounding
   audit_.check(time, y);  // a blow-up is called by its name
   check_push(time, force);
 }

@@ -6,11 +6,11 @@
 
 namespace subimpact {
 
-/// Makes sub-impacts, transitions and history rows out of a run.
+/// Records sub-impacts, transitions and history rows of a run.
 class Recorder final : public RunObserver {
  public:
-  /// `interval` in s between history rows, 0 for none. Rows and impulses are judged by `audit`
-  /// before they are kept.
+  /// `interval` in s between history rows, 0 for none. `audit` checks rows and impulses before they
+  /// are stored.
   Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
            Result& result);
 
@@ -18,7 +18,7 @@ class Recorder final : public RunObserver {
   void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
 
   void on_step(const ObservedStep& step, StruckBeam& beam) override;
-  /// Judges that the contact law pushes wherever the surface is pressed in.
+  /// Checks that the contact force is compressive wherever the indentation is positive.
   void on_accepted(double time, const State& y, StruckBeam& beam) override;
   void on_reversal(const Transition& reversal) override { result_.transitions.push_back(reversal); }
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;

@@ -7,7 +7,7 @@
 namespace subimpact {
 namespace {
 
-// The limit itself must be this much better than the wanted error.
+// Uncertainty of the limit over the wanted error, at most.
 constexpr double limit_share = 0.2;
 constexpr double timing_budget = 0.4;  // s
 constexpr int most_repeats = 5;

@@ -14,7 +14,7 @@ namespace subimpact {
 ///     Mass = [beam's mass, 0; 0, m],   K = [B^T W diag(tangent) B, 0; 0, 0] + dF/dlambda g g^T,
 ///
 /// with g = [-S; 1] the gradient of the indentation. The pattern is the beam's band, a row and a
-/// column that tie the striker to the unknowns under it, and the striker's diagonal entry.
+/// column that couple the striker to the unknowns under it, and the striker's diagonal entry.
 class BeamJacobian {
  public:
   BeamJacobian(const BeamMesh& mesh, double striker_mass);

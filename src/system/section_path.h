@@ -16,7 +16,7 @@ struct CurvatureChange {
 /// The change of a curvature by the defect d of a section's moment that begins at the part `from`
 /// of a step: kappa'' = c d, c the coupling (SectionInfluence).
 ///
-/// What is given are the two integrals of d over a span of the step,
+/// Two integrals of d over a span of the step are given,
 ///
 ///     amount = int d dt,   next_amount = int (t_end - t) d dt,
 ///

@@ -12,23 +12,23 @@
 
 namespace subimpact {
 
-/// For tables and figures of a run that did not complete: how it ended and up to where its results
-/// passed every check, in one line; empty for a run that completed.
+/// For tables and figures of a run that did not complete: how the run ended and up to which time
+/// the results passed every check, in one line; empty for a run that completed.
 std::string outcome_caveat(const Result& result);
 
-/// One line a sub-impact, under a heading with units; zones and sub-zones set apart. Begins with
-/// outcome_caveat(), if there is one.
+/// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
+/// with outcome_caveat(), if there is one.
 std::string sub_impact_table(const Result& result);
 
 /// A dozen lines: how the run ended, what happened, what it cost.
 std::string run_summary(const Case& input, const Result& result);
 
 /// For a run that did not complete: one line with time, mode, method, last event, cause, the times
-/// between which the first check failed and, where the scene is beyond the model, units that are
-/// doubtful.
+/// between which the first check failed and, where the scene is outside the validity of the model,
+/// values with doubtful units.
 std::string failure_message(const Case& input, const Result& result);
 
-/// One line a method beside the reference, and what differs in words.
+/// One line per method beside the reference, and the differences in words.
 std::string comparison_table(const Comparison& comparison);
 
 /// What a case will be modelled as, and why.

@@ -19,18 +19,18 @@ std::string work_precision_table(const WorkPrecision& study);
 std::string recommendation_text(const std::vector<Recommendation>& recommendations);
 
 /// work_precision.csv in a directory, written point by point, so that an interrupted study keeps
-/// what it has and a repeated one goes on from there.
+/// its points and a repeated study continues from there.
 class PointLog {
  public:
-  /// Reads what an earlier study of the same cases left, and appends to it. `cases` are the ids of
-  /// the cases of this study. Throws OutputError if the file cannot be written, or holds points of
-  /// other cases.
+  /// Reads the file of an earlier study of the same cases, and appends to that file. `cases` are
+  /// the ids of the cases of this study. Throws OutputError if the file cannot be written, or holds
+  /// points of other cases.
   PointLog(const std::filesystem::path& directory, const std::vector<std::string>& cases);
 
   /// A point of an earlier study.
   std::optional<WorkPrecisionPoint> known(const std::string& case_id, const Setting& setting) const;
   std::size_t n_known() const { return known_.size(); }
-  /// Writes a row and sees it to the disk. Throws OutputError.
+  /// Writes a row and flushes the file. Throws OutputError.
   void append(const std::string& case_id, const std::string& label,
               const WorkPrecisionPoint& point);
 

@@ -72,8 +72,9 @@ enum class VectorOperationsKind { project, library };
 struct StudyOptions {
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
   MassSolverKind mass_solver = MassSolverKind::banded;
-  bool pair_detection = true;    ///< look for contacts that open and close again within one step
-  bool beyond_critical = false;  ///< lets a fixed step exceed the stability limit, to see it fail
+  bool pair_detection = true;  ///< look for contacts that open and close again within one step
+  bool beyond_critical =
+      false;  ///< allows a fixed step above the stability limit, to study the failure
 };
 
 struct Options {

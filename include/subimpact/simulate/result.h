@@ -124,7 +124,7 @@ struct ErrorEstimate {
   std::string reason;          ///< why it is unresolved
   double largest_error = 0.0;  ///< s, of the times before that, all parts together
 
-  /// One source of error by itself, as seen by one refined run.
+  /// One source of error, from one refined run.
   struct Part {
     std::string name;         ///< "time", "mesh", "layers"
     std::string refined_run;  ///< the run, in words
@@ -138,14 +138,15 @@ struct ErrorEstimate {
 struct Result {
   Outcome outcome;
   Options given;          ///< of the run, as passed by the caller
-  ResolvedSettings used;  ///< beside them
+  ResolvedSettings used;  ///< the same after resolve()
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
   std::vector<HistoryRow> history;
   std::vector<SectionRow> section_history;    ///< of output.sections, in that order at each time
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
-  /// s: from here on no contact is possible, proven; looked for with time.stop = "no-more-contact".
+  /// s: the time from which it is proven that no contact follows; searched with time.stop =
+  /// "no-more-contact".
   std::optional<double> no_more_contact;
   std::size_t n_yielded_sections = 0;        ///< of the sections modelled
   double max_force = 0.0;                    ///< N
@@ -154,7 +155,7 @@ struct Result {
   double beam_mean_velocity = 0.0;           ///< m/s, at the end: beam momentum over beam mass
   double max_energy_error = 0.0;             ///< largest relative error over all checks
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
-  /// Largest difference of a sub-impact's impulse and its integrated force, over m v0.
+  /// Largest difference between the impulse and the integrated force of a sub-impact, over m v0.
   double max_impulse_error = 0.0;
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
