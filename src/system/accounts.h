@@ -8,10 +8,10 @@
 
 namespace subimpact {
 
-/// Energies, momenta and other readings of a struck beam's states. Changes nothing in the beam.
+/// Energies, momenta and other quantities of the states of a struck beam. The beam is not changed.
 class Accounts {
  public:
-  /// Both must outlive this. `sections`: the histories to read by, the beam's own by default.
+  /// Both must outlive this. `sections`: the histories that are used, by default those of the beam.
   explicit Accounts(const StruckBeam& beam) : Accounts(beam, beam.sections()) {}
   Accounts(const StruckBeam& beam, const SectionField& sections);
 
@@ -20,7 +20,7 @@ class Accounts {
   Energies energies(const State& y);
   double momentum(const State& y) const;       ///< kg m/s, of beam and striker
   double beam_momentum(const State& y) const;  ///< kg m/s
-  /// Whether nothing but the striker acts on the beam.
+  /// Whether the striker is the only body that acts on the beam: no supports.
   bool conserves_momentum() const { return !beam_.mesh().translation().empty(); }
 
   struct Displacements {

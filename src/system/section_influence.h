@@ -8,8 +8,7 @@
 
 namespace subimpact {
 
-/// How the beam accelerates when one section's moment changes: for a moment M of 1 N m at section
-/// i,
+/// Acceleration of the beam due to the moment of one section: for a moment M of 1 N m at section i,
 ///
 ///     c_i = Mass^-1 (-B^T W e_i)   (accelerations of the unknowns, 1/s2 per N m),   B c_i.
 ///
@@ -18,9 +17,9 @@ namespace subimpact {
 ///
 ///     kappa_i'' = (sum_j W_j (B c_i)_j M_j - F S.c_i)/W_i.
 ///
-/// With or without rotary inertia c_i dies away within a few thicknesses, or a few unknowns, of the
-/// section: what is below rounding is left out. An influence is computed at its first use, with one
-/// mass solve.
+/// With or without rotary inertia c_i decays within a few thicknesses, or a few unknowns, of the
+/// section; entries below rounding are left out. An influence is computed at its first use, with
+/// one mass solve.
 class SectionInfluence {
  public:
   SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The files a finished run leaves behind.
+/// The files of a finished run.
 
 #include <filesystem>
 #include <optional>
@@ -48,7 +48,7 @@ std::string sections_csv(const std::vector<SectionRow>& sections);
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);
 
-/// What the sub-impacts of one zone amount to.
+/// Summary of the sub-impacts of one zone.
 struct ZoneSummary {
   int zone = 0;
   int n_sub_impacts = 0;
