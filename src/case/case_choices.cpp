@@ -103,7 +103,7 @@ std::span<const Named<EventHandling>> names_of(EventHandling) {
 std::span<const Named<ReversalHandling>> names_of(ReversalHandling) {
   static constexpr Named<ReversalHandling> names[] = {
       {ReversalHandling::located, "located", "located within steps, whose ends are corrected"},
-      {ReversalHandling::step_end, "step-end", "section memory advances at step ends only"},
+      {ReversalHandling::step_end, "step-end", "section histories advance at step ends only"},
   };
   return names;
 }

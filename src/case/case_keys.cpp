@@ -109,7 +109,8 @@ Range between(const char* words, double low, double high) {
 // A cell's second difference carries a rounding error of some 1e-16 N^2 of the curvature, and a
 // run's cost grows as N^2: at the upper limit 1e-6 is lost and an 8 ms strike takes days.
 const Range segment_range = between(
-    "from 5 to 100001 (beyond that rounding in the second differences outweighs what cells gain)",
+    "from 5 to 100001 (beyond that rounding in the second differences outweighs the error of the "
+    "mesh)",
     5, 100001);
 // Rounding of curvatures grows as the inverse square of an element's length.
 const Range refinement_range = between("from 1 (equal elements) to 1000", 1.0, 1000.0);
@@ -301,7 +302,7 @@ void check_history_size(const Case& input) {
   throw InvalidCase(
       "output.interval",
       fmt::format(
-          "is {} s, which asks for {:.2g} history rows up to time.end = {} s; allowed: at most "
+          "is {} s, which gives {:.2g} history rows up to time.end = {} s; allowed: at most "
           "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
           input.output.interval, rows, input.end_time, most_history_rows,
           input.end_time / most_history_rows) +

@@ -27,8 +27,7 @@ std::string symmetry_text(const Case& input, const ResolvedSettings& used) {
     return "not applicable: a rigid body has at most two unknowns";
   if (used.half_model)
     return "used: the strike is at mid-span and both ends are alike, so one half is modelled";
-  if (input.model.symmetry == SymmetryUse::off)
-    return "not used, as asked (model.symmetry = \"off\")";
+  if (input.model.symmetry == SymmetryUse::off) return "not used (model.symmetry = \"off\")";
   return "not used: the scene is not symmetric about mid-span, so the whole beam is modelled";
 }
 

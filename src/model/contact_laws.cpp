@@ -51,7 +51,8 @@ constexpr ContactConstants of_foundation[] = {
     {nose, "give it in m",
      "\"foundation\" derives its stiffness from beam and striker.nose_radius"}};
 constexpr ContactConstants of_hertz[] = {
-    {stiffness, "give it in N/m^1.5", "contact.stiffness already says how stiff the contact is"},
+    {stiffness, "give it in N/m^1.5",
+     "contact.stiffness already sets the stiffness of the contact"},
     {sphere,
      "give it, or contact.stiffness in N/m^1.5 in place of a sphere's radius, moduli and Poisson's "
      "ratios",

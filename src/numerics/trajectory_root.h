@@ -17,18 +17,18 @@ struct RootOptions {
   int max_iterations = 60;  ///< bisection alone needs about 50
 };
 
-/// The time in (a, b] at which `guard(t)` rises through zero: Newton's method from `guess`, kept
+/// The time in (a, b] at which `function(t)` rises through zero: Newton's method from `guess`, kept
 /// inside a bracket that shrinks with every evaluation, and bisection where Newton would leave it
-/// or stalls. The caller guarantees a sign change: value <= 0 just after a, > 0 at b. `guard` is
+/// or stalls. The caller guarantees a sign change: value <= 0 just after a, > 0 at b. `function` is
 /// evaluated on the trajectory, so that the root lies on the trajectory and not on an interpolant.
-/// Returns the last time at which `guard` was evaluated.
-template <class Guard>
-double find_rise(Guard guard, double a, double b, double guess, RootOptions options) {
+/// Returns the last time at which `function` was evaluated.
+template <class Function>
+double find_rise(Function function, double a, double b, double guess, RootOptions options) {
   assert(a <= b && options.tolerance >= 0.0 && options.max_iterations > 0);
   double t = guess > a && guess < b ? guess : 0.5 * (a + b);
   double last_size = 2.0 * (b - a);
   for (int i = 1;; ++i) {
-    const EventValue at = guard(t);
+    const EventValue at = function(t);
     if (at.value == 0.0 || i == options.max_iterations) return t;
     (at.value < 0.0 ? a : b) = t;
     double next = t - at.value / at.rate;

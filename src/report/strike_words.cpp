@@ -124,7 +124,7 @@ std::string part_name(const StrikePart& part) {
 }
 
 std::string recovery_words(const StrikeAccount& account) {
-  std::string text = "The beam's elastic bending energy tells compression from recovery. It ";
+  std::string text = "The beam's elastic bending energy separates compression from recovery. It ";
   std::size_t n_subzones = 0;
   std::vector<std::string> pieces;
   for (const StrikePart& part : account.parts) {
