@@ -241,8 +241,8 @@ void Reader::choose_mesh(Case& read) {
         const char* second = mesh.refinement->key;
         complain(given_.at(second).place,
                  fmt::format("{} is given, and {} too, but each is the size of another mesh; "
-                             "allowed without model.mesh: one of them; leave one out, or set "
-                             "which is meant with model.mesh = \"{}\" ({}) or \"{}\" ({})",
+                             "allowed without model.mesh: one of them; leave one out, or "
+                             "choose with model.mesh = \"{}\" ({}) or \"{}\" ({})",
                              second, first, mesh.name, find_case_key(second)->leaf(), chosen->name,
                              find_case_key(first)->leaf()));
       }

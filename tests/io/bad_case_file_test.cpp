@@ -99,7 +99,7 @@ const Spoilt spoilt_cases[] = {
     {"HertzWithBoth",
      "[time]",
      "[contact]\nlaw = \"hertz\"\nstiffness = 1e10\nbeam_poisson = 0.3\n[time]",
-     {"bad.toml:14:1: contact.beam_poisson is given", "already says how stiff"}},
+     {"bad.toml:14:1: contact.beam_poisson is given", "already sets the stiffness"}},
     {"SectionBeyondTheBeam",
      "[time]",
      "[output]\nsections = [0.5, 1.5]\n[time]",

@@ -186,7 +186,7 @@ TEST(StrikeWords, TellZonesYieldsTheStrikersLossAndTheBeamsRecovery) {
   for (const std::string& paragraph : strike_words(run.input, run.result)) text += paragraph + "\n";
   for (const char* piece :
        {" sub-impacts in 1 zone", "The contact first yields after", "A fibre of the beam first",
-        "At no time does it gain energy", "tells compression from recovery", "Its largest value"}) {
+        "At no time does it gain energy", "separates compression from recovery", "Its largest value"}) {
     expect_in(text, piece);
   }
 }

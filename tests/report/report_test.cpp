@@ -137,7 +137,7 @@ TEST(Explanation, SaysThatAnInfiniteYieldStressLeavesNothingToYield) {
 TEST(Explanation, GivesTheReasonForAWholeModel) {
   Case input = paper_case();
   input.model.symmetry = SymmetryUse::off;
-  expect_in(explanation(input, resolve(input).settings(), std::nullopt), "not used, as asked");
+  expect_in(explanation(input, resolve(input).settings(), std::nullopt), "not used (model");
   input.model.symmetry = SymmetryUse::automatic;
   input.scene.striker.position = 0.4;
   expect_in(explanation(input, resolve(input).settings(), std::nullopt),
