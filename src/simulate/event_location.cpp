@@ -44,8 +44,11 @@ double rounding_of(const EventFunction& function, const StruckBeam& beam, const 
 
 std::optional<Crossing> EventLocator::find_crossing_in(const StepEnds& step) {
   if (step.event_free) return std::nullopt;
-  return find_crossing(beam_.contact(), indentation_step(beam_, step),
-                       {dealt_with_, double_roots_, beam_.displacement_rounding(step.y1)});
+  const IndentationStep ends = indentation_step(beam_, step);
+  // A double root needs an indentation that reverses.
+  const bool double_roots = double_roots_ && (ends.rate0 > 0.0) != (ends.rate1 > 0.0);
+  const double rounding = double_roots ? beam_.displacement_rounding(step.y1) : 0.0;
+  return find_crossing(beam_.contact(), ends, {dealt_with_, double_roots, rounding});
 }
 
 std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, double& t1,

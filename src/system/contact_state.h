@@ -53,6 +53,10 @@ class ContactState {
   /// rate of that value, which needs the acceleration, is left at 0.
   EventValue event_function(EventKind kind, double indentation, double rate) const;
 
+  /// Whether the largest indentation grows with the present one.
+  bool loads() const {
+    return branch_ == ContactBranch::plastic || evaluation_ == Evaluation::switching;
+  }
   void set_evaluation(Evaluation how) { evaluation_ = how; }
   /// Sets a branch and a history, as at the start of a run.
   void set(ContactBranch branch, ContactHistory history) {
@@ -67,11 +71,6 @@ class ContactState {
   void follow(double indentation) { branch_ = law_->branch(history_, indentation); }
 
  private:
-  // Whether the largest indentation grows with the present one.
-  bool loads() const {
-    return branch_ == ContactBranch::plastic || evaluation_ == Evaluation::switching;
-  }
-
   std::shared_ptr<const ContactLaw> law_;
   Evaluation evaluation_ = Evaluation::smooth;
   ContactBranch branch_ = ContactBranch::separated;

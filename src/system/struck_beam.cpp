@@ -152,7 +152,7 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
 }
 
 bool StruckBeam::commit(const State& y) {
-  contact_.commit(indentation(y));
+  if (contact_.loads()) contact_.commit(indentation(y));
   if (!sections_.can_yield()) return false;
   read_motion(y, committed_);
   return section_evaluation_ == Evaluation::smooth

@@ -184,9 +184,9 @@ TEST(StrikeWords, TellZonesYieldsTheStrikersLossAndTheBeamsRecovery) {
   const FinishedRun run = small_run();
   std::string text;
   for (const std::string& paragraph : strike_words(run.input, run.result)) text += paragraph + "\n";
-  for (const char* piece :
-       {" sub-impacts in 1 zone", "The contact first yields after", "A fibre of the beam first",
-        "At no time does it gain energy", "separates compression from recovery", "Its largest value"}) {
+  for (const char* piece : {" sub-impacts in 1 zone", "The contact first yields after",
+                            "A fibre of the beam first", "At no time does it gain energy",
+                            "separates compression from recovery", "Its largest value"}) {
     expect_in(text, piece);
   }
 }
