@@ -44,7 +44,6 @@ constexpr OtherName other_names[] = {
     {"solver.method", "implicit", "dirk"},
     {"solver.method", "gear", "bdf"},
     {"solver.method", "modal", "exponential"},
-    {"solver.mass_solver", "tridiagonal", "banded"},
     {"beam.theory", "bernoulli", "euler-bernoulli"},
     {"beam.theory", "bernoulli-euler", "euler-bernoulli"},
     {"beam.theory", "euler", "euler-bernoulli"},

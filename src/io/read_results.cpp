@@ -78,7 +78,10 @@ Case case_from(const Json& json) {
   for (const CaseKey& key : case_keys()) {
     const Json* entry = find_entry(json, key.name);
     if (entry == nullptr || entry->is_null()) continue;
-    assign(input, key, key_value(key, *entry));
+    // A choice may have had another name when the file was written.
+    const std::string now =
+        entry->is_string() ? own_name(key.name, entry->get<std::string>()) : std::string();
+    assign(input, key, now.empty() ? key_value(key, *entry) : KeyValue(now));
   }
   return input;
 }

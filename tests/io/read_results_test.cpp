@@ -118,10 +118,12 @@ TEST(ReadResults, OfLayout2HaveOtherNamesAndTheOppositeMoment) {
     text.replace(text.find(name), name.size(), before);
   };
   rename("\"layout\": 3", "\"layout\": 2");
+  rename("\"banded\"", "\"tridiagonal\"");
   rename("\"refined_run\"", "\"companion\"");
   rename("\"first_unresolved_index\"", "\"first_undecided_index\"");
   std::ofstream(directory.path / "summary.json") << text;
   const FinishedRun run = read_results(directory.path);
+  EXPECT_EQ(run.input.study.mass_solver, MassSolverKind::banded);
   ASSERT_TRUE(run.result.error_estimate);
   EXPECT_EQ(run.result.error_estimate->refined_run, "the same, finer");
   EXPECT_EQ(run.result.error_estimate->first_unresolved, 2u);
