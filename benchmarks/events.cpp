@@ -10,7 +10,8 @@ namespace subimpact::benchmarks {
 void measure_events(const Settings& settings) {
   fmt::print(
       "2 ms, rtol 1e-8. pairs: a run with the search for contacts that open and close within one\n"
-      "step, against one without. error bars: a run with them, against the run and its companion\n"
+      "step, against one without. error bars: a run with them, against the run and its "
+      "refined_run\n"
       "made one by one. Bar for both together: 1.10.\n\n");
   fmt::print("{:10} {:8}  {:>10} {:>10} {:>8}  {:>10} {:>10} {:>8}\n", "method", "section",
              "pairs s", "without s", "ratio", "bars s", "two runs s", "ratio");
@@ -22,13 +23,13 @@ void measure_events(const Settings& settings) {
       input.solver.rtol = 1e-8;
       Case without = input;
       without.study.pair_detection = false;
-      const Case companion = companion_of(input).input;
+      const Case refined_run = refined_run_of(input).input;
       const std::vector<double> seconds =
           seconds_side_by_side(settings, {[&] { run_to_end(input); }, [&] { run_to_end(without); },
                                           [&] { simulate_with_error_bars(input); },
                                           [&] {
                                             run_to_end(input);
-                                            run_to_end(companion);
+                                            run_to_end(refined_run);
                                           }});
       fmt::print("{:10} {:8}  {:10.4f} {:10.4f} {:8.3f}  {:10.4f} {:10.4f} {:8.3f}\n",
                  method == Method::erk ? "erk" : "nystrom", name, seconds[0], seconds[1],

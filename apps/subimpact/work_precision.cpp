@@ -72,7 +72,7 @@ class Session {
       fmt::print("{}: {}\n{}\n", entry.input.title.empty() ? "untitled case" : entry.input.title,
                  entry.label, work_precision_table(studies.back()));
       fmt::print("cheapest setting whose event times are all within\n{}\n",
-                 advice_text(advice_from(studies.back().points)));
+                 recommendation_text(recommendations_from(studies.back().points)));
       std::fflush(stdout);
       if (studies.back().interrupted) break;
     }

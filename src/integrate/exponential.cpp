@@ -100,7 +100,7 @@ bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) 
                           sign * (ends.lambda1 - critical), sign * ends.rate1, h);
   // A local maximum between two extrema does not show at the ends.
   if (path.reversed_at()) {
-    const double maximum = std::max(path(path.first_turn()), path(path.second_turn()));
+    const double maximum = std::max(path(path.first_extremum()), path(path.second_extremum()));
     if (maximum >= -uncertainty) return false;
   }
   if (uncertainty <= rounding * size_) return true;

@@ -58,13 +58,13 @@ double bdf_growth(int order, double y) {
       binomial *= static_cast<double>(m - j) / (j + 1);
     }
   }
-  // Companion matrix of (alpha_0 - i y) zeta^k + alpha_1 zeta^(k-1) + ...
-  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(order, order);
+  // RefinedRun matrix of (alpha_0 - i y) zeta^k + alpha_1 zeta^(k-1) + ...
+  Eigen::MatrixXcd refined_run = Eigen::MatrixXcd::Zero(order, order);
   for (int j = 0; j < order; ++j) {
-    companion(0, j) = -alpha[static_cast<std::size_t>(j) + 1] / Complex(alpha[0], -y);
-    if (j + 1 < order) companion(j + 1, j) = 1.0;
+    refined_run(0, j) = -alpha[static_cast<std::size_t>(j) + 1] / Complex(alpha[0], -y);
+    if (j + 1 < order) refined_run(j + 1, j) = 1.0;
   }
-  return companion.eigenvalues().cwiseAbs().maxCoeff();
+  return refined_run.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace subimpact

@@ -43,13 +43,14 @@ std::string comparison_table(const Comparison& comparison) {
         run.max_impulse_difference, run.result.work.right_hand_sides,
         duration_text(run.result.work.wall_seconds));
   }
-  fmt::format_to(
-      out, "\nreference: {} at rtol {:.0e}, {}, times to {:.1e} us",
-      to_string(comparison.reference_input.solver.method), comparison.reference_input.solver.rtol,
-      counted(reference.sub_impacts.size(), "sub-impact"), reference.trust->largest_error * us);
-  if (reference.trust->first_undecided) {
+  fmt::format_to(out, "\nreference: {} at rtol {:.0e}, {}, times to {:.1e} us",
+                 to_string(comparison.reference_input.solver.method),
+                 comparison.reference_input.solver.rtol,
+                 counted(reference.sub_impacts.size(), "sub-impact"),
+                 reference.error_estimate->largest_error * us);
+  if (reference.error_estimate->first_unresolved) {
     fmt::format_to(out, " before sub-impact {}; from there on the reference itself is uncertain",
-                   *reference.trust->first_undecided + 1);
+                   *reference.error_estimate->first_unresolved + 1);
   }
   fmt::format_to(out, "\n");
   for (const ComparedRun& run : comparison.runs) {

@@ -157,34 +157,43 @@ Work work_from(const Json& json) {
   return work;
 }
 
-std::optional<Trust> trust_from(const Json& json) {
-  if (json.is_null()) return std::nullopt;
-  Trust trust;
-  trust.companion = json.at("companion").get<std::string>();
-  trust.largest_error = number(json.at("max_time_error_s"));
-  if (const Json& index = json.at("first_undecided_index"); !index.is_null()) {
-    trust.first_undecided = index.get<std::size_t>() - 1;
-  }
-  trust.reason = optional_text(json.at("reason")).value_or("");
-  for (const Json& entry : json.at("parts")) {
-    Trust::Part part;
-    part.name = entry.at("name").get<std::string>();
-    part.companion = entry.at("companion").get<std::string>();
-    part.largest_error = number(entry.at("max_error_s"));
-    if (const Json& index = entry.at("first_undecided_index"); !index.is_null()) {
-      part.first_undecided = index.get<std::size_t>() - 1;
-    }
-    part.reason = optional_text(entry.at("reason")).value_or("");
-    trust.parts.push_back(std::move(part));
-  }
-  return trust;
+// A field by its name since layout 3, or by the one before.
+const Json& renamed(const Json& json, const char* name, const char* before) {
+  return json.at(json.contains(name) ? name : before);
 }
 
-void read_summary(const std::filesystem::path& path, FinishedRun& run) {
+std::optional<ErrorEstimate> error_estimate_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  ErrorEstimate estimate;
+  estimate.refined_run = renamed(json, "refined_run", "companion").get<std::string>();
+  estimate.largest_error = number(json.at("max_time_error_s"));
+  if (const Json& index = renamed(json, "first_unresolved_index", "first_undecided_index");
+      !index.is_null()) {
+    estimate.first_unresolved = index.get<std::size_t>() - 1;
+  }
+  estimate.reason = optional_text(json.at("reason")).value_or("");
+  for (const Json& entry : json.at("parts")) {
+    ErrorEstimate::Part part;
+    part.name = entry.at("name").get<std::string>();
+    part.refined_run = renamed(entry, "refined_run", "companion").get<std::string>();
+    part.largest_error = number(entry.at("max_error_s"));
+    if (const Json& index = renamed(entry, "first_unresolved_index", "first_undecided_index");
+        !index.is_null()) {
+      part.first_unresolved = index.get<std::size_t>() - 1;
+    }
+    part.reason = optional_text(entry.at("reason")).value_or("");
+    estimate.parts.push_back(std::move(part));
+  }
+  return estimate;
+}
+
+// Returns the layout of the summary.
+int read_summary(const std::filesystem::path& path, FinishedRun& run) {
   const std::string text = read_whole_file(path);
   try {
     const Json json = Json::parse(text);
-    if (const int layout = json.value("layout", 1); layout > summary_layout) {
+    const int layout = json.value("layout", 1);
+    if (layout > summary_layout) {
       throw ResultsError(
           fmt::format("{}: has layout {}, but this program reads layouts 1 to {}; use the program "
                       "that wrote it, "
@@ -215,8 +224,9 @@ void read_summary(const std::filesystem::path& path, FinishedRun& run) {
     result.max_energy_error = number(conservation.at("max_energy_error_relative"));
     result.max_momentum_error = optional_number(conservation.at("max_momentum_error_relative"));
     result.max_impulse_error = number(conservation.value("max_impulse_error_relative", Json(0.0)));
-    result.trust = trust_from(json.at("error_bars"));
+    result.error_estimate = error_estimate_from(json.at("error_bars"));
     result.work = work_from(json.at("work"));
+    return layout;
   } catch (const nlohmann::json::exception& error) {
     throw ResultsError(fmt::format("{}: is not the summary of a run ({}); run the case again",
                                    path.string(), error.what()));
@@ -237,12 +247,15 @@ FinishedRun read_results(const std::filesystem::path& directory) {
                     directory.string()));
   }
   FinishedRun run;
-  read_summary(directory / "summary.json", run);
+  const int layout = read_summary(directory / "summary.json", run);
   run.result.sub_impacts = read_rows(directory / "events.csv", events_columns());
   run.result.transitions = read_rows(directory / "transitions.csv", transitions_columns());
   run.result.history = read_rows(directory / "history.csv", history_columns());
   if (!run.input.output.sections.empty()) {
     run.result.section_history = read_rows(directory / "sections.csv", sections_columns());
+    if (layout < 3) {  // M had the opposite sign
+      for (SectionRow& row : run.result.section_history) row.moment = -row.moment;
+    }
   }
   return run;
 }

@@ -29,11 +29,11 @@ std::string zone_text(const std::vector<ZoneSummary>& zones) {
   return fmt::to_string(text);
 }
 
-std::string trust_text(const Result& result, double largest_error,
-                       const std::optional<std::size_t>& first_undecided,
-                       const std::string& reason) {
-  if (!first_undecided) return fmt::format("all times to {:.1e} us", largest_error * us);
-  const std::size_t i = *first_undecided;
+std::string error_estimate_text(const Result& result, double largest_error,
+                                const std::optional<std::size_t>& first_unresolved,
+                                const std::string& reason) {
+  if (!first_unresolved) return fmt::format("all times to {:.1e} us", largest_error * us);
+  const std::size_t i = *first_unresolved;
   const std::string when = i < result.sub_impacts.size()
                                ? fmt::format(" at {:.3f} us", result.sub_impacts[i].start * us)
                                : std::string(", which this run does not have");
@@ -58,19 +58,21 @@ std::string mass_text(double mass) {
 }
 
 // Which sub-impacts the error bars vouch for, part by part and in all.
-void add_trust(const Result& result, fmt::memory_buffer& text) {
-  const Trust& trust = *result.trust;
+void add_error_estimate(const Result& result, fmt::memory_buffer& text) {
+  const ErrorEstimate& estimate = *result.error_estimate;
   const auto line = [&](const std::string& label, const std::string& value) {
     fmt::format_to(std::back_inserter(text), "  {:<19} {}\n", label, value);
   };
-  for (const Trust::Part& part : trust.parts) {
+  for (const ErrorEstimate::Part& part : estimate.parts) {
     line("error of " + part.name,
-         fmt::format("{} (refined run: {})",
-                     trust_text(result, part.largest_error, part.first_undecided, part.reason),
-                     part.companion));
+         fmt::format(
+             "{} (refined run: {})",
+             error_estimate_text(result, part.largest_error, part.first_unresolved, part.reason),
+             part.refined_run));
   }
-  if (trust.parts.size() == 1) return;
-  line("error bars", trust_text(result, trust.largest_error, trust.first_undecided, trust.reason));
+  if (estimate.parts.size() == 1) return;
+  line("error bars", error_estimate_text(result, estimate.largest_error, estimate.first_unresolved,
+                                         estimate.reason));
 }
 
 }  // namespace
@@ -90,7 +92,7 @@ std::string outcome_caveat(const Result& result) {
 }
 
 std::string sub_impact_table(const Result& result) {
-  const bool with_errors = result.trust.has_value();
+  const bool with_errors = result.error_estimate.has_value();
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   if (const std::string caveat = outcome_caveat(result); !caveat.empty()) {
@@ -172,7 +174,7 @@ std::string run_summary(const Case& input, const Result& result) {
            : fmt::format(
                  "energy to {:.1e}, relative; momentum is not conserved: the supports take it up",
                  result.max_energy_error));
-  if (result.trust) add_trust(result, text);
+  if (result.error_estimate) add_error_estimate(result, text);
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));
   line("work", fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"),

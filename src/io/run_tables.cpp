@@ -110,8 +110,8 @@ const Columns<SectionRow>& sections_columns() {
       {"time_s", "time", &SectionRow::time},
       {"position_m", "position of the section along the beam", &SectionRow::position},
       {"curvature_per_m", "curvature", &SectionRow::curvature},
-      {"moment_Nm", "bending moment M, -E I kappa while elastic", &SectionRow::moment},
-      {"plastic_curvature_per_m", "curvature + M/(E I)", &SectionRow::plastic_curvature}};
+      {"moment_Nm", "bending moment M, E I kappa while elastic", &SectionRow::moment},
+      {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature}};
   return columns;
 }
 

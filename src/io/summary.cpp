@@ -145,28 +145,28 @@ Json interval(const std::optional<Interval>& times) {
   return {number(times->from), number(times->to)};
 }
 
-Json undecided(const std::optional<std::size_t>& index) {
+Json unresolved(const std::optional<std::size_t>& index) {
   return index ? Json(*index + 1) : Json(nullptr);
 }
 
-Json trust_in_times(const std::optional<Trust>& trust) {
-  if (!trust) return nullptr;
+Json error_estimate_in_times(const std::optional<ErrorEstimate>& estimate) {
+  if (!estimate) return nullptr;
   const auto text = [](const std::string& words) {
     return words.empty() ? Json(nullptr) : Json(words);
   };
   Json parts = Json::array();
-  for (const Trust::Part& part : trust->parts) {
+  for (const ErrorEstimate::Part& part : estimate->parts) {
     parts.push_back({{"name", part.name},
-                     {"companion", part.companion},
+                     {"refined_run", part.refined_run},
                      {"max_error_s", number(part.largest_error)},
-                     {"first_undecided_index", undecided(part.first_undecided)},
+                     {"first_unresolved_index", unresolved(part.first_unresolved)},
                      {"reason", text(part.reason)}});
   }
   return {
-      {"companion", trust->companion},
-      {"max_time_error_s", number(trust->largest_error)},
-      {"first_undecided_index", undecided(trust->first_undecided)},
-      {"reason", text(trust->reason)},
+      {"refined_run", estimate->refined_run},
+      {"max_time_error_s", number(estimate->largest_error)},
+      {"first_unresolved_index", unresolved(estimate->first_unresolved)},
+      {"reason", text(estimate->reason)},
       {"parts", parts},
   };
 }
@@ -221,7 +221,7 @@ std::string summary_json(const Case& input, const Result& result) {
        {{"max_energy_error_relative", number(result.max_energy_error)},
         {"max_momentum_error_relative", number(result.max_momentum_error)},
         {"max_impulse_error_relative", number(result.max_impulse_error)}}},
-      {"error_bars", trust_in_times(result.trust)},
+      {"error_bars", error_estimate_in_times(result.error_estimate)},
       {"work", work_counts(result.work)},
   };
   // A title may hold bytes that are no UTF-8; they are replaced rather than the file lost.

@@ -28,7 +28,7 @@ namespace {
 struct LoggedPoint {
   std::string id, label;  // of the case
   std::string kind;       // of the setting
-  std::optional<double> odd_start, odd_duration;
+  std::optional<double> unmatched_start, unmatched_duration;
   WorkPrecisionPoint point;
 };
 
@@ -56,8 +56,8 @@ const Columns<LoggedPoint>& point_columns() {
       {"reference_sub_impacts", errors<&EventErrors::n_reference>},
       {"sub_impacts", errors<&EventErrors::n_found>},
       {"corresponding", errors<&EventErrors::n_corresponding>},
-      {"first_odd_s", &LoggedPoint::odd_start},
-      {"odd_duration_s", &LoggedPoint::odd_duration},
+      {"first_odd_s", &LoggedPoint::unmatched_start},
+      {"odd_duration_s", &LoggedPoint::unmatched_duration},
       {"median_error_s", errors<&EventErrors::median>},
       {"max_error_s", errors<&EventErrors::maximum>},
       {"first_error_s", errors<&EventErrors::first>},
@@ -97,7 +97,9 @@ std::optional<LoggedPoint> row_of(const std::string& line) {
     if (!columns[k].read(cells[k], row)) return std::nullopt;
   }
   row.point.setting.fixed_step = row.kind == "step";
-  if (row.odd_start) row.point.errors.odd = OddSubImpact{*row.odd_start, *row.odd_duration, {}};
+  if (row.unmatched_start)
+    row.point.errors.unmatched =
+        UnmatchedSubImpact{*row.unmatched_start, *row.unmatched_duration, {}};
   return row;
 }
 
@@ -165,9 +167,9 @@ std::optional<WorkPrecisionPoint> PointLog::known(const std::string& case_id,
 void PointLog::append(const std::string& case_id, const std::string& label,
                       const WorkPrecisionPoint& point) {
   LoggedPoint row{case_id, label, point.setting.fixed_step ? "step" : "rtol", {}, {}, point};
-  if (point.errors.odd) {
-    row.odd_start = point.errors.odd->start;
-    row.odd_duration = point.errors.odd->duration;
+  if (point.errors.unmatched) {
+    row.unmatched_start = point.errors.unmatched->start;
+    row.unmatched_duration = point.errors.unmatched->duration;
   }
   std::string text;
   append_row(text, point_columns(), row);

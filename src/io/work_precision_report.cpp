@@ -75,10 +75,10 @@ std::string work_precision_table(const WorkPrecision& study) {
   return fmt::to_string(text);
 }
 
-std::string advice_text(const std::vector<Advice>& advice) {
+std::string recommendation_text(const std::vector<Recommendation>& recommendations) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  for (const Advice& item : advice) {
+  for (const Recommendation& item : recommendations) {
     if (!item.point) {
       fmt::format_to(out, "  {:<9} not reached by any setting that was run\n",
                      error_text(item.wanted));

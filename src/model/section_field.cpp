@@ -125,16 +125,6 @@ void SectionField::commit_reversal(std::size_t section, double curvature) {
   offset_[section] = window.offset;
 }
 
-void SectionField::restore(const Memory& memory) {
-  const std::size_t i = memory.section;
-  SectionHistory& now = stored_history(i);
-  if (now.direction != 0 && memory.history.direction == 0) --n_yielded_;
-  now = memory.history;
-  low_[i] = memory.low;
-  high_[i] = memory.high;
-  offset_[i] = memory.offset;
-}
-
 std::size_t SectionField::commit(std::span<const double> curvatures) {
   return commit(curvatures, {});
 }
@@ -171,8 +161,8 @@ SectionField::Energies SectionField::energies(std::span<const double> curvatures
 }
 
 double SectionField::outer_stress(std::size_t section, double curvature,
-                                  double modulus_reach) const {
-  if (!law_) return -modulus_reach * curvature;
+                                  double outer_stiffness) const {
+  if (!law_) return -outer_stiffness * curvature;
   return law_->outer_stress(history(section), curvature);
 }
 

@@ -11,7 +11,7 @@ namespace subimpact {
 /// The bending law of every section of a beam, with the memory of those that have yielded.
 ///
 /// A section costs memory only once it has yielded, and the law is asked only for a section whose
-/// curvature has left the window in which none of its fibres flows; inside it -M is linear in
+/// curvature has left the window in which none of its fibres flows; inside it M is linear in
 /// kappa. Curvatures and moments are arrays of size() entries, one a section, in 1/m and N m.
 class SectionField {
  public:
@@ -20,7 +20,7 @@ class SectionField {
     always         ///< every section stored and asked every time: the same numbers, for comparison
   };
 
-  /// A field that never yields, -M = stiffness kappa.
+  /// A field that never yields, M = stiffness kappa.
   SectionField(std::size_t n_sections, double stiffness);
   /// A field of one law.
   SectionField(std::size_t n_sections, const SectionLaw& law,
@@ -28,12 +28,12 @@ class SectionField {
 
   std::size_t size() const { return low_.size(); }
   bool can_yield() const { return law_.has_value(); }
-  /// Largest slope d(-M)/dkappa of any section in any state, N m2.
+  /// Largest slope dM/dkappa of any section in any state, N m2.
   double stiffness() const { return stiffness_; }
 
-  /// -M for the given curvatures, history unchanged.
+  /// M for the given curvatures, history unchanged.
   void moments(std::span<const double> curvatures, std::span<double> moments) const;
-  /// -dM/dkappa of one section, N m2.
+  /// dM/dkappa of one section, N m2.
   double tangent(std::size_t section, double curvature) const;
 
   /// The same on the smooth pieces that held at the last commit, each continued beyond its range: a
@@ -41,7 +41,7 @@ class SectionField {
   void smooth_moments(std::span<const double> curvatures, std::span<double> moments) const;
   double smooth_tangent(std::size_t section, double curvature) const;
 
-  /// -M of a section at rest, its window continued.
+  /// M of a section at rest, its window continued.
   double resting_moment(std::size_t section, double curvature) const {
     return stiffness_ * curvature - offset_[section];
   }
@@ -51,19 +51,8 @@ class SectionField {
   /// The same, and notes which of the sections that flowed flow on, by their curvature rates (1/(m
   /// s)).
   std::size_t commit(std::span<const double> curvatures, std::span<const double> rates);
-  /// Takes one section's curvature as reached on the way, where it turned back.
+  /// Takes one section's curvature as reached on the way, where it reversed.
   void commit_reversal(std::size_t section, double curvature);
-
-  /// One section's memory, to be put back.
-  struct Memory {
-    std::size_t section;
-    SectionHistory history;
-    double low, high, offset;
-  };
-  Memory memory(std::size_t section) const {
-    return {section, history(section), low_[section], high_[section], offset_[section]};
-  }
-  void restore(const Memory& memory);
 
   /// A section that flows on from its edge.
   struct Flow {
@@ -90,9 +79,9 @@ class SectionField {
   /// Energies with integration weights (m) of the sections.
   Energies energies(std::span<const double> curvatures, std::span<const double> weights) const;
 
-  /// Stress of the outermost fibre away from the striker, Pa; `modulus_reach` = E h/2 for sections
-  /// that never yield.
-  double outer_stress(std::size_t section, double curvature, double modulus_reach) const;
+  /// Stress of the outermost fibre away from the striker, Pa; `outer_stiffness` = E h/2 for
+  /// sections that never yield.
+  double outer_stress(std::size_t section, double curvature, double outer_stiffness) const;
 
  private:
   SectionHistory& stored_history(std::size_t section);

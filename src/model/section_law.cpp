@@ -26,7 +26,7 @@ class ReversalsInForce {
   std::size_t size_;
 };
 
-bool turns_back(const SectionHistory& history, double x) {
+bool reverses(const SectionHistory& history, double x) {
   return history.direction * (x - history.edge.x) < 0.0;
 }
 
@@ -44,23 +44,23 @@ SectionLaw::SectionLaw(const Beam& beam, Fibres fibres)
 }
 
 bool SectionLaw::inside_window(const SectionHistory& history, double x) const {
-  const double reach = fibres_.first_yield();
-  if (history.direction == 0) return std::abs(x) <= reach;
+  const double half_window = fibres_.first_yield();
+  if (history.direction == 0) return std::abs(x) <= half_window;
   const double behind = history.direction * (history.edge.x - x);
-  return behind >= 0.0 && behind <= 2.0 * reach;
+  return behind >= 0.0 && behind <= 2.0 * half_window;
 }
 
 ElasticWindow SectionLaw::window(const SectionHistory& history) const {
-  const double reach = fibres_.first_yield() * yield_curvature_;
-  if (history.direction == 0) return {-reach, reach, 0.0};
+  const double half_window = fibres_.first_yield() * yield_curvature_;
+  if (history.direction == 0) return {-half_window, half_window, 0.0};
   const double edge = history.edge.x * yield_curvature_;
   const double offset = stiffness_ * edge - history.edge.m * yield_moment_;
-  return history.direction > 0 ? ElasticWindow{edge - 2.0 * reach, edge, offset}
-                               : ElasticWindow{edge, edge + 2.0 * reach, offset};
+  return history.direction > 0 ? ElasticWindow{edge - 2.0 * half_window, edge, offset}
+                               : ElasticWindow{edge, edge + 2.0 * half_window, offset};
 }
 
 SectionBranch SectionLaw::branch_at(const SectionHistory& history, double x) const {
-  const bool turned = turns_back(history, x);
+  const bool turned = reverses(history, x);
   const double sense = turned ? -history.direction : history.direction;
   const ReversalsInForce points(history, turned);
   std::size_t n = points.size();
@@ -118,7 +118,7 @@ void SectionLaw::commit(SectionHistory& history, double curvature) const {
   if (inside_window(history, x)) return;
   if (history.direction == 0) {
     history.direction = x > 0.0 ? 1 : -1;
-  } else if (turns_back(history, x)) {
+  } else if (reverses(history, x)) {
     history.reversals.push_back(history.edge);
     history.direction = -history.direction;
   }
@@ -163,7 +163,7 @@ template <class Visit>
 void SectionLaw::for_each_zone(const SectionHistory& history, double x, Visit visit) const {
   // Fibres beyond 2/|b - a| flowed on the branch from a to b (beyond 1/|b| on the virgin one) and
   // have been elastic since its end b. Later branches are shorter, so their fibres lie further out.
-  const ReversalsInForce points(history, turns_back(history, x));
+  const ReversalsInForce points(history, reverses(history, x));
   double outer = fibres_.extent();
   double end = x;
   for (std::size_t i = points.size() + 1; i-- > 0;) {

@@ -8,7 +8,7 @@
 namespace subimpact {
 
 /// What a section remembers of its plastic bending. Curvatures x in units of kappa_y, moments
-/// m = -M/M_y (positive with the curvature), work in units of M_y kappa_y per length.
+/// m = M/M_y, work in units of M_y kappa_y per length.
 struct SectionHistory {
   struct Point {
     double x, m;
@@ -20,14 +20,14 @@ struct SectionHistory {
   double work = 0.0;     ///< integral of m dx up to the edge
 };
 
-/// Curvatures (1/m) between which none of a section's fibres flows: there -M = stiffness kappa -
+/// Curvatures (1/m) between which none of a section's fibres flows: there M = stiffness kappa -
 /// offset.
 struct ElasticWindow {
   double low, high;
   double offset;  ///< N m
 };
 
-/// The curve a flowing section moves along until it turns back or closes a loop: from `origin` (or
+/// The curve a flowing section moves along until it reverses or closes a loop: from `origin` (or
 /// the virgin curve), in units of kappa_y and M_y.
 struct SectionBranch {
   SectionHistory::Point origin;
@@ -46,9 +46,9 @@ struct SectionBranch {
 /// alike. After flow in one sense ends at `edge`, nothing flows within 2 x_1 behind it (x_1: first
 /// yield).
 ///
-/// Bending moment `-M` in N m, curvature in 1/m. All functions are const in the history; `commit`
-/// alone advances it, at accepted states. Curvature is taken to move monotonically between two
-/// commits.
+/// Bending moment M in N m, with the sign of the curvature (1/m). All functions are const in the
+/// history; `commit` alone advances it, at accepted states. Curvature is taken to move
+/// monotonically between two commits.
 class SectionLaw {
  public:
   /// `fibres` of a section of `beam`; the yield stress must be finite.
@@ -61,13 +61,13 @@ class SectionLaw {
 
   ElasticWindow window(const SectionHistory& history) const;
 
-  double moment(const SectionHistory& history, double curvature) const;   ///< -M, N m
-  double tangent(const SectionHistory& history, double curvature) const;  ///< -dM/dkappa, N m2
+  double moment(const SectionHistory& history, double curvature) const;   ///< M, N m
+  double tangent(const SectionHistory& history, double curvature) const;  ///< dM/dkappa, N m2
 
   /// The branch on which a section goes on that flows on from the edge of its history.
   SectionBranch branch_from_edge(const SectionHistory& history) const;
-  double moment_on(const SectionBranch& branch, double curvature) const;   ///< -M, N m
-  double tangent_on(const SectionBranch& branch, double curvature) const;  ///< -dM/dkappa, N m2
+  double moment_on(const SectionBranch& branch, double curvature) const;   ///< M, N m
+  double tangent_on(const SectionBranch& branch, double curvature) const;  ///< dM/dkappa, N m2
 
   /// Takes the curvature as reached. Inside the window nothing changes.
   void commit(SectionHistory& history, double curvature) const;

@@ -55,9 +55,9 @@ class HermiteCubic {
     if (c1_ * last > 0.0 && s > 0.0 && s < 1.0 && c1_ * slope(s) < 0.0) return s;
     return std::nullopt;
   }
-  /// The first and the second of the two turns if there is a reversed_at().
-  double first_turn() const { return turns().first; }
-  double second_turn() const { return turns().second; }
+  /// The first and the second of the two extrema if there is a reversed_at().
+  double first_extremum() const { return extrema().first; }
+  double second_extremum() const { return extrema().second; }
 
   /// Where the value rises through zero between `a` (not above) and `b` (above).
   double rise(double a, double b) const {
@@ -70,7 +70,7 @@ class HermiteCubic {
 
  private:
   static constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  std::pair<double, double> turns() const {
+  std::pair<double, double> extrema() const {
     const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
     const double a = std::clamp((-c2_ - root) / (3.0 * c3_), 0.0, 1.0);
     const double b = std::clamp((-c2_ + root) / (3.0 * c3_), 0.0, 1.0);
@@ -121,11 +121,11 @@ class HermiteSeptic {
     return sum;
   }
   /// Where the slope vanishes, given a guess, if it has opposite signs at 0 and at 1.
-  double turn(double guess) const {
+  double extremum(double guess) const {
     const double sign = slope(1.0) > 0.0 ? 1.0 : -1.0;
     return find_rise(
         [&](double s) {
-          return GuardValue{sign * slope(s), sign * second(s)};
+          return EventValue{sign * slope(s), sign * second(s)};
         },
         0.0, 1.0, guess, {1e-15});
   }

@@ -7,7 +7,7 @@ namespace subimpact {
 
 /// Value of an event function and its rate of change. An event happens where the value rises
 /// through zero: negative before, positive after.
-struct GuardValue {
+struct EventValue {
   double value = 0.0;
   double rate = 0.0;
 };
@@ -28,7 +28,7 @@ double find_rise(Guard guard, double a, double b, double guess, RootOptions opti
   double t = guess > a && guess < b ? guess : 0.5 * (a + b);
   double last_size = 2.0 * (b - a);
   for (int i = 1;; ++i) {
-    const GuardValue at = guard(t);
+    const EventValue at = guard(t);
     if (at.value == 0.0 || i == options.max_iterations) return t;
     (at.value < 0.0 ? a : b) = t;
     double next = t - at.value / at.rate;

@@ -15,7 +15,7 @@ std::vector<Point> loop(const Result& result, std::size_t section, std::size_t n
   std::vector<Point> line;
   for (std::size_t i = section; i < result.section_history.size(); i += n_sections) {
     const SectionRow& row = result.section_history[i];
-    line.push_back({row.curvature / x_unit, -row.moment / y_unit});
+    line.push_back({row.curvature / x_unit, row.moment / y_unit});
   }
   return line;
 }

@@ -81,7 +81,7 @@ List sub_impact_list(const Result& result) {
   List list;
   int zone = 0, subzone = 0;
   for (const SubImpact& s : result.sub_impacts) {
-    const auto cells = sub_impact_cells(s, list.size() + 1, result.trust.has_value());
+    const auto cells = sub_impact_cells(s, list.size() + 1, result.error_estimate.has_value());
     const bool begins = s.zone != zone || s.subzone != subzone;
     zone = s.zone;
     subzone = s.subzone;
@@ -126,26 +126,28 @@ void add_method(Fields& page, const FinishedRun& run) {
                   counted(work.roots, "event"), duration_text(work.wall_seconds));
 }
 
-Fields error_bars(const Trust& trust) {
+Fields error_bars(const ErrorEstimate& estimate) {
   List parts;
-  for (const Trust::Part& part : trust.parts) {
+  for (const ErrorEstimate::Part& part : estimate.parts) {
     parts.push_back(
         {{{"name", part.name},
-          {"run", part.companion},
-          {"error", part.first_undecided == std::size_t{0}
+          {"run", part.refined_run},
+          {"error", part.first_unresolved == std::size_t{0}
                         ? ""
                         : fmt::format("{:.1e} µs", 1e6 * part.largest_error)},
           {"valid",
-           part.first_undecided
+           part.first_unresolved
                ? fmt::format(
                      "before sub-impact {}; from there on count and order are uncertain: {}",
-                     *part.first_undecided + 1, part.reason)
+                     *part.first_unresolved + 1, part.reason)
                : "for all sub-impacts"}},
          {}});
   }
-  const Fields first{{{"number", fmt::format("{}", trust.first_undecided.value_or(0) + 1)}}, {}};
-  return {{},
-          {{"parts", parts}, {"uncertain", if_given(trust.first_undecided.has_value(), first)}}};
+  const Fields first{{{"number", fmt::format("{}", estimate.first_unresolved.value_or(0) + 1)}},
+                     {}};
+  return {
+      {},
+      {{"parts", parts}, {"uncertain", if_given(estimate.first_unresolved.has_value(), first)}}};
 }
 
 void add_conservation(Fields& page, const Result& result) {
@@ -176,24 +178,25 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   const std::string caveat = outcome_caveat(result);
   std::string versions = run.program_version;
   for (const auto& [name, version] : run.libraries) versions += ", " + name + " " + version;
-  Fields page{{{"title", run.input.title.empty() ? "A strike" : run.input.title},
-               {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
-               {"striker_kg", fmt::format("{:.4g}", scene.striker.mass)},
-               {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
-               {"outcome", std::string(to_string(result.outcome.kind))},
-               {"end", duration_text(result.outcome.time)},
-               {"versions", versions}},
-              {{"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
-               {"warnings", list_of("warning", result.warnings)},
-               {"tiles", tiles(result)},
-               {"paragraphs", list_of("paragraph", strike_words(run.input, result))},
-               {"figures", figure_list(figures, figure_directory)},
-               {"left_out", list_of("reason", figures.left_out)},
-               {"sub_impacts", sub_impact_list(result)},
-               {"keys", key_list(run.input)},
-               {"without_errors", if_given(!result.trust)},
-               {"with_errors",
-                if_given(result.trust.has_value(), error_bars(result.trust.value_or(Trust{})))}}};
+  Fields page{
+      {{"title", run.input.title.empty() ? "A strike" : run.input.title},
+       {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
+       {"striker_kg", fmt::format("{:.4g}", scene.striker.mass)},
+       {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
+       {"outcome", std::string(to_string(result.outcome.kind))},
+       {"end", duration_text(result.outcome.time)},
+       {"versions", versions}},
+      {{"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
+       {"warnings", list_of("warning", result.warnings)},
+       {"tiles", tiles(result)},
+       {"paragraphs", list_of("paragraph", strike_words(run.input, result))},
+       {"figures", figure_list(figures, figure_directory)},
+       {"left_out", list_of("reason", figures.left_out)},
+       {"sub_impacts", sub_impact_list(result)},
+       {"keys", key_list(run.input)},
+       {"without_errors", if_given(!result.error_estimate)},
+       {"with_errors", if_given(result.error_estimate.has_value(),
+                                error_bars(result.error_estimate.value_or(ErrorEstimate{})))}}};
   add_method(page, run);
   add_conservation(page, result);
   return filled(embedded_file("pages/report.html"), page);

@@ -154,7 +154,7 @@ std::string layer_table(const LayerStudy& study) {
     fmt::format_to(out, "{:>7} {:>11} {:>12} {:>14.3e} {:>12.3e}  {}\n", point.layers,
                    point.errors.n_found, point.errors.n_corresponding, point.errors.median * us,
                    point.errors.maximum * us,
-                   point.errors.odd ? point.errors.odd->description : "");
+                   point.errors.unmatched ? point.errors.unmatched->description : "");
   }
   return fmt::to_string(text);
 }

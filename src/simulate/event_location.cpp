@@ -35,7 +35,7 @@ IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step) {
 }
 
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
-                   const GuardValue& at) {
+                   const EventValue& at) {
   const double of_value = function.kind == EventKind::contact_unloads
                               ? velocity_rounding * beam.scales().velocity
                               : beam.displacement_rounding(y);
@@ -131,7 +131,7 @@ bool EventLocator::relocate(const EventFunction& function, const StepEnds& step,
   };
   trial_ = end_;
   correction.add_to(trial_);
-  const GuardValue here = beam_.evaluate(function, trial_);
+  const EventValue here = beam_.evaluate(function, trial_);
   if (std::abs(here.value) <= rounding_of(function, beam_, trial_, step.t1, here)) return true;
   const double guess = step.t1 - here.value / here.rate;
   if (here.value > 0.0) {

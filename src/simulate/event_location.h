@@ -16,7 +16,7 @@ IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step);
 /// What rounding may make of an event function at a state y, time t (s), that meets it: m, or m/s
 /// for contact_unloads.
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
-                   const GuardValue& at);
+                   const EventValue& at);
 
 /// Finds the end of a step: its first event of the contact, or where its section correction stops
 /// being valid, or its own end.

@@ -184,7 +184,7 @@ void EventLoop::report(const EventFunction& function, double time, const State& 
 }
 
 void EventLoop::check_root(const EventFunction& function, double time, const State& y) {
-  const GuardValue at = beam_.evaluate(function, y);
+  const EventValue at = beam_.evaluate(function, y);
   const double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
   if (!(std::abs(at.value) <= tolerated)) {
     audit_->fail(time, OutcomeKind::inaccurate,

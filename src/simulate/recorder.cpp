@@ -111,8 +111,8 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
           step.state_at(t, state_);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
-        rate0 > 0.0 ? step.t0() : step.t0() + path.first_turn() * h,
-        rate1 < 0.0 ? step.t1() : step.t0() + path.second_turn() * h, step.t0() + guess * h,
+        rate0 > 0.0 ? step.t0() : step.t0() + path.first_extremum() * h,
+        rate1 < 0.0 ? step.t1() : step.t0() + path.second_extremum() * h, step.t0() + guess * h,
         options);
   }
   follow_peak(beam.indentation(state_), beam);
@@ -221,9 +221,9 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
   const StruckBeam& beam = accounts.beam();
   for (const std::size_t section : sections_) {
     const double kappa = bending.curvatures[section];
-    const double moment = -bending.moments[section];
+    const double moment = bending.moments[section];
     result_.section_history.push_back({time, beam.mesh().section_positions()[section], kappa,
-                                       moment, kappa + moment / beam.sections().stiffness()});
+                                       moment, kappa - moment / beam.sections().stiffness()});
   }
 }
 

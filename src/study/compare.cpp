@@ -22,8 +22,8 @@ std::string remark_on(const ComparedRun& run, const Result& reference) {
   if (run.n_corresponding == there && here == there) return "every sub-impact corresponds";
   std::string text = fmt::format("{} instead of {}; {}", counted(here, "sub-impact"), there,
                                  leading_words(run.n_corresponding));
-  const auto odd = first_odd(run.pairs, reference.sub_impacts, run.result.sub_impacts);
-  if (odd) text += "; " + odd->description;
+  const auto unmatched = first_unmatched(run.pairs, reference.sub_impacts, run.result.sub_impacts);
+  if (unmatched) text += "; " + unmatched->description;
   return text;
 }
 

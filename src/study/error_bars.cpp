@@ -15,27 +15,27 @@ constexpr double safety = 3.0;
 
 }  // namespace
 
-Companion companion_of(const Case& input) {
-  Companion companion{input, {}};
-  companion.input.output.keep_no_rows();
-  SolverOptions& solver = companion.input.solver;
+RefinedRun refined_run_of(const Case& input) {
+  RefinedRun refined_run{input, {}};
+  refined_run.input.output.keep_no_rows();
+  SolverOptions& solver = refined_run.input.solver;
   if (const std::optional<double> step = resolve(input).settings().step) {
     solver.step = 0.5 * *step;
-    companion.description =
+    refined_run.description =
         fmt::format("the same with half the step, {:.6g} us", 1e6 * *solver.step);
   } else if (tighter * solver.rtol >= tightest) {
     solver.rtol *= tighter;
-    companion.description = fmt::format("the same with rtol = {:.3g}", solver.rtol);
+    refined_run.description = fmt::format("the same with rtol = {:.3g}", solver.rtol);
   } else {
     solver.rtol /= tighter;
-    companion.description =
+    refined_run.description =
         fmt::format("the same with rtol = {:.3g}, whose errors these are", solver.rtol);
   }
-  return companion;
+  return refined_run;
 }
 
-void add_error_bars(Result& result, const Result& companion, const std::string& description) {
-  set_error_bars(result, {compare_events(result, companion, "time", description, safety)});
+void add_error_bars(Result& result, const Result& refined_run, const std::string& description) {
+  set_error_bars(result, {compare_events(result, refined_run, "time", description, safety)});
 }
 
 Result simulate_with_error_bars(const Case& input, const Progress& progress) {
@@ -48,9 +48,9 @@ Result simulate_with_error_bars(const Case& input, const Progress& progress) {
   };
   Result result = simulate(input, half(0.0));
   if (result.outcome.kind == OutcomeKind::stopped) return result;
-  const Companion companion = companion_of(input);
-  const Result second = simulate(companion.input, half(1.0));
-  add_error_bars(result, second, companion.description);
+  const RefinedRun refined_run = refined_run_of(input);
+  const Result second = simulate(refined_run.input, half(1.0));
+  add_error_bars(result, second, refined_run.description);
   return result;
 }
 

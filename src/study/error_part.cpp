@@ -14,10 +14,10 @@ namespace subimpact {
 namespace {
 
 // Of a duration or separation, the error that makes it uncertain. Two errors of half of it may
-// close it; small differences in time may grow faster than one companion tells, so there half of
+// close it; small differences in time may grow faster than one refined run tells, so there half of
 // that.
-constexpr double undecided_share = 0.5;
-constexpr double undecided_share_in_time = 0.25;
+constexpr double unresolved_share = 0.5;
+constexpr double unresolved_share_in_time = 0.25;
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 // The larger of the differences of start and end; an end is missing where contact lasts to the end.
@@ -27,8 +27,8 @@ double difference(const SubImpact& here, const SubImpact& there) {
 }
 
 // Why a sub-impact with this error in its times is not certain; empty if it is.
-std::string undecided_reason(const std::vector<SubImpact>& all, std::size_t i, double error,
-                             double share) {
+std::string unresolved_reason(const std::vector<SubImpact>& all, std::size_t i, double error,
+                              double share) {
   const SubImpact& here = all[i];
   if (here.end && error > share * (*here.end - here.start)) {
     return "its estimated error is not small beside its duration";
@@ -42,29 +42,29 @@ std::string undecided_reason(const std::vector<SubImpact>& all, std::size_t i, d
   return {};
 }
 
-// The trust that some errors deserve; `n_companion` sub-impacts were there to correspond.
-Trust::Part judge(const std::vector<SubImpact>& all, const ErrorPart& part) {
-  Trust::Part trust{part.name, part.companion, std::nullopt, {}, 0.0};
+// The trust that some errors deserve; `n_refined` sub-impacts were there to correspond.
+ErrorEstimate::Part judge(const std::vector<SubImpact>& all, const ErrorPart& part) {
+  ErrorEstimate::Part estimate{part.name, part.refined_run, std::nullopt, {}, 0.0};
   const std::size_t n = part.errors.size();
-  const double share = part.name == "time" ? undecided_share_in_time : undecided_share;
+  const double share = part.name == "time" ? unresolved_share_in_time : unresolved_share;
   for (std::size_t i = 0; i < n; ++i) {
-    trust.reason = undecided_reason(all, i, part.errors[i], share);
-    if (!trust.reason.empty()) {
-      trust.first_undecided = i;
-      return trust;
+    estimate.reason = unresolved_reason(all, i, part.errors[i], share);
+    if (!estimate.reason.empty()) {
+      estimate.first_unresolved = i;
+      return estimate;
     }
-    trust.largest_error = std::max(trust.largest_error, part.errors[i]);
+    estimate.largest_error = std::max(estimate.largest_error, part.errors[i]);
   }
-  if (n < all.size() || n < part.n_companion) {
-    trust.first_undecided = n;
-    trust.reason = fmt::format(
+  if (n < all.size() || n < part.n_refined) {
+    estimate.first_unresolved = n;
+    estimate.reason = fmt::format(
         "the refined run has {} in all, this run {}; from here on they do not correspond",
-        counted(part.n_companion, "sub-impact"), all.size());
+        counted(part.n_refined, "sub-impact"), all.size());
   } else if (!part.failure.empty()) {
-    trust.first_undecided = n;
-    trust.reason = "the refined run did not complete: " + part.failure;
+    estimate.first_unresolved = n;
+    estimate.reason = "the refined run did not complete: " + part.failure;
   }
-  return trust;
+  return estimate;
 }
 
 std::optional<double>& member_of(SubImpact& s, const std::string& part) {
@@ -74,12 +74,12 @@ std::optional<double>& member_of(SubImpact& s, const std::string& part) {
 
 }  // namespace
 
-ErrorPart compare_events(const Result& result, const Result& companion, std::string name,
+ErrorPart compare_events(const Result& result, const Result& refined_run, std::string name,
                          std::string description, double factor) {
   const std::vector<SubImpact>& here = result.sub_impacts;
-  const std::vector<SubImpact>& there = companion.sub_impacts;
+  const std::vector<SubImpact>& there = refined_run.sub_impacts;
   ErrorPart part{std::move(name), std::move(description), {}, there.size(), {}};
-  if (!companion.outcome.completed()) part.failure = companion.outcome.message;
+  if (!refined_run.outcome.completed()) part.failure = refined_run.outcome.message;
   const std::size_t n = n_leading_matches(match_sub_impacts(here, there));
   std::vector<double> differences(n);
   for (std::size_t i = 0; i < n; ++i) differences[i] = difference(here[i], there[i]);
@@ -93,8 +93,8 @@ ErrorPart compare_events(const Result& result, const Result& companion, std::str
 
 void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
   std::vector<SubImpact>& all = result.sub_impacts;
-  Trust trust;
-  ErrorPart total;  // only what all companions have
+  ErrorEstimate estimate;
+  ErrorPart total;  // only what all refined runs have
   total.errors.assign(all.size(), 0.0);
   for (const ErrorPart& part : parts) {
     for (std::size_t i = 0; i < part.errors.size(); ++i) {
@@ -102,8 +102,8 @@ void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
     }
     total.errors.resize(std::min(total.errors.size(), part.errors.size()));
     for (std::size_t i = 0; i < total.errors.size(); ++i) total.errors[i] += part.errors[i];
-    trust.parts.push_back(judge(all, part));
-    trust.companion += (trust.companion.empty() ? "" : "; ") + part.companion;
+    estimate.parts.push_back(judge(all, part));
+    estimate.refined_run += (estimate.refined_run.empty() ? "" : "; ") + part.refined_run;
   }
   for (std::size_t i = 0; i < total.errors.size(); ++i) {
     SubImpact& s = all[i];
@@ -111,25 +111,25 @@ void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
     s.start_error = i == 0 ? 0.0 : total.errors[i] + rounding * s.start;
     if (s.end) s.end_error = total.errors[i] + rounding * *s.end;
   }
-  total.n_companion = all.size();
+  total.n_refined = all.size();
   if (parts.size() == 1) total.name = parts.front().name;
-  const Trust::Part together = judge(all, total);
+  const ErrorEstimate::Part together = judge(all, total);
   // A part by itself comes first where it says why.
-  const auto first = [](const Trust::Part& part) {
-    return part.first_undecided.value_or(std::numeric_limits<std::size_t>::max());
+  const auto first = [](const ErrorEstimate::Part& part) {
+    return part.first_unresolved.value_or(std::numeric_limits<std::size_t>::max());
   };
-  const Trust::Part* earliest = &together;
-  for (const Trust::Part& part : trust.parts) {
-    if (part.first_undecided && first(part) <= first(*earliest)) earliest = &part;
+  const ErrorEstimate::Part* earliest = &together;
+  for (const ErrorEstimate::Part& part : estimate.parts) {
+    if (part.first_unresolved && first(part) <= first(*earliest)) earliest = &part;
   }
-  trust.first_undecided = earliest->first_undecided;
-  trust.reason = earliest->reason;
+  estimate.first_unresolved = earliest->first_unresolved;
+  estimate.reason = earliest->reason;
   const std::size_t n_certain = std::min(first(*earliest), total.errors.size());
   for (std::size_t i = 0; i < n_certain; ++i) {
-    trust.largest_error =
-        std::max({trust.largest_error, *all[i].start_error, all[i].end_error.value_or(0.0)});
+    estimate.largest_error =
+        std::max({estimate.largest_error, *all[i].start_error, all[i].end_error.value_or(0.0)});
   }
-  result.trust = trust;
+  result.error_estimate = estimate;
 }
 
 }  // namespace subimpact

@@ -8,23 +8,23 @@
 
 namespace subimpact {
 
-/// What one companion run says of the errors of another run's sub-impacts.
+/// What one refined run says of the errors of another run's sub-impacts.
 struct ErrorPart {
-  std::string name;             ///< "time", "mesh", "layers"
-  std::string companion;        ///< the companion run, in words
-  std::vector<double> errors;   ///< s, of the leading sub-impacts that correspond
-  std::size_t n_companion = 0;  ///< sub-impacts the companion run has
-  std::string failure;          ///< why the companion run did not complete; empty: it did
+  std::string name;            ///< "time", "mesh", "layers"
+  std::string refined_run;     ///< the refined run, in words
+  std::vector<double> errors;  ///< s, of the leading sub-impacts that correspond
+  std::size_t n_refined = 0;   ///< sub-impacts the refined run has
+  std::string failure;         ///< why the refined run did not complete; empty: it did
 };
 
 /// The error of each leading sub-impact that both runs have: `factor` times the largest difference
 /// of starts and ends over it and its neighbours, so that a difference that happens to pass through
 /// zero does not pose as accuracy.
-ErrorPart compare_events(const Result& result, const Result& companion, std::string name,
+ErrorPart compare_events(const Result& result, const Result& refined_run, std::string name,
                          std::string description, double factor);
 
 /// Gives every sub-impact its errors, part by part and in sum, and says from where on neither count
-/// nor order is certain: Result::trust.
+/// nor order is certain: Result::error_estimate.
 void set_error_bars(Result& result, const std::vector<ErrorPart>& parts);
 
 }  // namespace subimpact

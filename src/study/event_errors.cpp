@@ -22,7 +22,7 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
   errors.n_found = run.size();
   const std::vector<MatchedPair> pairs = match_sub_impacts(reference, run);
   errors.n_corresponding = n_leading_matches(pairs);
-  errors.odd = first_odd(pairs, reference, run);
+  errors.unmatched = first_unmatched(pairs, reference, run);
   std::vector<double> times;
   for (std::size_t i = 0; i < errors.n_corresponding; ++i) {
     const SubImpact& there = reference[i];

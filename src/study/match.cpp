@@ -67,25 +67,26 @@ std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
 }
 
 std::size_t n_leading_matches(const std::vector<MatchedPair>& pairs) {
-  const auto odd = std::find_if(pairs.begin(), pairs.end(), [](const MatchedPair& pair) {
+  const auto unmatched = std::find_if(pairs.begin(), pairs.end(), [](const MatchedPair& pair) {
     return !pair.first || !pair.second;
   });
-  return static_cast<std::size_t>(odd - pairs.begin());
+  return static_cast<std::size_t>(unmatched - pairs.begin());
 }
 
-std::optional<OddSubImpact> first_odd(const std::vector<MatchedPair>& pairs,
-                                      const std::vector<SubImpact>& reference,
-                                      const std::vector<SubImpact>& run) {
+std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>& pairs,
+                                                  const std::vector<SubImpact>& reference,
+                                                  const std::vector<SubImpact>& run) {
   const std::size_t n = n_leading_matches(pairs);
   if (n == pairs.size()) return std::nullopt;
-  const MatchedPair& odd = pairs[n];
-  const SubImpact& sub_impact = odd.first ? reference[*odd.first] : run[*odd.second];
+  const MatchedPair& unmatched = pairs[n];
+  const SubImpact& sub_impact =
+      unmatched.first ? reference[*unmatched.first] : run[*unmatched.second];
   const double duration = sub_impact.end.value_or(sub_impact.start) - sub_impact.start;
-  return OddSubImpact{
+  return UnmatchedSubImpact{
       sub_impact.start, duration,
       fmt::format("at {:.3f} us {} a sub-impact of {:.3f} us that {}", 1e6 * sub_impact.start,
-                  odd.first ? "the reference has" : "it has", 1e6 * duration,
-                  odd.first ? "is missing or merged here" : "the reference does not have")};
+                  unmatched.first ? "the reference has" : "it has", 1e6 * duration,
+                  unmatched.first ? "is missing or merged here" : "the reference does not have")};
 }
 
 }  // namespace subimpact

@@ -20,10 +20,10 @@
 namespace subimpact {
 namespace {
 
-constexpr double safety = 3.0;         // of differences in time
-constexpr double mesh_safety = 1.5;    // of what the finer mesh tells
-constexpr double layers_safety = 1.5;  // of one that is the error but for the mesh
-constexpr double order_doubt = 0.35;   // of the ratio of differences that an order asks for
+constexpr double safety = 3.0;              // of differences in time
+constexpr double mesh_safety = 1.5;         // of what the finer mesh tells
+constexpr double layers_safety = 1.5;       // of one that is the error but for the mesh
+constexpr double order_uncertainty = 0.35;  // of the ratio of differences that an order asks for
 
 // The whole number nearest to x that is odd (or even), or just the nearest.
 int nearest(double x, bool any, bool odd) {
@@ -40,7 +40,7 @@ struct MeshSequence {
   std::optional<double> limit(double coarse, double here, double fine) const {
     const double expected = ratio_of_differences(coarse_h, h, fine_h, order);
     const double found = (coarse - here) / (here - fine);
-    if (!(std::abs(found / expected - 1.0) <= order_doubt)) return std::nullopt;
+    if (!(std::abs(found / expected - 1.0) <= order_uncertainty)) return std::nullopt;
     return richardson_limit(here, fine, h / fine_h, order);
   }
 };
@@ -86,32 +86,32 @@ int mesh_count(const Case& input) {
   return refinement ? input.model.*(refinement->count) : 1;
 }
 
-std::optional<Companion> on_other_mesh(const Case& input, double factor) {
+std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   const auto refinement = refinement_of(input);
   if (!refinement) return {};
-  Companion companion{input, {}};
-  Case& other = companion.input;
+  RefinedRun refined_run{input, {}};
+  Case& other = refined_run.input;
   other.output.keep_no_rows();
   int& count = other.model.*(refinement->count);
   count = nearest(factor * mesh_count(input), !uses_symmetry(input), refinement->odd_in_half);
   if (count < refinement->fewest) return {};
-  companion.description = fmt::format("the same with {} {}", count, refinement->parts);
+  refined_run.description = fmt::format("the same with {} {}", count, refinement->parts);
   const bool fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
   if (fixed && input.solver.step) {
     other.solver.step.reset();
     const double largest = default_part_of_critical * resolve(other).settings().critical_step;
     other.solver.step = std::min(*input.solver.step, largest);
     if (*other.solver.step < *input.solver.step) {
-      companion.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
+      refined_run.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
     }
   }
-  return companion;
+  return refined_run;
 }
 
 Result simulate_with_all_error_bars(const Case& input, const Progress& progress) {
-  const Companion in_time = companion_of(input);
-  const std::optional<Companion> fine = on_other_mesh(input, 2.0);
-  const std::optional<Companion> coarse = on_other_mesh(input, 0.5);
+  const RefinedRun in_time = refined_run_of(input);
+  const std::optional<RefinedRun> fine = on_other_mesh(input, 2.0);
+  const std::optional<RefinedRun> coarse = on_other_mesh(input, 0.5);
   std::atomic<bool> stop = false;
   const Progress go_on = [&stop](double) { return !stop; };
   const auto beside = [&](const Case& other) {
@@ -136,7 +136,7 @@ Result simulate_with_all_error_bars(const Case& input, const Progress& progress)
   if (!stop) compare(simulate(in_time.input, half(1.0)), "time", in_time.description, safety);
   if (!stop && descriptor_of(input.model.section).has_layers && !input.parts.section &&
       may_yield(input)) {
-    Case exact = companion_of(input).input;
+    Case exact = refined_run_of(input).input;
     exact.solver = input.solver;
     exact.model.section = SectionKind::exact;
     compare(simulate(exact, go_on), "layers", "the same with the exact section", layers_safety);

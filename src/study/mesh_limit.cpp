@@ -45,7 +45,7 @@ Sequence sequence_of(const Case& input, MeshKind kind) {
   sequence.order = mesh_order(base).value_or(0);
   for (const double factor : factors) {
     const auto other =
-        factor == 1.0 ? std::optional(Companion{base, {}}) : on_other_mesh(base, factor);
+        factor == 1.0 ? std::optional(RefinedRun{base, {}}) : on_other_mesh(base, factor);
     if (!other) continue;
     MeshRun run;
     run.input = accurate(other->input);

@@ -119,9 +119,9 @@ void run(Trial& trial, const Reference& reference, double run_seconds) {
     } else if (!result.outcome.completed()) {
       point.message =
           fmt::format("at {:.6g} us {}", 1e6 * result.outcome.time, result.outcome.message);
-    } else if (point.errors.odd) {
+    } else if (point.errors.unmatched) {
       point.message = fmt::format("{} of {}; {}", counted(point.errors.n_found, "sub-impact"),
-                                  point.errors.n_reference, point.errors.odd->description);
+                                  point.errors.n_reference, point.errors.unmatched->description);
     }
   } catch (const InvalidCase& error) {
     point.verdict = Verdict::refused;

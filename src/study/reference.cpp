@@ -38,7 +38,7 @@ std::pair<std::size_t, std::string> count_known(const Result& result, double lar
   const std::size_t n = result.sub_impacts.size();
   for (std::size_t i = 0; i < n; ++i) {
     const SubImpact& s = result.sub_impacts[i];
-    if (result.trust->first_undecided == i) {
+    if (result.error_estimate->first_unresolved == i) {
       return {i, fmt::format("the reference does not resolve sub-impact {}", i + 1)};
     }
     if (!s.end) return {i, fmt::format("sub-impact {} has not ended at the case's end", i + 1)};
@@ -59,13 +59,13 @@ Reference compute_reference(const Case& input, double largest_error, const Progr
   const char* second = yields ? "erk" : "nystrom";
   Reference reference;
   reference.input = accurate(input, first);
-  const Case companion_input = accurate(input, second);
+  const Case refined_input = accurate(input, second);
   reference.description = fmt::format("{} at rtol {:.0e} beside {} at rtol {:.0e}", first,
                                       reference_tolerance, second, reference_tolerance);
 
-  auto companion = std::async(std::launch::async, [&] { return simulate(companion_input); });
+  auto refined_run = std::async(std::launch::async, [&] { return simulate(refined_input); });
   Result result = simulate(reference.input, progress);
-  const Result other = companion.get();
+  const Result other = refined_run.get();
   require_completed(result, first);
   require_completed(other, second);
   add_error_bars(result, other, reference.description);

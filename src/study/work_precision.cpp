@@ -26,10 +26,10 @@ void conclude(WorkPrecisionPoint& point, const TimedRun& run, const Reference& r
   if (!run.result.outcome.completed()) {
     point.message =
         fmt::format("at {:.6g} us {}", 1e6 * run.result.outcome.time, run.result.outcome.message);
-  } else if (point.errors.odd) {
+  } else if (point.errors.unmatched) {
     point.message = fmt::format(
         "{} of {}, {}; {}", counted(point.errors.n_found, "sub-impact"), point.errors.n_reference,
-        leading_words(point.errors.n_corresponding), point.errors.odd->description);
+        leading_words(point.errors.n_corresponding), point.errors.unmatched->description);
   }
 }
 
@@ -53,7 +53,7 @@ class Study {
     for (const std::string& method : methods) sweeps_.push_back(settings_of(input, method));
     announce("reference");
     study_.reference =
-        compute_reference(input, reference_share * advised_errors().back(), options.progress);
+        compute_reference(input, reference_share * recommended_errors().back(), options.progress);
     if (study_.reference.result.outcome.kind == OutcomeKind::stopped) study_.interrupted = true;
     compared_ = input;
     compared_.end_time = study_.reference.horizon;
@@ -121,7 +121,7 @@ class Study {
 
 }  // namespace
 
-const std::vector<double>& advised_errors() {
+const std::vector<double>& recommended_errors() {
   static const std::vector<double> errors = {1e-6, 1e-7, 1e-8, 1e-9};
   return errors;
 }
@@ -130,10 +130,10 @@ WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& opti
   return Study(input, options).run();
 }
 
-std::vector<Advice> advice_from(const std::vector<WorkPrecisionPoint>& points) {
-  std::vector<Advice> list;
-  for (const double wanted : advised_errors()) {
-    Advice advice{wanted, {}, {}};
+std::vector<Recommendation> recommendations_from(const std::vector<WorkPrecisionPoint>& points) {
+  std::vector<Recommendation> list;
+  for (const double wanted : recommended_errors()) {
+    Recommendation recommendations{wanted, {}, {}};
     std::optional<std::size_t> cheapest, steady;
     const auto take = [&](std::optional<std::size_t>& best, std::size_t i) {
       if (!best || points[i].seconds < points[*best].seconds) best = i;
@@ -143,9 +143,9 @@ std::vector<Advice> advice_from(const std::vector<WorkPrecisionPoint>& points) {
       take(cheapest, i);
       if (finer_ones_reach(points, i, wanted)) take(steady, i);
     }
-    if (cheapest) advice.point = points[*cheapest];
-    if (steady && steady != cheapest) advice.steady = points[*steady];
-    list.push_back(advice);
+    if (cheapest) recommendations.point = points[*cheapest];
+    if (steady && steady != cheapest) recommendations.steady = points[*steady];
+    list.push_back(recommendations);
   }
   return list;
 }

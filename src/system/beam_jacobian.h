@@ -21,7 +21,7 @@ class BeamJacobian {
 
   const SparsityPattern& pattern() const { return pattern_; }
   void mass_entries(std::span<double> values) const;
-  /// `tangents` = -dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m).
+  /// `tangents` = dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m).
   void stiffness_entries(std::span<const double> tangents, double contact_slope,
                          std::span<double> values);
 

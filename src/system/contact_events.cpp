@@ -21,8 +21,8 @@ MaybeCrossing crossing_at(EventKind kind, const IndentationStep& step, double lo
 }
 
 // A double root: negative at both ends, with a local maximum near or above zero in between.
-MaybeCrossing find_double_root(EventKind kind, const IndentationStep& step, const GuardValue& g0,
-                               const GuardValue& g1, double rounding) {
+MaybeCrossing find_double_root(EventKind kind, const IndentationStep& step, const EventValue& g0,
+                               const EventValue& g1, double rounding) {
   if (!(g0.rate > 0.0 && g1.rate < 0.0)) return std::nullopt;
   const HermiteCubic path(g0.value, g0.rate, g1.value, g1.rate, step.length());
   const double peak = path.peak();
@@ -31,8 +31,8 @@ MaybeCrossing find_double_root(EventKind kind, const IndentationStep& step, cons
   return Crossing{{kind}, step.t0, step.t1, step.t0 + peak * step.length(), true};
 }
 
-MaybeCrossing find_rise_of(EventKind kind, const IndentationStep& step, const GuardValue& g0,
-                           const GuardValue& g1) {
+MaybeCrossing find_rise_of(EventKind kind, const IndentationStep& step, const EventValue& g0,
+                           const EventValue& g1) {
   if (g0.value >= 0.0 && g0.rate > 0.0 && g1.rate > 0.0) {  // positive from the start on
     return Crossing{{kind}, step.t0, step.t0, step.t0, false};
   }
@@ -46,8 +46,8 @@ MaybeCrossing find_rise_of(EventKind kind, const IndentationStep& step, const Gu
   return crossing_at(kind, step, lower, path.rise(lower, 1.0));
 }
 
-MaybeCrossing find_unloading(const IndentationStep& step, const GuardValue& g0,
-                             const GuardValue& g1) {
+MaybeCrossing find_unloading(const IndentationStep& step, const EventValue& g0,
+                             const EventValue& g1) {
   if (!(g1.value > 0.0)) return std::nullopt;
   const double guess = g0.value < 0.0 ? g0.value / (g0.value - g1.value) : 0.0;
   return crossing_at(EventKind::contact_unloads, step, 0.0, guess);
@@ -61,8 +61,8 @@ std::optional<Crossing> find_crossing(const ContactState& contact, const Indenta
   const auto consider = [&](EventKind kind) {
     const auto is_kind = [&](const EventFunction& function) { return function.kind == kind; };
     if (std::any_of(search.without.begin(), search.without.end(), is_kind)) return;
-    const GuardValue g0 = contact.event_function(kind, step.lambda0, step.rate0);
-    const GuardValue g1 = contact.event_function(kind, step.lambda1, step.rate1);
+    const EventValue g0 = contact.event_function(kind, step.lambda0, step.rate0);
+    const EventValue g1 = contact.event_function(kind, step.lambda1, step.rate1);
     std::optional<Crossing> found;
     if (kind == EventKind::contact_unloads) {
       found = find_unloading(step, g0, g1);
@@ -97,8 +97,8 @@ std::vector<InterpolatedEvent> interpolate_events(const ContactState& contact,
     events.push_back({kind, step.t0 + s * step.length()});
   };
   const auto add_rise = [&](EventKind kind) {
-    const GuardValue g0 = contact.event_function(kind, step.lambda0, step.rate0);
-    const GuardValue g1 = contact.event_function(kind, step.lambda1, step.rate1);
+    const EventValue g0 = contact.event_function(kind, step.lambda0, step.rate0);
+    const EventValue g1 = contact.event_function(kind, step.lambda1, step.rate1);
     add(kind, HermiteCubic(g0.value, g0.rate, g1.value, g1.rate, step.length()).rise(0.0, 1.0));
   };
   if (before == ContactBranch::separated) add_rise(EventKind::contact_begins);

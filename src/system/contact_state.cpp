@@ -21,7 +21,7 @@ ContactState::Energies ContactState::energies(double indentation) const {
           law_->dissipated_energy(reached)};
 }
 
-GuardValue ContactState::event_function(EventKind kind, double indentation, double rate) const {
+EventValue ContactState::event_function(EventKind kind, double indentation, double rate) const {
   switch (kind) {
     case EventKind::contact_begins:
       return {indentation - residual_indentation(), rate};

@@ -51,7 +51,7 @@ class ContactState {
 
   /// Value (m) and rate (m/s) of an event function; for contact_unloads the value is -rate, and its
   /// own rate, which needs the acceleration, is left at 0.
-  GuardValue event_function(EventKind kind, double indentation, double rate) const;
+  EventValue event_function(EventKind kind, double indentation, double rate) const;
 
   void set_evaluation(Evaluation how) { evaluation_ = how; }
   /// Starts from a state of the caller's choice.

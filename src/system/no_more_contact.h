@@ -11,9 +11,9 @@ namespace subimpact {
 /// Apart, the striker moves uniformly, and so does the rigid part R of the struck point's
 /// displacement (its share of the modes of frequency zero). The rest is
 ///
-///     d = S w - R = sum W kbar (-M) + sum W k kbar kappa_p,
+///     d = S w - R = sum W kbar M + sum W k kbar kappa_p,
 ///
-/// with k the elastic stiffness of a section, kappa_p = kappa + M/k its plastic curvature, and kbar
+/// with k the elastic stiffness of a section, kappa_p = kappa - M/k its plastic curvature, and kbar
 /// the curvatures of the shape u that a unit force at the struck point gives the beam when the
 /// inertia of its rigid motion balances it: d = u^T K w for any w. Let C = sum W k kbar^2 be that
 /// shape's compliance and E the energy of the beam beyond its rigid motion, kinetic and elastic.

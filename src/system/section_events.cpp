@@ -71,7 +71,7 @@ void SectionEvents::consider(std::size_t i, const SectionMotion& start, const Se
   } else if (k1 >= low && k1 <= high) {
     if (!back && r0 * r1 >= 0.0) return;  // it stayed between its ends
     if (back) {
-      const double farthest = path(path.first_turn());
+      const double farthest = path(path.first_extremum());
       if (farthest >= low && farthest <= high) return;
     }
   } else {
@@ -98,7 +98,7 @@ void SectionEvents::find(const End& start, const End& end, double t0, double t1,
   if (!events.empty()) find_reversals_by_others(start, end, events);
 }
 
-// Sections that would flow to the end if undisturbed, but are turned back by these events.
+// Sections that would flow to the end if undisturbed, but are reversed by these events.
 void SectionEvents::find_reversals_by_others(const End& start, const End& end,
                                              std::vector<SectionEvent>& events) {
   for (const SectionField::Flow& flow : sections_.flowing()) {
@@ -145,7 +145,7 @@ std::optional<SectionEvents::Candidate> SectionEvents::trace(std::size_t i, cons
   double farthest = k1;
   if (sense * r0 > 0.0 && sense * r1 < 0.0) {
     reverses =
-        path.turn(HermiteCubic(sense * k0, sense * r0, sense * k1, sense * r1, length_).peak());
+        path.extremum(HermiteCubic(sense * k0, sense * r0, sense * k1, sense * r1, length_).peak());
     farthest = path(*reverses);
   }
   double leaves = reverses.value_or(1.0);

@@ -142,7 +142,7 @@ void StruckBeam::read_motion(const State& y, SectionMotion& motion) const {
   mesh_->curvatures(beam_velocities(y), motion.rates);
 }
 
-GuardValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
+EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
   if (function.kind == EventKind::contact_unloads) {
     acceleration({y.data(), n_ + 1}, trial_);
     const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});

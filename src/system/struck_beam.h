@@ -84,7 +84,7 @@ class StruckBeam final : public MechanicalSystem {
   void read_motion(const State& y, SectionMotion& motion) const;
 
   /// Value and rate of an event function at y; for contact_unloads at the cost of an acceleration.
-  GuardValue evaluate(const EventFunction& function, const State& y);
+  EventValue evaluate(const EventFunction& function, const State& y);
 
   void set_section_evaluation(Evaluation how) { section_evaluation_ = how; }
   Evaluation section_evaluation() const { return section_evaluation_; }

@@ -40,9 +40,9 @@ TEST(SectionHistory, FollowsTheSectionLaw) {
   const Beam& beam = input.scene.beam;
   bool flowed = false;
   for (const SectionRow& row : simulate(input).section_history) {
-    const double elastic = -beam.bending_stiffness() * row.curvature;
+    const double elastic = beam.bending_stiffness() * row.curvature;
     EXPECT_LE(std::abs(row.moment), 1.5 * beam.yield_moment());
-    EXPECT_NEAR(row.plastic_curvature, (row.moment - elastic) / beam.bending_stiffness(),
+    EXPECT_NEAR(row.plastic_curvature, (elastic - row.moment) / beam.bending_stiffness(),
                 1e-9 * beam.yield_curvature());
     flowed = flowed || std::abs(row.plastic_curvature) > 0.1 * beam.yield_curvature();
   }

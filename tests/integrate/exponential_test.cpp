@@ -126,7 +126,7 @@ TEST(TheExponentialMethod, CrossesTheCriticalDisplacementAtMostOnceInAStepThatEn
   int n_crossings = 0;
   long n_attempts = 0;
   for (int run = 0; run < 400; ++run) {
-    // Amplitudes and phases of all kinds: slow ones that turn back after the first crossing, as a
+    // Amplitudes and phases of all kinds: slow ones that reverse after the first crossing, as a
     // cubic may, fast ones from none to crossing several times.
     const double a = 0.37 * run;
     const double fast = run % 3 == 0 ? 0.0 : run % 3 == 1 ? 0.1 : 1.0;

@@ -90,18 +90,42 @@ TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
     s.error_mesh = 0.9e-9;
     s.start_mesh_limit = s.start + 1e-10;
   }
-  result.trust = Trust{
+  result.error_estimate = ErrorEstimate{
       "the same, finer", 2, "they part", 3e-9, {{"mesh", "the same, finer", 2, "they part", 3e-9}}};
   write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
   const FinishedRun run = read_results(directory.path);
   EXPECT_EQ(events_csv(run.result.sub_impacts), events_csv(result.sub_impacts));
-  ASSERT_TRUE(run.result.trust);
-  EXPECT_EQ(run.result.trust->first_undecided, 2u);
-  EXPECT_EQ(run.result.trust->reason, "they part");
-  ASSERT_EQ(run.result.trust->parts.size(), 1u);
-  EXPECT_EQ(run.result.trust->parts.front().name, "mesh");
-  EXPECT_EQ(run.result.trust->parts.front().first_undecided, 2u);
+  ASSERT_TRUE(run.result.error_estimate);
+  EXPECT_EQ(run.result.error_estimate->first_unresolved, 2u);
+  EXPECT_EQ(run.result.error_estimate->reason, "they part");
+  ASSERT_EQ(run.result.error_estimate->parts.size(), 1u);
+  EXPECT_EQ(run.result.error_estimate->parts.front().name, "mesh");
+  EXPECT_EQ(run.result.error_estimate->parts.front().first_unresolved, 2u);
   EXPECT_FALSE(run.result.sub_impacts.back().end);
+}
+
+TEST(ReadResults, OfLayout2HaveOtherNamesAndTheOppositeMoment) {
+  const TemporaryDirectory directory;
+  Result result = sample_result();
+  result.error_estimate = ErrorEstimate{"the same, finer", 2, "they part", 3e-9, {}};
+  result.section_history = {{0.0, 0.3556, 0.1, 25.0, 0.0}};
+  Case input = read_case_text(small_case_text(), "small.toml").value;
+  input.output.sections = {0.5};
+  write_results(directory.path, input, result);
+  std::string text = summary_json(input, result);
+  const auto rename = [&](const std::string& name, const std::string& before) {
+    ASSERT_NE(text.find(name), std::string::npos) << name;
+    text.replace(text.find(name), name.size(), before);
+  };
+  rename("\"layout\": 3", "\"layout\": 2");
+  rename("\"refined_run\"", "\"companion\"");
+  rename("\"first_unresolved_index\"", "\"first_undecided_index\"");
+  std::ofstream(directory.path / "summary.json") << text;
+  const FinishedRun run = read_results(directory.path);
+  ASSERT_TRUE(run.result.error_estimate);
+  EXPECT_EQ(run.result.error_estimate->refined_run, "the same, finer");
+  EXPECT_EQ(run.result.error_estimate->first_unresolved, 2u);
+  EXPECT_EQ(run.result.section_history.front().moment, -25.0);
 }
 
 TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {

@@ -112,10 +112,10 @@ TEST(HermiteCubic, ExtremaAreThoseOfADenseScan) {
     }
     if (const auto reversed = path.reversed_at()) {
       EXPECT_LT(path.slope(0.0) * path.slope(*reversed), 0.0);
-      EXPECT_NEAR(path.slope(path.first_turn()), 0.0, 1e-12);
-      EXPECT_NEAR(path.slope(path.second_turn()), 0.0, 1e-12);
-      EXPECT_LT(path.first_turn(), *reversed);
-      EXPECT_GT(path.second_turn(), *reversed);
+      EXPECT_NEAR(path.slope(path.first_extremum()), 0.0, 1e-12);
+      EXPECT_NEAR(path.slope(path.second_extremum()), 0.0, 1e-12);
+      EXPECT_LT(path.first_extremum(), *reversed);
+      EXPECT_GT(path.second_extremum(), *reversed);
       ++n_reversed;
     }
   }
@@ -155,8 +155,8 @@ TEST(HermiteSeptic, TurnsWhereItsSlopeVanishesWhateverTheGuess) {
   const double expected = (0.785398163397448 - 0.7) / 0.2;  // at 2 t = pi/2, t in [0.7, 0.9]
   for (const double guess : {0.0, 0.01, 0.5, expected, 1.0}) {
     const HermiteSeptic path = sine_from(0.7, 0.2);
-    EXPECT_NEAR(path.slope(path.turn(guess)), 0.0, 2e-15);
-    EXPECT_NEAR(path.turn(guess), expected, 1e-8);
+    EXPECT_NEAR(path.slope(path.extremum(guess)), 0.0, 2e-15);
+    EXPECT_NEAR(path.extremum(guess), expected, 1e-8);
   }
 }
 

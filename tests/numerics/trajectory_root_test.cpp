@@ -19,7 +19,7 @@ struct Search {
   int evaluations = 0;
 };
 
-Search search(const std::function<GuardValue(double)>& guard, double a, double b, double guess,
+Search search(const std::function<EventValue(double)>& guard, double a, double b, double guess,
               RootOptions options) {
   Search result;
   result.found = find_rise(
@@ -37,52 +37,52 @@ Search search(const std::function<GuardValue(double)>& guard, double a, double b
 struct NastyCase {
   const char* name;
   double allowed;  // distance from the root, for a tolerance of 1e-12
-  std::function<GuardValue(double t, double root)> guard;
+  std::function<EventValue(double t, double root)> guard;
 };
 
 const NastyCase nasty_cases[] = {
     {"straight", 1e-15,
      [](double t, double r) {
-       return GuardValue{t - r, 1.0};
+       return EventValue{t - r, 1.0};
      }},
     {"steep", 1e-12,
      [](double t, double r) {
        const double c = std::cosh(std::min(300.0, std::abs(1e8 * (t - r))));
-       return GuardValue{std::tanh(1e8 * (t - r)), 1e8 / (c * c)};
+       return EventValue{std::tanh(1e8 * (t - r)), 1e8 / (c * c)};
      }},
     {"jump", 1e-12,
      [](double t, double r) {
-       return GuardValue{t < r ? -1.0 : 1.0, 0.0};
+       return EventValue{t < r ? -1.0 : 1.0, 0.0};
      }},
     {"flat at the root: third power", 1e-11,
      [](double t, double r) {
-       return GuardValue{std::pow(t - r, 3), 3.0 * std::pow(t - r, 2)};
+       return EventValue{std::pow(t - r, 3), 3.0 * std::pow(t - r, 2)};
      }},
     // Newton stalls here and every halving costs two evaluations: the budget buys 30 of them.
     {"flat at the root: seventh power", 1e-9,
      [](double t, double r) {
-       return GuardValue{std::pow(t - r, 7), 7.0 * std::pow(t - r, 6)};
+       return EventValue{std::pow(t - r, 7), 7.0 * std::pow(t - r, 6)};
      }},
     {"vertical at the root: cube root", 1e-11,
      [](double t, double r) {
-       return GuardValue{std::cbrt(t - r), std::pow(std::abs(t - r) + 1e-300, -2.0 / 3.0) / 3.0};
+       return EventValue{std::cbrt(t - r), std::pow(std::abs(t - r) + 1e-300, -2.0 / 3.0) / 3.0};
      }},
     {"rate of the wrong sign", 1e-12,
      [](double t, double r) {
-       return GuardValue{t - r, -1.0};
+       return EventValue{t - r, -1.0};
      }},
     {"rate a thousand times too small", 1e-11,
      [](double t, double r) {
-       return GuardValue{t - r, 1e-3};
+       return EventValue{t - r, 1e-3};
      }},
     // The Newton step that ends the search is a thousand times too short.
     {"rate a thousand times too large", 1e-9,
      [](double t, double r) {
-       return GuardValue{t - r, 1e3};
+       return EventValue{t - r, 1e3};
      }},
     {"at zero from the start on, then falls, then rises", 1e-12,
      [](double t, double r) {
-       return GuardValue{t * (t - r), 2.0 * t - r};
+       return EventValue{t * (t - r), 2.0 * t - r};
      }},
 };
 
@@ -120,7 +120,7 @@ TEST(FindRise, ConvergesQuadraticallyOnASmoothFunction) {
   const double root = std::log(2.0);
   const Search result = search(
       [](double t) {
-        return GuardValue{std::exp(t) - 2.0, std::exp(t)};
+        return EventValue{std::exp(t) - 2.0, std::exp(t)};
       },
       0.0, 1.0, 0.6, options);
   EXPECT_NEAR(result.found, root, 4.0 * rounding);
@@ -132,13 +132,13 @@ TEST(FindRise, FindsARootAtTheEndOfTheBracket) {
   options.tolerance = 1e-14;
   const Search at_end = search(
       [](double t) {
-        return GuardValue{t - 1.0, 1.0};
+        return EventValue{t - 1.0, 1.0};
       },
       0.0, 1.0, 0.2, options);
   EXPECT_NEAR(at_end.found, 1.0, 1e-13);
   const Search at_start = search(
       [](double t) {
-        return GuardValue{std::expm1(t), std::exp(t)};
+        return EventValue{std::expm1(t), std::exp(t)};
       },
       0.0, 1.0, 0.7, options);
   EXPECT_NEAR(at_start.found, 0.0, 1e-13);
@@ -152,7 +152,7 @@ TEST(FindRise, WorksInMicrosecondsAsInYears) {
     const Search result = search(
         [&](double t) {
           const double s = t / unit - 3.4;
-          return GuardValue{s + s * s * s, (1.0 + 3.0 * s * s) / unit};
+          return EventValue{s + s * s * s, (1.0 + 3.0 * s * s) / unit};
         },
         start, 4.0 * unit, 3.9 * unit, options);
     EXPECT_NEAR(result.found, 3.4 * unit, 4.0 * options.tolerance);
@@ -165,7 +165,7 @@ TEST(FindRise, StopsAtItsBudgetWhateverTheFunction) {
   options.max_iterations = 7;
   const Search result = search(
       [](double t) {
-        return GuardValue{t < 0.123 ? -1.0 : 1.0, 0.0};
+        return EventValue{t < 0.123 ? -1.0 : 1.0, 0.0};
       },
       0.0, 1.0, 0.5, options);
   EXPECT_EQ(result.evaluations, 7);
@@ -175,7 +175,7 @@ TEST(FindRise, StopsAtItsBudgetWhateverTheFunction) {
 TEST(FindRise, AFunctionThatIsExactlyZeroEndsTheSearchThere) {
   const Search result = search(
       [](double t) {
-        return GuardValue{t - 0.25, 1.0};
+        return EventValue{t - 0.25, 1.0};
       },
       0.0, 1.0, 0.25, RootOptions{});
   EXPECT_EQ(result.found, 0.25);

@@ -157,11 +157,11 @@ TEST(HtmlReport, CountsOneAsOne) {
 TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   FinishedRun run = small_run();
   for (SubImpact& s : run.result.sub_impacts) s.start_error = s.error_time = 2e-9;
-  Trust trust;
-  trust.first_undecided = 1;
-  trust.parts = {{"time", "the same with rtol = 1e-10", {}, "", 2e-9},
-                 {"mesh", "the same with 103 cells", 1, "they <part>", 3e-7}};
-  run.result.trust = trust;
+  ErrorEstimate estimate;
+  estimate.first_unresolved = 1;
+  estimate.parts = {{"time", "the same with rtol = 1e-10", {}, "", 2e-9},
+                    {"mesh", "the same with 103 cells", 1, "they <part>", 3e-7}};
+  run.result.error_estimate = estimate;
   const std::string page = page_of(run);
   EXPECT_EQ(xml_problem(page), "");
   for (const char* piece : {"the same with rtol = 1e-10", "2.0e-03 µs", "for all sub-impacts",

@@ -25,7 +25,7 @@ WorkPrecisionPoint point(const std::string& method, double rtol, double error, d
   p.repeats = 3;
   p.work.right_hand_sides = 1234;
   if (verdict == Verdict::unstable) p.message = "at 3 us it grows, without bound";
-  if (verdict == Verdict::wrong_count) p.errors.odd = OddSubImpact{1e-3, 2e-6, "lost"};
+  if (verdict == Verdict::wrong_count) p.errors.unmatched = UnmatchedSubImpact{1e-3, 2e-6, "lost"};
   return p;
 }
 
@@ -62,8 +62,8 @@ TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
   EXPECT_EQ(unstable->verdict, Verdict::unstable);
   EXPECT_EQ(unstable->message, "at 3 us it grows; without bound");
   const auto wrong = log.known("a", {"nystrom", false, 1e-3});
-  ASSERT_TRUE(wrong && wrong->errors.odd);
-  EXPECT_EQ(wrong->errors.odd->duration, 2e-6);
+  ASSERT_TRUE(wrong && wrong->errors.unmatched);
+  EXPECT_EQ(wrong->errors.unmatched->duration, 2e-6);
   EXPECT_EQ(wrong->errors.maximum, 1e-7);
   EXPECT_EQ(wrong->seconds, 0.01);
   EXPECT_EQ(wrong->work.right_hand_sides, 1234);
@@ -114,8 +114,10 @@ TEST(AWorkPrecisionTable, SaysWhatEachPointCostsAndWhyItIsWrong) {
                             "nystrom at rtol 1e-02: at 3 us it grows, without bound", "50 ms"}) {
     EXPECT_NE(text.find(piece), std::string::npos) << piece << " is not in:\n" << text;
   }
-  const std::string advice = advice_text(advice_from(studies().front().points));
-  EXPECT_NE(advice.find("0.01 us   nystrom at rtol 1e-04: 10 ms"), std::string::npos) << advice;
+  const std::string recommendations =
+      recommendation_text(recommendations_from(studies().front().points));
+  EXPECT_NE(recommendations.find("0.01 us   nystrom at rtol 1e-04: 10 ms"), std::string::npos)
+      << recommendations;
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(StatedErrors, CoverTheTrueOnesWithoutBeingVain) {
     const Result exact = simulate(accurate);
     const std::size_t n =
         std::min(n_leading_matches(match_sub_impacts(result.sub_impacts, exact.sub_impacts)),
-                 result.trust->first_undecided.value_or(result.sub_impacts.size()));
+                 result.error_estimate->first_unresolved.value_or(result.sub_impacts.size()));
     int covered = 0;
     int events = 0;
     const auto judge = [&](double stated, double error) {
@@ -83,7 +83,7 @@ TEST(StatedErrors, CoverTheTrueOnesWithoutBeingVain) {
     }
     printf("scene %d: %zu sub-impacts, %zu decided; %d of %d times covered; largest %.1e us\n",
            ++number, result.sub_impacts.size(), n, covered, events,
-           1e6 * result.trust->largest_error);
+           1e6 * result.error_estimate->largest_error);
     n_events += events;
     n_covered += covered;
   }
@@ -100,13 +100,13 @@ TEST(StatedErrors, CoverTheTrueOnesWithoutBeingVain) {
 
 TEST(ACompanion, IsMoreAccurateOrSaysThatItIsNot) {
   Case input = scene(SectionKind::elastic, 1e-4);
-  EXPECT_DOUBLE_EQ(companion_of(input).input.solver.rtol, 1e-9);
+  EXPECT_DOUBLE_EQ(refined_run_of(input).input.solver.rtol, 1e-9);
   input.solver.rtol = 1e-13;
-  const Companion looser = companion_of(input);
+  const RefinedRun looser = refined_run_of(input);
   EXPECT_DOUBLE_EQ(looser.input.solver.rtol, 1e-11);
   EXPECT_NE(looser.description.find("whose errors these are"), std::string::npos);
   input.solver.method = Method::central_difference;
-  EXPECT_LT(companion_of(input).input.solver.step.value(),
+  EXPECT_LT(refined_run_of(input).input.solver.step.value(),
             0.51 * resolve(input).settings().step.value());
 }
 
@@ -115,9 +115,9 @@ TEST(CoarseCentralDifferences, NameTheFirstSubImpactTheyDoNotDecide) {
   input.solver.method = Method::central_difference;
   input.solver.step = 1e-7;
   const Result result = simulate_with_error_bars(input);
-  ASSERT_TRUE(result.trust->first_undecided.has_value());
-  EXPECT_GE(*result.trust->first_undecided, 8u);  // the first zone's start is certain
-  EXPECT_FALSE(result.trust->reason.empty());
+  ASSERT_TRUE(result.error_estimate->first_unresolved.has_value());
+  EXPECT_GE(*result.error_estimate->first_unresolved, 8u);  // the first zone's start is certain
+  EXPECT_FALSE(result.error_estimate->reason.empty());
   EXPECT_EQ(result.sub_impacts.front().start_error, 0.0);
 }
 

@@ -93,7 +93,7 @@ TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
     const Result exact = simulate(far_finer(input));
     const auto& here = result.sub_impacts;
     const std::size_t n = std::min(n_leading_matches(match_sub_impacts(here, exact.sub_impacts)),
-                                   result.trust->first_undecided.value_or(here.size()));
+                                   result.error_estimate->first_unresolved.value_or(here.size()));
     int covered = 0;
     int events = 0;
     double largest = 0.0;
@@ -116,8 +116,8 @@ TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
     printf(
         "scene %2d: %2zu sub-impacts, %2zu decided; %2d of %2d times covered; true error up to "
         "%.1e us, stated %.1e; of extrapolated ends %.1e\n",
-        ++number, here.size(), n, covered, events, 1e6 * largest, 1e6 * result.trust->largest_error,
-        1e6 * limit);
+        ++number, here.size(), n, covered, events, 1e6 * largest,
+        1e6 * result.error_estimate->largest_error, 1e6 * limit);
     n_events += events;
     n_covered += covered;
   }
@@ -132,7 +132,7 @@ TEST(StatedErrorsOfTimeAndMesh, CoverTheTrueOnesWithoutBeingVain) {
   EXPECT_GT(median, 1.0);
 }
 
-// On elements with hinges, companions have hinges and grading, too.
+// On elements with hinges, refined runs have hinges and grading, too.
 TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
   int n_events = 0;
   int n_covered = 0;
@@ -143,7 +143,7 @@ TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
       input.model.strike_refinement = refinement;
       const Result result = simulate_with_all_error_bars(input);
       const auto& here = result.sub_impacts;
-      const std::size_t n = result.trust->first_undecided.value_or(here.size());
+      const std::size_t n = result.error_estimate->first_unresolved.value_or(here.size());
       double largest = 0.0;
       double stated = 0.0;
       const auto judge = [&](double bar, double error) {
@@ -164,7 +164,7 @@ TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
       if (refinement > 1.0) {
         EXPECT_EQ(n, here.size());
       }
-      EXPECT_NE(result.trust->companion.find("elements"), std::string::npos);
+      EXPECT_NE(result.error_estimate->refined_run.find("elements"), std::string::npos);
     }
   }
   std::sort(ratios.begin(), ratios.end());
@@ -179,27 +179,28 @@ TEST(StatedErrorsOnElementsThatYield, CoverTheTrueOnesWithoutBeingVain) {
 TEST(PartsOfErrors, AddUpAndNameTheirCompanions) {
   Case input = scene(SectionKind::layers, 0.2e-3, 101);
   const Result result = simulate_with_all_error_bars(input);
-  ASSERT_EQ(result.trust->parts.size(), 3u);
-  EXPECT_NE(result.trust->companion.find("203 cells"), std::string::npos);
-  EXPECT_NE(result.trust->companion.find("exact section"), std::string::npos);
+  ASSERT_EQ(result.error_estimate->parts.size(), 3u);
+  EXPECT_NE(result.error_estimate->refined_run.find("203 cells"), std::string::npos);
+  EXPECT_NE(result.error_estimate->refined_run.find("exact section"), std::string::npos);
   const SubImpact& first = result.sub_impacts.front();
   if (first.end_error) {
     EXPECT_NEAR(*first.end_error, *first.error_time + *first.error_mesh + *first.error_layers,
                 1e-18);
   }
   input.model.section = SectionKind::elastic;
-  EXPECT_EQ(simulate_with_all_error_bars(input).trust->parts.size(), 2u);
+  EXPECT_EQ(simulate_with_all_error_bars(input).error_estimate->parts.size(), 2u);
 }
 
 TEST(AMeshTooCoarse, NamesTheFirstSubImpactItDoesNotDecide) {
   // 501 cells keep the first contact closed, which 1003 split in two.
   const Result result = simulate_with_all_error_bars(scene(SectionKind::exact, 0.3e-3, 501));
-  ASSERT_TRUE(result.trust->first_undecided.has_value());
-  EXPECT_EQ(*result.trust->first_undecided, 0u);
-  const auto mesh = std::find_if(result.trust->parts.begin(), result.trust->parts.end(),
-                                 [](const Trust::Part& part) { return part.name == "mesh"; });
-  ASSERT_NE(mesh, result.trust->parts.end());
-  EXPECT_EQ(mesh->first_undecided, result.trust->first_undecided);
+  ASSERT_TRUE(result.error_estimate->first_unresolved.has_value());
+  EXPECT_EQ(*result.error_estimate->first_unresolved, 0u);
+  const auto mesh =
+      std::find_if(result.error_estimate->parts.begin(), result.error_estimate->parts.end(),
+                   [](const ErrorEstimate::Part& part) { return part.name == "mesh"; });
+  ASSERT_NE(mesh, result.error_estimate->parts.end());
+  EXPECT_EQ(mesh->first_unresolved, result.error_estimate->first_unresolved);
   EXPECT_FALSE(mesh->reason.empty());
 }
 
@@ -241,7 +242,7 @@ TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
   input = scene(SectionKind::elastic, 1e-4, 501);
   input.solver.method = Method::central_difference;
   input.solver.step = 0.9 * resolve(input).settings().critical_step;
-  const Companion fine = *on_other_mesh(input, 2.0);
+  const RefinedRun fine = *on_other_mesh(input, 2.0);
   EXPECT_LT(*fine.input.solver.step, *input.solver.step);
   EXPECT_NO_THROW(resolve(fine.input));
   EXPECT_NE(fine.description.find("step"), std::string::npos);
@@ -251,7 +252,7 @@ TEST(AStoppedRun, StopsItsCompanionsToo) {
   Case input = scene(SectionKind::elastic, 5e-3, 501);
   const Result result = simulate_with_all_error_bars(input, [](double) { return false; });
   EXPECT_EQ(result.outcome.kind, OutcomeKind::stopped);
-  EXPECT_FALSE(result.trust.has_value());
+  EXPECT_FALSE(result.error_estimate.has_value());
 }
 
 }  // namespace

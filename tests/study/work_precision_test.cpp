@@ -52,7 +52,7 @@ TEST(ARunThatLosesASubImpact, IsOffByAtLeastThatOnesDuration) {
   EXPECT_EQ(errors.n_corresponding, 1u);
   EXPECT_NEAR(errors.maximum, 0.1, 1e-12);
   EXPECT_NEAR(errors.overall(), 6.0, 1e-12);
-  EXPECT_DOUBLE_EQ(errors.odd->start, 20.0);
+  EXPECT_DOUBLE_EQ(errors.unmatched->start, 20.0);
 }
 
 TEST(TheReference, KnowsTheElasticEventsToABillionthOfAMicrosecond) {
@@ -109,9 +109,9 @@ TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
   EXPECT_EQ(erk.back().verdict, Verdict::right);
   EXPECT_LT(1e6 * erk.back().errors.maximum, 1e-6);
 
-  const std::vector<Advice> advice = advice_from(study.points);
-  ASSERT_EQ(advice.size(), advised_errors().size());
-  for (const Advice& item : advice) {
+  const std::vector<Recommendation> recommendations = recommendations_from(study.points);
+  ASSERT_EQ(recommendations.size(), recommended_errors().size());
+  for (const Recommendation& item : recommendations) {
     ASSERT_TRUE(item.point.has_value());
     EXPECT_LE(item.point->errors.maximum, item.wanted);
   }
@@ -158,7 +158,7 @@ TEST(AnInterruptedStudy, KeepsThePointsItHas) {
   EXPECT_EQ(study.points.size(), 3u);
 }
 
-TEST(Advice, TakesTheCheapestOfThoseThatFindEverySubImpact) {
+TEST(Recommendation, TakesTheCheapestOfThoseThatFindEverySubImpact) {
   const auto point = [](double error, double seconds, Verdict verdict) {
     WorkPrecisionPoint p;
     p.errors.maximum = error;
@@ -166,16 +166,16 @@ TEST(Advice, TakesTheCheapestOfThoseThatFindEverySubImpact) {
     p.verdict = verdict;
     return p;
   };
-  const std::vector<Advice> advice =
-      advice_from({point(2e-7, 3.0, Verdict::right), point(2e-7, 2.0, Verdict::right),
-                   point(1e-9, 1.0, Verdict::wrong_count), point(5e-9, 7.0, Verdict::right)});
-  EXPECT_EQ(advice[0].point->seconds, 2.0);  // 1 us
-  EXPECT_EQ(advice[1].point->seconds, 7.0);  // 0.1 us
-  EXPECT_EQ(advice[2].point->seconds, 7.0);  // 0.01 us
-  EXPECT_FALSE(advice[3].point.has_value());
+  const std::vector<Recommendation> recommendations = recommendations_from(
+      {point(2e-7, 3.0, Verdict::right), point(2e-7, 2.0, Verdict::right),
+       point(1e-9, 1.0, Verdict::wrong_count), point(5e-9, 7.0, Verdict::right)});
+  EXPECT_EQ(recommendations[0].point->seconds, 2.0);  // 1 us
+  EXPECT_EQ(recommendations[1].point->seconds, 7.0);  // 0.1 us
+  EXPECT_EQ(recommendations[2].point->seconds, 7.0);  // 0.01 us
+  EXPECT_FALSE(recommendations[3].point.has_value());
 }
 
-TEST(Advice, TellsASettingThatReachesItsErrorByLuckFromOneThatDoesSteadily) {
+TEST(Recommendation, TellsASettingThatReachesItsErrorByLuckFromOneThatDoesSteadily) {
   const auto point = [](const char* method, double error, double seconds) {
     WorkPrecisionPoint p;
     p.setting.method = method;
@@ -184,12 +184,13 @@ TEST(Advice, TellsASettingThatReachesItsErrorByLuckFromOneThatDoesSteadily) {
     p.verdict = Verdict::right;
     return p;
   };
-  const std::vector<Advice> advice = advice_from({point("a", 0.5e-6, 1.0), point("a", 2e-6, 2.0),
-                                                  point("a", 0.4e-6, 4.0), point("b", 1e-7, 3.0)});
-  EXPECT_EQ(advice[0].point->seconds, 1.0);
-  EXPECT_EQ(advice[0].steady->seconds, 3.0);
-  EXPECT_EQ(advice[1].point->seconds, 3.0);
-  EXPECT_FALSE(advice[1].steady.has_value());
+  const std::vector<Recommendation> recommendations =
+      recommendations_from({point("a", 0.5e-6, 1.0), point("a", 2e-6, 2.0), point("a", 0.4e-6, 4.0),
+                            point("b", 1e-7, 3.0)});
+  EXPECT_EQ(recommendations[0].point->seconds, 1.0);
+  EXPECT_EQ(recommendations[0].steady->seconds, 3.0);
+  EXPECT_EQ(recommendations[1].point->seconds, 3.0);
+  EXPECT_FALSE(recommendations[1].steady.has_value());
 }
 
 TEST(AMethodThatCannotRunTheCase, IsRefusedBeforeAnythingRuns) {

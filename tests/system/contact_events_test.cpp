@@ -31,7 +31,7 @@ TEST(EventFunctions, RatesAreThoseOfTheirValuesAlongTheFlow) {
         const EventFunction function{kind, sense};
         const State y = smooth_state(beam, 5, 2.0, 3.0 * unit, 4.0);
         const double h = 1e-9;
-        const GuardValue at = beam.evaluate(function, y);
+        const EventValue at = beam.evaluate(function, y);
         const double before = beam.evaluate(function, along_the_flow(beam, y, -h)).value;
         const double behind = beam.evaluate(function, along_the_flow(beam, y, h)).value;
         EXPECT_NEAR(at.rate, (behind - before) / (2.0 * h), 1e-5 * std::abs(at.rate))

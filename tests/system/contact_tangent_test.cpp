@@ -1,5 +1,5 @@
 // The tangent stiffness against differences of the force: in every branch of the contact, in both
-// ways of evaluating it, over sections at rest, flowing and turned back.
+// ways of evaluating it, over sections at rest, flowing and reversed.
 
 #include <gtest/gtest.h>
 

@@ -136,15 +136,16 @@ void compare_counts(const Result& run, const Result& reference, Record& record) 
   const auto pairs = match_sub_impacts(run.sub_impacts, reference.sub_impacts);
   const std::size_t n = n_leading_matches(pairs);
   record.wrong_count = run.sub_impacts.size() != reference.sub_impacts.size();
-  record.flagged = run.trust && run.trust->first_undecided && *run.trust->first_undecided <= n;
+  record.flagged = run.error_estimate && run.error_estimate->first_unresolved &&
+                   *run.error_estimate->first_unresolved <= n;
   if (!record.wrong_count || record.flagged) return;
-  record.failures.push_back(
-      {"wrong counts are flagged",
-       fmt::format("{} sub-impacts, {} in truth, {} alike; {}", run.sub_impacts.size(),
-                   reference.sub_impacts.size(), n,
-                   run.trust && run.trust->first_undecided
-                       ? fmt::format("undecided only from {} on", *run.trust->first_undecided)
-                       : "nothing undecided")});
+  record.failures.push_back({"wrong counts are flagged",
+                             fmt::format("{} sub-impacts, {} in truth, {} alike; {}",
+                                         run.sub_impacts.size(), reference.sub_impacts.size(), n,
+                                         run.error_estimate && run.error_estimate->first_unresolved
+                                             ? fmt::format("unresolved only from {} on",
+                                                           *run.error_estimate->first_unresolved)
+                                             : "nothing unresolved")});
 }
 
 void run_counts(const Drawn& drawn, double limit, Record& record) {

@@ -16,7 +16,7 @@ namespace subimpact {
 
 /// The version of the layout of summary.json, its key "layout": raised when a key is renamed, moved
 /// or removed. 1: files without that key.
-constexpr int summary_layout = 2;
+constexpr int summary_layout = 3;
 
 /// A file or directory that cannot be written; `what()` names it, the cause and what to do.
 class OutputError : public std::runtime_error {

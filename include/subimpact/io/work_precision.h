@@ -16,7 +16,7 @@ namespace subimpact {
 std::string work_precision_table(const WorkPrecision& study);
 
 /// One sentence for each wanted error.
-std::string advice_text(const std::vector<Advice>& advice);
+std::string recommendation_text(const std::vector<Recommendation>& recommendations);
 
 /// work_precision.csv in a directory, written point by point, so that an interrupted study keeps
 /// what it has and a repeated one goes on from there.

@@ -44,9 +44,9 @@ struct SparseFunctional {
 /// With unknowns q (displacements, and slopes where a mesh has them), curvatures kappa = B q at the
 /// sections (stress points) and their integration weights W (m), the beam obeys
 ///
-///     Mass q'' = -B^T W (-M(kappa)) + S F,
+///     Mass q'' = -B^T W M(kappa) + S F,
 ///
-/// S the struck point's functional, so that bending work is sum W (-M) dkappa and contact work F dS
+/// S the struck point's functional, so that bending work is sum W M dkappa and contact work F dS
 /// q: no energy appears or is lost in space. Where symmetry halves the unknowns, the mirrored half
 /// is folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
 ///
@@ -85,7 +85,7 @@ class BeamMesh {
 
   /// kappa = B q, 1/m.
   virtual void curvatures(std::span<const double> unknowns, std::span<double> kappa) const = 0;
-  /// forces = -B^T W moments, N; `moments` = -M, N m.
+  /// forces = -B^T W moments, N; `moments` = M, N m, of the sign of the curvature.
   virtual void bending_forces(std::span<const double> moments, std::span<double> forces) const = 0;
   /// One row of B: coefficients (1/m2) of consecutive unknowns, which `first` is the first of.
   struct SectionStencil {
@@ -97,7 +97,7 @@ class BeamMesh {
   virtual double curvature(std::size_t section, std::span<const double> unknowns) const;
   /// Half bandwidth of B^T B.
   std::size_t stiffness_bandwidth() const;
-  /// result += B^T W diag(tangents) B, N/m; `tangents` = -dM/dkappa of the sections, N m2. The half
+  /// result += B^T W diag(tangents) B, N/m; `tangents` = dM/dkappa of the sections, N m2. The half
   /// bandwidth of `result` must be stiffness_bandwidth() or more.
   void add_stiffness(std::span<const double> tangents, BandedMatrix& result) const;
   /// An upper bound, close to it, of the highest natural frequency for a bending stiffness (N m2),

@@ -71,7 +71,7 @@ class Observer {
   virtual void before_event(const Transition& /*event*/, const RunView& /*at*/) {}
   virtual void after_event(const Transition& /*event*/, const RunView& /*at*/) {}
 
-  /// A section that flowed turned back within the step that ends next.
+  /// A section that flowed reversed within the step that ends next.
   virtual void on_reversal(const Transition& /*reversal*/) {}
 };
 

@@ -56,7 +56,7 @@ struct OutputOptions {
   double subzone_gap = 0.02;     ///< in first flexural periods
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
 
-  /// For companion runs, of which only the sub-impacts matter.
+  /// For refined runs, of which only the sub-impacts matter.
   void keep_no_rows() {
     interval = 0.0;
     sections.clear();

@@ -42,7 +42,7 @@ struct SectionRow {
   double time;               ///< s
   double position;           ///< x of the section, m
   double curvature;          ///< kappa, 1/m
-  double moment;             ///< M, N m; -E I kappa while elastic
+  double moment;             ///< M, N m; E I kappa while elastic
   double plastic_curvature;  ///< kappa + M/(E I), 1/m
 };
 
@@ -116,21 +116,21 @@ struct Work : WorkCounts {
 };
 
 /// How far the event times of a result can be trusted.
-struct Trust {
-  std::string companion;  ///< the runs it was compared with, in words
+struct ErrorEstimate {
+  std::string refined_run;  ///< the runs it was compared with, in words
   /// The first sub-impact (from 0) whose existence or place in the order is not certain; none if
   /// all are.
-  std::optional<std::size_t> first_undecided;
-  std::string reason;          ///< why it is undecided
+  std::optional<std::size_t> first_unresolved;
+  std::string reason;          ///< why it is unresolved
   double largest_error = 0.0;  ///< s, of the times before that, all parts together
 
-  /// One source of error by itself, as seen by one companion run.
+  /// One source of error by itself, as seen by one refined run.
   struct Part {
-    std::string name;       ///< "time", "mesh", "layers"
-    std::string companion;  ///< the run, in words
-    std::optional<std::size_t> first_undecided;
+    std::string name;         ///< "time", "mesh", "layers"
+    std::string refined_run;  ///< the run, in words
+    std::optional<std::size_t> first_unresolved;
     std::string reason;
-    double largest_error = 0.0;  ///< s, before first_undecided
+    double largest_error = 0.0;  ///< s, before first_unresolved
   };
   std::vector<Part> parts;
 };
@@ -158,7 +158,7 @@ struct Result {
   double max_impulse_error = 0.0;
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
-  std::optional<Trust> trust;  ///< with error bars
+  std::optional<ErrorEstimate> error_estimate;  ///< with error bars
   Work work;
 
   /// Whether all that the result holds passed every check. Of a result that is not usable the part

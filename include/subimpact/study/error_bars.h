@@ -4,26 +4,26 @@
 
 namespace subimpact {
 
-/// Runs a case and a companion of it that integrates more accurately (rtol a hundred times smaller,
-/// or half the fixed step), and gives every sub-impact's start and end an estimated error: three
-/// times the largest difference between the two runs over the event and its neighbours, so that a
-/// difference that happens to pass through zero does not pose as accuracy, plus the rounding of the
-/// times themselves. It covers the integration in time alone, not mesh or model.
+/// Runs a case and a refined run of it that integrates more accurately (rtol a hundred times
+/// smaller, or half the fixed step), and gives every sub-impact's start and end an estimated error:
+/// three times the largest difference between the two runs over the event and its neighbours, so
+/// that a difference that happens to pass through zero does not pose as accuracy, plus the rounding
+/// of the times themselves. It covers the integration in time alone, not mesh or model.
 ///
-/// From the first sub-impact on that the companion does not have, or whose error reaches a quarter
-/// of its duration or of a separation beside it, neither count nor order is certain: Result::trust
-/// names it. Where rtol leaves no room for a smaller one (below 1e-12) the companion integrates
-/// less accurately instead, and its errors are stated. Throws InvalidCase.
+/// From the first sub-impact on that the refined run does not have, or whose error reaches a
+/// quarter of its duration or of a separation beside it, neither count nor order is certain:
+/// Result::error_estimate names it. Where rtol leaves no room for a smaller one (below 1e-12) the
+/// refined run integrates less accurately instead, and its errors are stated. Throws InvalidCase.
 Result simulate_with_error_bars(const Case& input, const Progress& progress = {});
 
-/// The companion's case, and in words what it changes.
-struct Companion {
+/// The refined run's case, and in words what it changes.
+struct RefinedRun {
   Case input;
   std::string description;
 };
-Companion companion_of(const Case& input);
+RefinedRun refined_run_of(const Case& input);
 
-/// Fills the errors and the trust of `result` from a companion's sub-impacts.
-void add_error_bars(Result& result, const Result& companion, const std::string& description);
+/// Fills the errors and the trust of `result` from a refined run's sub-impacts.
+void add_error_bars(Result& result, const Result& refined_run, const std::string& description);
 
 }  // namespace subimpact

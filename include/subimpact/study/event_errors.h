@@ -21,12 +21,14 @@ struct EventErrors {
   double peak_force = 0.0;          ///< largest, relative
   double striker_velocity = 0.0;    ///< at the horizon, relative to the initial velocity
   double beam_velocity = 0.0;       ///< its mean, likewise
-  std::optional<OddSubImpact> odd;  ///< the first sub-impact that does not correspond
+  std::optional<UnmatchedSubImpact> unmatched;  ///< the first sub-impact that does not correspond
 
-  bool all_correspond() const { return !odd; }
+  bool all_correspond() const { return !unmatched; }
   /// One figure for charts: the largest error; where a sub-impact is lost or invented, at least
   /// that one's duration.
-  double overall() const { return odd && odd->duration > maximum ? odd->duration : maximum; }
+  double overall() const {
+    return unmatched && unmatched->duration > maximum ? unmatched->duration : maximum;
+  }
 };
 
 /// For a run of the reference's scene up to its horizon.

@@ -25,15 +25,15 @@ std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
 std::size_t n_leading_matches(const std::vector<MatchedPair>& pairs);
 
 /// The first sub-impact that only one of two runs has.
-struct OddSubImpact {
+struct UnmatchedSubImpact {
   double start = 0.0;       ///< s
   double duration = 0.0;    ///< s
   std::string description;  ///< in words; the first run is called the reference
 };
 
 /// Nothing if all correspond.
-std::optional<OddSubImpact> first_odd(const std::vector<MatchedPair>& pairs,
-                                      const std::vector<SubImpact>& reference,
-                                      const std::vector<SubImpact>& run);
+std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>& pairs,
+                                                  const std::vector<SubImpact>& reference,
+                                                  const std::vector<SubImpact>& run);
 
 }  // namespace subimpact

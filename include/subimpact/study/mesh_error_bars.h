@@ -8,9 +8,9 @@
 
 namespace subimpact {
 
-/// Runs a case with companions for every source of error that a finer computation can tell:
+/// Runs a case with refined runs for every source of error that a finer computation can tell:
 ///
-/// | part | companion | stated error |
+/// | part | refined run | stated error |
 /// |---|---|---|
 /// | time | more accurate in time, see simulate_with_error_bars | 3 d |
 /// | mesh | twice as many cells or elements | 1.5 d/(1 - r^-p) |
@@ -18,15 +18,16 @@ namespace subimpact {
 ///
 /// with d the largest difference between the two runs over a sub-impact and its neighbours, r the
 /// ratio of the meshes and p the order of the mesh (mesh_order). Parts add up to start_error and
-/// end_error. Result::trust names the first sub-impact whose existence or order is not certain, in
-/// all and part by part. What the model leaves out (shear, friction, strain rates) is in none.
+/// end_error. Result::error_estimate names the first sub-impact whose existence or order is not
+/// certain, in all and part by part. What the model leaves out (shear, friction, strain rates) is
+/// in none.
 ///
 /// A third mesh, half as fine, shows whether times converge at order p; where their differences
 /// are in the ratio that p says, to 35 % either way, times are extrapolated to the limit of fine
 /// meshes, and trusted to what the extrapolation adds to the finest mesh's.
 ///
 /// The runs on finer and coarser meshes go on beside the others. `progress` follows the case's own
-/// run, then the companion in time; returning false stops all. Throws InvalidCase.
+/// run, then the refined run in time; returning false stops all. Throws InvalidCase.
 Result simulate_with_all_error_bars(const Case& input, const Progress& progress = {});
 
 /// The order at which event times of a case converge with its mesh: cells 2; Hermite elements 4,
@@ -36,7 +37,7 @@ std::optional<int> mesh_order(const Case& input);
 /// The same case on a mesh with `factor` times as many cells or elements, as nearly as the mesh
 /// allows, of the same grading; nothing for a rigid beam or where too few would be left. A fixed
 /// step beyond the finer mesh's limit is reduced to 0.9 of it.
-std::optional<Companion> on_other_mesh(const Case& input, double factor);
+std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
 
 /// Its cells or elements over the whole length; 1 for a rigid beam.
 int mesh_count(const Case& input);

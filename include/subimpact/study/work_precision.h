@@ -28,7 +28,7 @@ struct WorkPrecisionPoint {
 };
 
 /// The cheapest setting for a wanted error.
-struct Advice {
+struct Recommendation {
   double wanted = 0.0;                      ///< s
   std::optional<WorkPrecisionPoint> point;  ///< nothing if no setting reaches it
   /// Where a finer setting of the same method misses the error, so that the cheapest one reaches it
@@ -44,7 +44,7 @@ struct WorkPrecision {
 };
 
 /// Errors of event times for which advice is given, s.
-const std::vector<double>& advised_errors();
+const std::vector<double>& recommended_errors();
 
 struct WorkPrecisionOptions {
   std::vector<std::string> methods;  ///< empty: default_methods()
@@ -66,9 +66,9 @@ struct WorkPrecisionOptions {
 /// errors reach those of the reference. Throws InvalidCase, for methods before anything is run.
 WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& options = {});
 
-/// The cheapest setting for each of advised_errors(): all sub-impacts correspond, and no event time
-/// is off by more.
-std::vector<Advice> advice_from(const std::vector<WorkPrecisionPoint>& points);
+/// The cheapest setting for each of recommended_errors(): all sub-impacts correspond, and no event
+/// time is off by more.
+std::vector<Recommendation> recommendations_from(const std::vector<WorkPrecisionPoint>& points);
 
 /// By how much errors grow over the scene: the median, over the points that are right, of the last
 /// event's error over that of the first. Nothing without such points.

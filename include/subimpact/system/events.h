@@ -12,7 +12,7 @@ enum class EventKind {
   contact_yields,    ///< the indentation rises through its largest value so far (or first yield)
   contact_unloads,   ///< the indentation stops growing while the contact flows
   contact_ends,      ///< the force falls to zero
-  section_reverses,  ///< a flowing section turns back
+  section_reverses,  ///< a flowing section reverses
 };
 
 /// The name used in transitions.csv.

@@ -13,7 +13,7 @@
 namespace subimpact {
 namespace {
 
-// Newton's method. Sections that begin to flow or turn back change the stiffness from one stage to
+// Newton's method. Sections that begin to flow or reverse change the stiffness from one stage to
 // the next, and with a matrix kept over many steps the iteration then fails until the step is cut
 // beyond recovery: the matrix is made anew each step (a twentieth of the step's cost), and ten
 // iterations are allowed. The estimate of the rate of convergence starts from 1 then, and has to be

@@ -3,7 +3,7 @@
 # moment and curvature are in units of first yield.
 set multiplot title marks font ',12'
 set xlabel (yields > 0 ? 'curvature, κ/κ_y' : 'curvature, 1/m')
-set ylabel (yields > 0 ? 'moment, -M/M_y' : 'moment, N m') offset 1
+set ylabel (yields > 0 ? 'moment, M/M_y' : 'moment, N m') offset 1
 set offsets graph 0.05, graph 0.05, graph 0.08, graph 0.08
 set xzeroaxis lc rgb '#808080'
 set yzeroaxis lc rgb '#808080'
