@@ -43,9 +43,10 @@ double ForceQuadrature::halved(const Node& a, const Node& b, double whole, const
 }
 
 double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
+  largest_indentation_ = 0.0;
+  if (!(step.length() > 0.0)) return 0.0;  // an event at the very start of a step
   const Node a = node(step.t0(), step.y0(), beam);
   const Node b = node(step.t1(), step.y1(), beam);
-  largest_indentation_ = 0.0;
   const double h = step.length();
   const double whole = between(a, b, beam);
   double constant = 0.0;

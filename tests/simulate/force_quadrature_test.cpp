@@ -1,0 +1,37 @@
+// The integral of the contact force over steps.
+
+#include "simulate/force_quadrature.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "lumped.h"
+
+namespace subimpact {
+namespace {
+
+TEST(TheForceIntegral, OfAStepWithoutLengthIsZero) {
+  StruckBeam beam = TwoBodies{}.make();
+  const auto integrator = Way{}.make(beam);
+  beam.contact().set(ContactBranch::elastic, {0.0});
+  State y = beam.initial_state();
+  y[1] = 1e-4;  // pressed in
+  integrator->restart(0.0, y);
+  SectionCorrector corrector(beam, std::numeric_limits<double>::infinity());
+  ForceQuadrature force(1e-12);
+  const StepEnds empty{0.0, 0.0, y, y};
+  const StepEnds whole{0.0, 1e-6, y, y};
+  const double impulse = beam.contact_force(y) * 1e-6;
+  EXPECT_GT(impulse, 0.0);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(force.over(ObservedStep(empty, *integrator, corrector), beam), 0.0);
+  }
+  force.forget_neighbour();
+  integrator->step();
+  EXPECT_NEAR(force.over(ObservedStep(whole, *integrator, corrector), beam), impulse,
+              0.1 * impulse);
+}
+
+}  // namespace
+}  // namespace subimpact
