@@ -15,7 +15,7 @@ target_link_libraries(subimpact_whole
   PRIVATE SUNDIALS::arkode_shared SUNDIALS::cvode_shared SUNDIALS::nvecserial_shared
           SUNDIALS::sunlinsolklu_shared SUNDIALS::sunmatrixsparse_shared
           SUNDIALS::sunnonlinsolfixedpoint_shared KLU::KLU fmt::fmt tomlplusplus::tomlplusplus
-          Threads::Threads)
+          OpenSSL::Crypto Threads::Threads)
 
 if(NOT SUBIMPACT_INSTALL)
   return()

@@ -21,6 +21,7 @@ readonly packages=(
   nlohmann-json3-dev
   libtomlplusplus-dev
   libcli11-dev
+  libssl-dev
   libgtest-dev
   libbenchmark-dev
 )

@@ -13,9 +13,8 @@ namespace subimpact::app {
 /// What the program tells its caller.
 enum ExitStatus : int {
   done = 0,
-  refused = 2,       ///< bad command line or case, or a scene the model does not hold for
-  failed = 3,        ///< the solver failed, or its results could not be written
-  interrupted = 130  ///< by Ctrl-C, as shells report it
+  refused = 2,  ///< bad command line or case, or a scene the model does not hold for
+  failed = 3    ///< the solver failed, or its results could not be written
 };
 
 /// The options of every command that reads a case.

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ struct CompareOptions {
 int run_comparison(const CompareOptions& options) {
   const LoadedCase loaded = options.input.load();
   check_method_names(options.methods);
-  if (!options.directory.empty()) prepare_output_directory(options.directory);
+  std::optional<OutputDirectory> directory;
+  if (!options.directory.empty()) directory.emplace(options.directory, "compare");
   const bool shown = isatty(STDERR_FILENO) != 0;
   Comparison comparison;
   try {
@@ -35,7 +37,11 @@ int run_comparison(const CompareOptions& options) {
     throw CaseFileError(loaded.message(error));
   }
   if (shown) fmt::print(stderr, "\r\033[K");
-  if (!options.directory.empty()) write_comparison(options.directory, comparison);
+  if (directory) {
+    write_comparison(directory->staging(), comparison);
+    directory->commit();
+    print_warnings(directory->notes());
+  }
   fmt::print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
              comparison_table(comparison));
   if (!options.directory.empty()) {

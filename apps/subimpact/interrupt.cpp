@@ -1,26 +1,49 @@
 #include "interrupt.h"
 
+#include <array>
 #include <csignal>
 
 namespace subimpact::app {
 namespace {
 
-volatile std::sig_atomic_t interrupt_requested = 0;
+constexpr std::array listened_to = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
-void request_interrupt(int) {
-  interrupt_requested = 1;
-  std::signal(SIGINT, SIG_DFL);
+volatile std::sig_atomic_t first_signal = 0;
+volatile std::sig_atomic_t is_held_back = 0;
+
+void note_signal(int number) {
+  const bool again = first_signal != 0 && number == SIGINT;
+  if (first_signal == 0) first_signal = number;
+  if (!again || is_held_back != 0) return;
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+void set_handler(int number, void (*handler)(int)) {
+  struct sigaction present {};
+  sigaction(number, nullptr, &present);
+  if (present.sa_handler == SIG_IGN) return;
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
 }
 
 }  // namespace
 
 InterruptListener::InterruptListener() {
-  interrupt_requested = 0;
-  std::signal(SIGINT, request_interrupt);
+  first_signal = 0;
+  is_held_back = 0;
+  for (const int number : listened_to) set_handler(number, note_signal);
 }
 
-InterruptListener::~InterruptListener() { std::signal(SIGINT, SIG_DFL); }
+InterruptListener::~InterruptListener() {
+  for (const int number : listened_to) set_handler(number, SIG_DFL);
+}
 
-bool InterruptListener::interrupted() const { return interrupt_requested != 0; }
+int InterruptListener::signal() const { return first_signal; }
+
+void InterruptListener::hold_back() { is_held_back = 1; }
 
 }  // namespace subimpact::app

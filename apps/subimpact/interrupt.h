@@ -2,8 +2,10 @@
 
 namespace subimpact::app {
 
-/// Listens for Ctrl-C while it exists; only one may at a time. A second Ctrl-C ends the program at
-/// once.
+/// Listens while it exists for the signals that ask a program to end: Ctrl-C (SIGINT), SIGTERM,
+/// SIGHUP and SIGXCPU. Only one listener may exist at a time. A second Ctrl-C ends the program at
+/// once, unless hold_back() was called; a second signal of another kind changes nothing. A signal
+/// that was ignored when the program began (nohup) stays ignored.
 class InterruptListener {
  public:
   InterruptListener();
@@ -11,7 +13,14 @@ class InterruptListener {
   InterruptListener(const InterruptListener&) = delete;
   InterruptListener& operator=(const InterruptListener&) = delete;
 
-  bool interrupted() const;
+  bool interrupted() const { return signal() != 0; }
+  /// The number of the signal that came first; 0: none came.
+  int signal() const;
+  /// The exit status by which shells report it.
+  int exit_status() const { return 128 + signal(); }
+
+  /// From here on a second Ctrl-C does not end the program: results are being written.
+  void hold_back();
 };
 
 }  // namespace subimpact::app

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <optional>
 #include <string>
@@ -50,6 +51,7 @@ std::string usage_error(const CLI::App* program, const CLI::Error& error) {
 
 int main(int argc, char** argv) {
   using namespace subimpact;
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit fails then, like writing to a full disk
   int status = app::done;
   CLI::App program("Finds every sub-impact when a rigid mass strikes an elasto-plastic beam.",
                    "subimpact");

@@ -43,7 +43,8 @@ std::string time_with_unit(const std::string& text) {
 
 int run_plan(const PlanCommand& command) {
   const LoadedCase loaded = command.input.load();
-  if (!command.directory.empty()) prepare_output_directory(command.directory);
+  std::optional<OutputDirectory> directory;
+  if (!command.directory.empty()) directory.emplace(command.directory, "plan");
   InterruptListener listener;
   StatusLine status;
   Plan result;
@@ -59,13 +60,15 @@ int run_plan(const PlanCommand& command) {
   status.clear();
   fmt::print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
              mesh_limit_table(result.limit), "\n" + plan_table(result));
-  if (!command.directory.empty()) {
-    write_plan(command.directory, result);
+  if (directory) {
+    write_plan(directory->staging(), result);
+    directory->commit();
+    print_warnings(directory->notes());
     fmt::print("meshes.csv, mesh_limit.csv and plan.csv in {}\n", command.directory);
   }
   if (!result.interrupted) return done;
   fmt::print(stderr, "subimpact: interrupted; the combinations above are those that were tried\n");
-  return interrupted;
+  return listener.exit_status();
 }
 
 }  // namespace

@@ -19,14 +19,16 @@ struct PlotOptions {
 
 int plot(const PlotOptions& options) {
   const FinishedRun run = read_results(options.run);
-  const std::string& directory = options.directory.empty() ? options.run : options.directory;
-  prepare_output_directory(directory);
-  const DrawnFigures figures = draw_figures(directory, run.input, run.result);
+  OutputDirectory directory(options.directory.empty() ? options.run : options.directory, "figures",
+                            run.identity);
+  const DrawnFigures figures = draw_figures(directory.staging(), run.input, run.result);
+  directory.commit();
   for (const DrawnFigure& figure : figures.drawn) {
     fmt::print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
   }
-  fmt::print("\nfigures in {}\n", directory);
+  fmt::print("\nfigures in {}\n", directory.path().string());
   std::fflush(stdout);
+  print_warnings(directory.notes());
   print_figure_notes(run);
   return done;
 }

@@ -14,8 +14,9 @@ constexpr std::chrono::milliseconds shortest_pause{100};
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(double end_time, bool quiet)
-    : end_time_(end_time),
+ProgressDisplay::ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)
+    : listener_(listener),
+      end_time_(end_time),
       shown_(!quiet && isatty(STDERR_FILENO) != 0),
       last_(std::chrono::steady_clock::now()) {}
 

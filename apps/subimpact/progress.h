@@ -6,22 +6,21 @@
 
 namespace subimpact::app {
 
-/// Shows how far a run has come on stderr, if that is a terminal, and listens for Ctrl-C meanwhile.
-/// Only one may exist at a time.
+/// Shows how far a run has come on stderr, if that is a terminal.
 class ProgressDisplay {
  public:
-  ProgressDisplay(double end_time, bool quiet);
+  ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener);
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
-  /// Returns false once Ctrl-C was pressed. A second Ctrl-C ends the program at once.
+  /// Returns false once the program was asked to end.
   bool operator()(double time);
 
  private:
   void clear_line();
 
-  InterruptListener listener_;
+  const InterruptListener& listener_;
   double end_time_;
   bool shown_;
   bool line_is_dirty_ = false;

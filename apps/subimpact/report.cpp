@@ -18,10 +18,13 @@ struct ReportOptions {
 
 int report(const ReportOptions& options) {
   const FinishedRun run = read_results(options.run);
-  const std::string& directory = options.directory.empty() ? options.run : options.directory;
-  prepare_output_directory(directory);
-  fmt::print("{}\n", write_html_report(directory, run).string());
+  OutputDirectory directory(options.directory.empty() ? options.run : options.directory, "figures",
+                            run.identity);
+  const std::filesystem::path page = write_html_report(directory.staging(), run);
+  directory.commit();
+  fmt::print("{}\n", (directory.path() / page.filename()).string());
   std::fflush(stdout);
+  print_warnings(directory.notes());
   print_figure_notes(run);
   return done;
 }

@@ -35,9 +35,8 @@ std::filesystem::path output_directory(const RunOptions& options) {
 int exit_status(OutcomeKind kind) {
   switch (kind) {
     case OutcomeKind::completed:
-      return done;
     case OutcomeKind::stopped:
-      return interrupted;
+      return done;
     case OutcomeKind::left_validity:
       return refused;
     case OutcomeKind::inaccurate:
@@ -49,17 +48,17 @@ int exit_status(OutcomeKind kind) {
   return failed;
 }
 
-Result simulate_with_progress(const LoadedCase& loaded, ResolvedRun run,
-                              const RunOptions& options) {
-  ProgressDisplay progress(loaded.value.end_time, options.quiet);
+Result simulate_with_progress(const LoadedCase& loaded, ResolvedRun run, const RunOptions& options,
+                              const InterruptListener& listener, RowSink& rows) {
+  ProgressDisplay progress(loaded.value.end_time, options.quiet, listener);
   try {
     if (options.error_bars == "time") {
-      return simulate_with_error_bars(loaded.value, std::ref(progress));
+      return simulate_with_error_bars(loaded.value, std::ref(progress), &rows);
     }
     if (!options.error_bars.empty()) {
-      return simulate_with_all_error_bars(loaded.value, std::ref(progress));
+      return simulate_with_all_error_bars(loaded.value, std::ref(progress), &rows);
     }
-    return simulate(std::move(run), std::ref(progress));
+    return simulate(std::move(run), std::ref(progress), nullptr, &rows);
   } catch (const InvalidCase& error) {
     throw CaseFileError(loaded.message(error));
   }
@@ -82,36 +81,44 @@ ResolvedRun resolve_loaded(const LoadedCase& loaded) {
   }
 }
 
+// Writes the results; returns why they could not be written.
+std::string write(ResultWriter& files, const Case& input, const Result& result) {
+  try {
+    files.finish(input, result);
+    return {};
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+}
+
 int run(const RunOptions& options) {
   const LoadedCase loaded = options.input.load();
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = resolve_loaded(loaded);
-  const std::filesystem::path directory = output_directory(options);
-  prepare_output_directory(directory);
+  ResultWriter files(output_directory(options), loaded.value);
   const std::vector<std::string> doubts = doubtful_units(loaded.value);
   if (!options.quiet) print_notes(loaded);
   print_warnings(doubts);
-  const Result result = simulate_with_progress(loaded, std::move(resolved), options);
-  int status = exit_status(result.outcome.kind);
-  std::string unwritten;
-  try {
-    // Before anything is printed: the reader of a pipe may leave early and end the program.
-    write_results(directory, loaded.value, result);
-  } catch (const OutputError& error) {
-    unwritten = error.what();
-    status = failed;
-  }
-  if (!options.quiet) {
+  InterruptListener listener;
+  const Result result =
+      simulate_with_progress(loaded, std::move(resolved), options, listener, files);
+  listener.hold_back();
+  // Before anything is printed: the reader of a pipe may leave early and end the program.
+  const std::string unwritten = write(files, loaded.value, result);
+  if (!options.quiet || !unwritten.empty()) {
     fmt::print("{}\n{}", run_summary(loaded.value, result), sub_impact_table(result));
-    if (unwritten.empty()) fmt::print("\nfiles in {}\n", directory.string());
+    if (unwritten.empty()) fmt::print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
   }
+  print_warnings(files.directory().notes());
   print_warnings(others(result.warnings, doubts));
   if (!result.outcome.completed()) {
     fmt::print(stderr, "subimpact: {}\n", failure_message(loaded.value, result));
   }
   if (!unwritten.empty()) fmt::print(stderr, "subimpact: {}\n", unwritten);
-  return status;
+  if (!unwritten.empty() || files.directory().is_relocated()) return failed;
+  return result.outcome.kind == OutcomeKind::stopped ? listener.exit_status()
+                                                     : exit_status(result.outcome.kind);
 }
 
 }  // namespace
@@ -142,9 +149,13 @@ void add_run(CLI::App& program, int& status) {
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "
       "validity; "
-      "3 the solver failed, or results could not be written; 130 stopped by Ctrl-C. Once the run "
-      "has "
-      "begun, what was computed is written in every case.");
+      "3 the solver failed, or results could not be written to DIR; 128 and the signal's number: "
+      "stopped (130 by Ctrl-C). Once the run has begun, what was computed is written in every "
+      "case: "
+      "also after Ctrl-C, SIGTERM or SIGHUP; if DIR cannot be written any more (a full disk), to a "
+      "new directory for temporary files; if that fails too, the table is printed. Only kill -9 "
+      "and "
+      "a second Ctrl-C leave nothing new; DIR then holds the older results.");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "interrupt.h"
 #include "status_line.h"
 #include "subimpact/io/results.h"
+#include "subimpact/io/work_precision.h"
 
 namespace subimpact::app {
 namespace {
@@ -52,6 +54,7 @@ class Session {
   }
 
   int run() {
+    directory_.emplace(command_.directory, "stability", case_id(input_));
     for (const Part& part : parts_) {
       const auto& asked = command_.parts;
       if (!asked.empty() && std::find(asked.begin(), asked.end(), part.name) == asked.end())
@@ -59,12 +62,14 @@ class Session {
       if (listener_.interrupted()) break;
       status_.show(part.name);
       part.run();
+      directory_->commit();
     }
+    print_warnings(directory_->notes());
     fmt::print("CSV files and figures in {}\n", command_.directory);
     if (!listener_.interrupted()) return done;
     fmt::print(stderr, "subimpact: interrupted; the parts that were finished are in {}\n",
                command_.directory);
-    return interrupted;
+    return listener_.exit_status();
   }
 
  private:
@@ -84,40 +89,41 @@ class Session {
     const auto rows = critical_steps(input_, command_.methods);
     if (rows.empty()) return;
     print(0, critical_step_table(rows));
-    write_critical_steps(command_.directory, rows);
+    write_critical_steps(directory_->staging(), rows);
   }
   void contact() {
     if (!asked_for(command_.methods, "central-difference")) return;
     const auto rows = stiff_contact(input_);
     print(1, stiff_contact_table(rows));
-    write_stiff_contact(command_.directory, rows);
+    write_stiff_contact(directory_->staging(), rows);
   }
   void damping() {
     if (!asked_for(command_.methods, "dirk") && !asked_for(command_.methods, "bdf")) return;
     const auto rows = damping_of_implicit_tables(input_);
     print(2, damping_table(rows));
-    write_damping(command_.directory, rows, bdf_growths());
+    write_damping(directory_->staging(), rows, bdf_growths());
   }
   void map() {
     const OutcomeMap result =
         outcome_map(input_, command_.methods, command_.run_seconds, counter("runs"));
     print(3, outcome_table(result));
-    write_outcomes(command_.directory, result);
+    write_outcomes(directory_->staging(), result);
   }
   void pairs() {
     if (!asked_for(command_.methods, "exponential")) return;
     const auto rows = missed_pairs(input_, counter("strikes"));
     print(4, missed_pairs_table(rows));
-    write_missed_pairs(command_.directory, rows);
+    write_missed_pairs(directory_->staging(), rows);
   }
   void layers() {
     const LayerStudy study = layers_against_exact(input_, counter("numbers of layers"));
     print(5, layer_table(study));
-    write_layers(command_.directory, study);
+    write_layers(directory_->staging(), study);
   }
 
   const Case& input_;
   const StabilityCommand& command_;
+  std::optional<OutputDirectory> directory_;
   std::vector<Part> parts_;
   InterruptListener listener_;
   StatusLine status_;
@@ -137,7 +143,6 @@ int run_stability(StabilityCommand command) {
       throw CaseFileError(fmt::format("--parts {}: unknown part; allowed: {}", part,
                                       "critical, contact, damping, map, pairs, layers"));
     }
-    prepare_output_directory(command.directory);
     return session.run();
   } catch (const InvalidCase& error) {
     throw CaseFileError(loaded.message(error));

@@ -2,6 +2,7 @@
 #include "subimpact/report/work_precision_chart.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -57,7 +58,10 @@ std::vector<LabelledCase> cases_of(const LoadedCase& loaded,
 class Session {
  public:
   Session(const WorkPrecisionCommand& command, const std::vector<LabelledCase>& cases)
-      : command_(command), cases_(cases), log_(command.directory, ids(cases)) {
+      : command_(command),
+        cases_(cases),
+        directory_(command.directory, "work-precision", fmt::to_string(fmt::join(ids(cases), "-"))),
+        log_(directory_, ids(cases)) {
     if (log_.n_known() > 0) {
       fmt::print("{} of an earlier study in {} {} kept\n\n", counted(log_.n_known(), "point"),
                  command.directory, log_.n_known() == 1 ? "is" : "are");
@@ -76,7 +80,9 @@ class Session {
       std::fflush(stdout);
       if (studies.back().interrupted) break;
     }
-    draw_work_precision(command_.directory, studies);
+    draw_work_precision(directory_.staging(), studies);
+    directory_.commit();
+    print_warnings(directory_.notes());
     fmt::print(
         "work_precision.csv, work_precision.svg and .png, work_precision_evaluations.svg "
         "and .png in {}\n",
@@ -85,7 +91,7 @@ class Session {
     fmt::print(stderr,
                "subimpact: interrupted; finished points are kept, and the same command "
                "continues from there\n");
-    return interrupted;
+    return listener_.exit_status();
   }
 
  private:
@@ -113,6 +119,7 @@ class Session {
 
   const WorkPrecisionCommand& command_;
   const std::vector<LabelledCase>& cases_;
+  OutputDirectory directory_;
   PointLog log_;
   InterruptListener listener_;
   StatusLine status_;
@@ -129,7 +136,6 @@ int run_work_precision(WorkPrecisionCommand command) {
     for (const LabelledCase& entry : cases) {
       check_methods(entry.input, command.methods);
     }
-    prepare_output_directory(command.directory);
     return Session(command, cases).run();
   } catch (const InvalidCase& error) {
     throw CaseFileError(loaded.message(error));

@@ -19,8 +19,8 @@ ResolvedRun resolve(const Case& input) {
   return run;
 }
 
-Result simulate(const Case& input, const Progress& progress, Observer* observer) {
-  return simulate(resolve(input), progress, observer);
+Result simulate(const Case& input, const Progress& progress, Observer* observer, RowSink* rows) {
+  return simulate(resolve(input), progress, observer, rows);
 }
 
 }  // namespace subimpact

@@ -1,74 +1,267 @@
+#include "subimpact/io/output_directory.h"
+
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/random.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <system_error>
+#include <utility>
 
+#include "io/directory_lock.h"
+#include "io/manifest.h"
 #include "io/write_file.h"
-#include "subimpact/io/results.h"
+#include "subimpact/io/read_results.h"
 
 namespace subimpact {
+namespace {
+
 namespace fs = std::filesystem;
 
+[[noreturn]] void refuse(const fs::path& path, const std::string& cause) {
+  throw OutputError(fmt::format("{}: {}; choose another with --out", path.string(), cause));
+}
+
+// Waits until a file, or the names in a directory, are on the disk.
+void synchronise(const fs::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  const bool failed = descriptor < 0 || (fsync(descriptor) != 0 && errno != EINVAL);
+  const int cause = errno;
+  if (descriptor >= 0) close(descriptor);
+  if (failed) throw std::system_error(cause, std::generic_category(), path.string());
+}
+
+std::vector<std::string> files_in(const fs::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    if (entry.symlink_status().type() == fs::file_type::regular) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  return names;
+}
+
+// The manifest, as a writer needs it.
+std::optional<Manifest> manifest_for_writing(const fs::path& directory) {
+  try {
+    return read_manifest(directory);
+  } catch (const ResultsError& error) {
+    throw OutputError(fmt::format(
+        "{}; nothing is written beside it: move it away, or choose another directory with --out",
+        error.what()));
+  }
+}
+
+// A name that is free: "events.csv.kept", "events.csv.kept-2" ...
+fs::path name_to_keep(const fs::path& file) {
+  fs::path kept = file.string() + ".kept";
+  for (int n = 2; fs::exists(fs::symlink_status(kept)); ++n) {
+    kept = fmt::format("{}.kept-{}", file.string(), n);
+  }
+  return kept;
+}
+
+// Whether the file is as one of these seals has it.
+bool is_sealed(const fs::path& file, const std::string& name,
+               const std::map<std::string, Seal>& seals) {
+  const auto found = seals.find(name);
+  if (found == seals.end()) return false;
+  std::error_code error;
+  return fs::file_size(file, error) == found->second.bytes && seal_of(file) == found->second;
+}
+
+}  // namespace
+
+std::string new_identity() {
+  std::uint64_t words[2];
+  if (getrandom(words, sizeof words, 0) != sizeof words) {
+    throw std::system_error(errno, std::generic_category(), "getrandom");
+  }
+  return fmt::format("{:016x}{:016x}", words[0], words[1]);
+}
+
 void write_file(const fs::path& path, const std::string& content) {
-  const fs::path partial = path.string() + ".partial";
-  const auto fail = [&](const std::string& cause) {
-    std::error_code ignored;
-    fs::remove(partial, ignored);
+  const auto fail = [&](int cause) {
     throw OutputError(
         fmt::format("{}: cannot be written ({}); free the disk or choose another "
                     "directory with --out",
-                    path.string(), cause));
+                    path.string(), std::strerror(cause)));
   };
-  errno = 0;
-  std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-  if (!file) fail(std::strerror(errno));
-  file << content;
-  file.close();
-  if (!file) fail(errno != 0 ? std::strerror(errno) : "only part of the data was written");
-  std::error_code error;
-  fs::rename(partial, path, error);
-  if (error) fail(error.message());
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file < 0) fail(errno);
+  const int cause = write_all(file, content);
+  if (close(file) != 0 || cause != 0) fail(cause != 0 ? cause : errno);
 }
 
-void prepare_output_directory(const fs::path& directory) {
+int write_all(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t n = write(file, content.data(), content.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    content.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return 0;
+}
+
+OutputDirectory::OutputDirectory(fs::path directory, std::string kind, std::string identity)
+    : kind_(std::move(kind)), identity_(std::move(identity)) {
+  open(directory);
+}
+
+OutputDirectory::~OutputDirectory() {
+  std::error_code ignored;
+  if (!staging_.empty()) fs::remove_all(staging_, ignored);
+  if (!is_relocated() || is_committed_) return;
+  lock_.reset();
+  fs::remove(path_, ignored);  // if empty
+}
+
+void OutputDirectory::open(const fs::path& directory) {
   std::error_code error;
+  const fs::file_type kind_of_file = fs::status(directory, error).type();
+  if (kind_of_file != fs::file_type::not_found && kind_of_file != fs::file_type::directory) {
+    refuse(directory, "this output directory cannot be made (a file has that name)");
+  }
   fs::create_directories(directory, error);
-  if (error || !fs::is_directory(directory)) {
-    throw OutputError(
-        fmt::format("{}: this output directory cannot be made ({}); choose another "
-                    "with --out",
-                    directory.string(), error ? error.message() : "a file has that name"));
+  if (error) {
+    refuse(directory, fmt::format("this output directory cannot be made ({})", error.message()));
   }
-  const fs::path probe = directory / ".subimpact-probe";
-  errno = 0;
-  const bool writable = static_cast<bool>(std::ofstream(probe) << "probe" << std::flush);
-  const int cause = errno;
-  fs::remove(probe, error);
-  if (!writable) {
-    throw OutputError(
-        fmt::format("{}: this output directory cannot be written to ({}); change its "
-                    "permissions or choose another with --out",
-                    directory.string(), std::strerror(cause)));
+  lock_ = std::make_unique<DirectoryLock>(directory);
+  path_ = directory;
+  const std::optional<Manifest> present = manifest_for_writing(path_);
+  const bool joins_run = present && kind_ == "figures" && present->identity == identity_;
+  if (present && present->kind != kind_ && !joins_run) {
+    refuse(path_, present->kind == "run" && kind_ == "figures"
+                      ? "holds the results of another run"
+                      : fmt::format("holds the results of `subimpact {}`, with which those of "
+                                    "`subimpact {}` would be mixed",
+                                    present->kind, kind_));
+  }
+  if (joins_run) kind_ = present->kind;
+  try {
+    settle();
+    begin_staging();
+  } catch (const std::system_error& failure) {
+    refuse(path_, fmt::format("this output directory cannot be written to ({})",
+                              failure.code().message()));
   }
 }
 
-void write_results(const fs::path& directory, const Case& input, const Result& result) {
-  write_file(directory / "events.csv", events_csv(result.sub_impacts));
-  write_file(directory / "transitions.csv", transitions_csv(result.transitions));
-  write_file(directory / "history.csv", history_csv(result.history));
-  if (!input.output.sections.empty()) {
-    write_file(directory / "sections.csv", sections_csv(result.section_history));
-  } else {
-    std::error_code ignored;  // of an earlier run into the same directory
-    fs::remove(directory / "sections.csv", ignored);
-  }
-  write_file(directory / "summary.json", summary_json(input, result));
+void OutputDirectory::begin_staging() {
+  commit_ = new_identity();
+  staging_ = staging_of(path_, commit_);
+  fs::create_directory(staging_);
 }
 
-void write_comparison(const fs::path& directory, const Comparison& comparison) {
-  write_file(directory / "comparison.csv", comparison_csv(comparison));
-  write_file(directory / "matches.csv", matches_csv(comparison));
+void OutputDirectory::commit() {
+  try {
+    seal();
+  } catch (const std::system_error& failure) {
+    throw OutputError(
+        fmt::format("{}: the results cannot be put in place ({}); free the disk or choose another "
+                    "directory with --out",
+                    path_.string(), failure.code().message()));
+  }
+  // The files are readable from here on, wherever they are found.
+  if (is_relocated() && !is_committed_) {
+    notes_.push_back(fmt::format("{}; the results are in {} instead", relocation_, path_.string()));
+  }
+  is_committed_ = true;
+  const fs::path sealed = std::exchange(staging_, fs::path());
+  try {
+    synchronise(path_);
+    settle();
+    begin_staging();
+  } catch (const std::system_error& failure) {
+    notes_.push_back(fmt::format(
+        "{}: some files are still in {} ({}); the next command that writes into this directory "
+        "will move them",
+        path_.string(), sealed.filename().string(), failure.code().message()));
+  }
+}
+
+// Makes the staged files the valid ones.
+void OutputDirectory::seal() {
+  const std::optional<Manifest> present = manifest_for_writing(path_);
+  Manifest next{kind_, identity_, commit_, {}, {}};
+  if (present) next.replaced = present->files;
+  if (present && present->identity == identity_) next.files = present->files;
+  for (const std::string& name : files_in(staging_)) {
+    const fs::path file = staging_ / name;
+    synchronise(file);
+    next.files[name] = seal_of(file).value();
+  }
+  const fs::path manifest = staging_ / manifest_name;
+  write_file(manifest, to_json(next));
+  synchronise(manifest);
+  synchronise(staging_);
+  fs::rename(manifest, path_ / manifest_name);
+}
+
+// Moves what the manifest lists to its place and removes what it replaces, and what killed writers
+// have left.
+void OutputDirectory::settle() {
+  if (const std::optional<Manifest> manifest = manifest_for_writing(path_)) {
+    const fs::path waiting = staging_of(path_, manifest->commit);
+    if (fs::exists(fs::symlink_status(waiting))) {
+      for (const std::string& name : files_in(waiting)) put_in_place(name, *manifest);
+    }
+    for (const auto& [name, seal] : manifest->replaced) {
+      if (manifest->files.contains(name)) continue;
+      if (is_sealed(path_ / name, name, manifest->replaced)) {
+        fs::remove(path_ / name);
+      } else if (fs::exists(fs::symlink_status(path_ / name))) {
+        notes_.push_back(fmt::format("{}: is of an earlier run and was changed since; kept",
+                                     (path_ / name).string()));
+      }
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(".subimpact-") && name != ".subimpact-lock") fs::remove_all(entry.path());
+  }
+}
+
+void OutputDirectory::put_in_place(const std::string& name, const Manifest& manifest) {
+  const fs::path file = path_ / name;
+  const bool is_there = fs::exists(fs::symlink_status(file));
+  if (is_there && !is_sealed(file, name, manifest.replaced)) {
+    const fs::path kept = name_to_keep(file);
+    fs::rename(file, kept);
+    notes_.push_back(fmt::format("{}: was changed, or is not of this program; kept as {}",
+                                 file.string(), kept.filename().string()));
+  }
+  fs::rename(staging_of(path_, manifest.commit) / name, file);
+}
+
+void OutputDirectory::relocate(const std::string& cause) {
+  const auto give_up = [&](const std::string& second_cause) {
+    throw OutputError(
+        fmt::format("{}; nor can the results be written to a directory for temporary files ({})",
+                    relocation_, second_cause));
+  };
+  if (is_relocated()) give_up(cause);
+  relocation_ = cause;
+  const fs::path left = staging_;
+  std::error_code ignored;
+  try {
+    std::string place = (fs::temp_directory_path() / "subimpact-results-XXXXXX").string();
+    if (mkdtemp(place.data()) == nullptr) {
+      throw std::system_error(errno, std::generic_category(), place);
+    }
+    path_ = place;
+    lock_ = std::make_unique<DirectoryLock>(path_);
+    begin_staging();
+    for (const std::string& name : files_in(left)) fs::copy_file(left / name, staging_ / name);
+    fs::remove_all(left, ignored);
+  } catch (const std::exception& failure) {
+    fs::remove_all(left, ignored);
+    give_up(failure.what());
+  }
 }
 
 }  // namespace subimpact

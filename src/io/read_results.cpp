@@ -8,8 +8,10 @@
 
 #include "case/case_choices.h"
 #include "case/other_names.h"
-#include "io/csv_table.h"
+#include "io/csv_reader.h"
+#include "io/row_thinning.h"
 #include "io/run_tables.h"
+#include "io/sealed_files.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
 
@@ -17,6 +19,9 @@ namespace subimpact {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr int first_sealed_layout = 4;
+constexpr int most_attempts = 10;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -191,8 +196,7 @@ std::optional<ErrorEstimate> error_estimate_from(const Json& json) {
 }
 
 // Returns the layout of the summary.
-int read_summary(const std::filesystem::path& path, FinishedRun& run) {
-  const std::string text = read_whole_file(path);
+int read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run) {
   try {
     const Json json = Json::parse(text);
     const int layout = json.value("layout", 1);
@@ -215,6 +219,7 @@ int read_summary(const std::filesystem::path& path, FinishedRun& run) {
                       number(outcome.at("time_s")), outcome.at("message").get<std::string>(),
                       interval_from(outcome.value("first_failure_s", Json()))};
     result.warnings = json.value("warnings", std::vector<std::string>());
+    result.n_history_rows = json.at("counts").at("history_rows").get<std::size_t>();
     result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();
     result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
     result.first_contact_yield = optional_number(json.at("first_yield").at("contact_s"));
@@ -239,6 +244,69 @@ int read_summary(const std::filesystem::path& path, FinishedRun& run) {
   }
 }
 
+template <class Row>
+std::vector<Row> read_thinned(std::istream& file, const std::string& name,
+                              const Columns<Row>& columns, RowThinning<Row> rows) {
+  CsvReader csv(file, name);
+  for_each_row(csv, columns, [&](const Row& row) { rows.add(row); });
+  return rows.take();
+}
+
+RowThinning<HistoryRow> history_thinning(std::size_t n_rows) {
+  return {n_rows,
+          1,
+          {&HistoryRow::force, &HistoryRow::indentation, &HistoryRow::struck_deflection,
+           &HistoryRow::striker_relative, &HistoryRow::back_stress}};
+}
+
+RowThinning<SectionRow> section_thinning(std::size_t n_instants, std::size_t n_sections) {
+  return {n_instants * n_sections, n_sections, {&SectionRow::curvature, &SectionRow::moment}};
+}
+
+FinishedRun read_once(const std::filesystem::path& directory) {
+  const SealedFiles files(directory);
+  FinishedRun run;
+  const int layout = read_summary(directory / "summary.json", files.text("summary.json"), run);
+  const bool is_sealed = files.manifest() && files.manifest()->kind == "run";
+  if (is_sealed) run.identity = files.manifest()->identity;
+  if (!is_sealed && layout >= first_sealed_layout) {
+    throw ResultsError(
+        fmt::format("{}: has no {} of a run, without which nothing shows that its files belong "
+                    "together; run the case again",
+                    directory.string(), manifest_name));
+  }
+  if (!is_sealed) {
+    run.result.warnings.push_back(
+        fmt::format("an older version of this program wrote {}, without checksums: nothing shows "
+                    "that its files belong together",
+                    directory.string()));
+  }
+  const auto read = [&](const char* name, const auto& read_file) {
+    std::ifstream file = files.open(name);
+    return read_file(file, (directory / name).string());
+  };
+  Result& result = run.result;
+  result.sub_impacts = read("events.csv", [](std::istream& file, const std::string& name) {
+    return read_rows(file, name, events_columns());
+  });
+  result.transitions = read("transitions.csv", [](std::istream& file, const std::string& name) {
+    return read_rows(file, name, transitions_columns());
+  });
+  result.history = read("history.csv", [&](std::istream& file, const std::string& name) {
+    return read_thinned(file, name, history_columns(), history_thinning(result.n_history_rows));
+  });
+  if (const std::size_t n_sections = run.input.output.sections.size(); n_sections > 0) {
+    result.section_history = read("sections.csv", [&](std::istream& file, const std::string& name) {
+      return read_thinned(file, name, sections_columns(),
+                          section_thinning(result.n_history_rows, n_sections));
+    });
+    if (layout < 3) {  // M had the opposite sign
+      for (SectionRow& row : result.section_history) row.moment = -row.moment;
+    }
+  }
+  return run;
+}
+
 }  // namespace
 
 FinishedRun read_results(const std::filesystem::path& directory) {
@@ -249,18 +317,14 @@ FinishedRun read_results(const std::filesystem::path& directory) {
                     "`subimpact run` (--out)",
                     directory.string()));
   }
-  FinishedRun run;
-  const int layout = read_summary(directory / "summary.json", run);
-  run.result.sub_impacts = read_rows(directory / "events.csv", events_columns());
-  run.result.transitions = read_rows(directory / "transitions.csv", transitions_columns());
-  run.result.history = read_rows(directory / "history.csv", history_columns());
-  if (!run.input.output.sections.empty()) {
-    run.result.section_history = read_rows(directory / "sections.csv", sections_columns());
-    if (layout < 3) {  // M had the opposite sign
-      for (SectionRow& row : run.result.section_history) row.moment = -row.moment;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    try {
+      return read_once(directory);
+    } catch (const ReplacedMeanwhile&) {
     }
   }
-  return run;
+  throw ResultsError(fmt::format(
+      "{}: is written anew again and again; read it when the runs have ended", directory.string()));
 }
 
 }  // namespace subimpact

@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 
 #include "io/csv_columns.h"
+#include "io/sealed_files.h"
 #include "io/write_file.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
@@ -23,6 +22,8 @@ static bool read_cell(std::string_view cell, Verdict& verdict) {
 }
 
 namespace {
+
+constexpr const char* file_name = "work_precision.csv";
 
 // A row of the file.
 struct LoggedPoint {
@@ -107,13 +108,6 @@ std::string key_of(const std::string& id, const Setting& setting) {
   return fmt::format("{} {} {} {:.17g}", id, setting.method, setting.fixed_step, setting.value);
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path) {
-  throw OutputError(
-      fmt::format("{}: cannot be written ({}); free the disk or choose another "
-                  "directory with --out",
-                  path.string(), std::strerror(errno)));
-}
-
 }  // namespace
 
 std::string case_id(const Case& input) {
@@ -135,10 +129,11 @@ std::string case_id(const Case& input) {
   return fmt::format("{:016x}", hash);
 }
 
-PointLog::PointLog(const std::filesystem::path& directory, const std::vector<std::string>& cases)
-    : path_(directory / "work_precision.csv") {
-  std::string kept;
-  std::ifstream file(path_);
+PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& cases)
+    : directory_(directory), text_(csv_heading(point_columns())) {
+  const SealedFiles files(directory.path());
+  if (!files.manifest() || !files.manifest()->files.contains(file_name)) return;
+  std::ifstream file = files.open(file_name);
   for (std::string line; std::getline(file, line);) {
     const std::optional<LoggedPoint> row = row_of(line);
     // What was left out for its time may be run now.
@@ -148,13 +143,11 @@ PointLog::PointLog(const std::filesystem::path& directory, const std::vector<std
           fmt::format("{}: holds points of another case (or another version of the program), which "
                       "this study would mix with its own; choose another directory with --out, or "
                       "remove the file",
-                      path_.string()));
+                      (directory.path() / file_name).string()));
     }
-    kept += line + '\n';
+    text_ += line + '\n';
     known_[key_of(row->id, row->point.setting)] = row->point;
   }
-  file.close();
-  write_file(path_, csv_heading(point_columns()) + kept);
 }
 
 std::optional<WorkPrecisionPoint> PointLog::known(const std::string& case_id,
@@ -171,11 +164,9 @@ void PointLog::append(const std::string& case_id, const std::string& label,
     row.unmatched_start = point.errors.unmatched->start;
     row.unmatched_duration = point.errors.unmatched->duration;
   }
-  std::string text;
-  append_row(text, point_columns(), row);
-  errno = 0;
-  std::ofstream file(path_, std::ios::app);
-  if (!(file << text << std::flush)) fail(path_);
+  append_row(text_, point_columns(), row);
+  write_file(directory_.staging() / file_name, text_);
+  directory_.commit();
 }
 
 }  // namespace subimpact

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "case/counted.h"
-#include "io/csv_table.h"
+#include "io/sealed_files.h"
 #include "io/write_file.h"
 #include "report/files.h"
 #include "report/inlined_svg.h"

@@ -173,8 +173,7 @@ void Recorder::close_sub_impact(const State& y, const StruckBeam& beam) {
 }
 
 void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool is_good) {
-  if (is_good && interval_ > 0.0 &&
-      (result_.history.empty() || result_.history.back().time < time)) {
+  if (is_good && interval_ > 0.0 && last_row_time_ < time) {
     add_row(time, y, accounts_);
   }
   if (in_contact_) close_sub_impact(y, beam);
@@ -198,7 +197,13 @@ void Recorder::add_row(double time, const State& y, Accounts& accounts) {
 }
 
 void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
-  result_.history.push_back(row);
+  ++result_.n_history_rows;
+  last_row_time_ = row.time;
+  if (rows_ != nullptr) {
+    rows_->add(row);
+  } else {
+    result_.history.push_back(row);
+  }
   add_section_rows(row.time, y, accounts);
 }
 
@@ -223,8 +228,13 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
   for (const std::size_t section : sections_) {
     const double kappa = bending.curvatures[section];
     const double moment = bending.moments[section];
-    result_.section_history.push_back({time, beam.mesh().section_positions()[section], kappa,
-                                       moment, kappa - moment / beam.sections().stiffness()});
+    const SectionRow row{time, beam.mesh().section_positions()[section], kappa, moment,
+                         kappa - moment / beam.sections().stiffness()};
+    if (rows_ != nullptr) {
+      rows_->add(row);
+    } else {
+      result_.section_history.push_back(row);
+    }
   }
 }
 

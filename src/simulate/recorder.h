@@ -17,6 +17,9 @@ class Recorder final : public RunObserver {
   /// Keeps the bending of these sections (indices) too, at every history row.
   void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
 
+  /// Rows go to `rows` in place of the result.
+  void send_rows_to(RowSink& rows) { rows_ = &rows; }
+
   void on_step(const ObservedStep& step, StruckBeam& beam) override;
   /// Checks that the contact force is compressive wherever the indentation is positive.
   void on_accepted(double time, const State& y, StruckBeam& beam) override;
@@ -50,6 +53,7 @@ class Recorder final : public RunObserver {
   void add_section_rows(double time, const State& y, Accounts& accounts);
 
   Result& result_;
+  RowSink* rows_ = nullptr;  // none: the result keeps the rows
   double interval_;
   EventHandling events_;
   Audit& audit_;
@@ -58,6 +62,7 @@ class Recorder final : public RunObserver {
   ForceQuadrature force_;
   double striker_mass_;
   long next_row_ = 0;
+  double last_row_time_ = -1.0;  // s
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N

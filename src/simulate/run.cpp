@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 
 #include "simulate/observers.h"
 #include "simulate/recorder.h"
@@ -118,12 +119,13 @@ std::optional<std::string> rule_broken_by_law(const RunParts& parts) {
 }  // namespace
 
 Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& options,
-                const Progress& progress, Observer* observer) {
+                const Progress& progress, Observer* observer, RowSink* rows) {
   const auto start = std::chrono::steady_clock::now();
   Result result;
   Audit audit(beam, beam.initial_state(), options.limits);
   Recorder recorder(beam, options.history_interval, options.loop.events, audit, result);
   recorder.keep_sections(options.sections);
+  if (rows != nullptr) recorder.send_rows_to(*rows);
   std::optional<Observers> observers;
   if (observer != nullptr) observers.emplace(recorder, *observer);
   RunObserver& watching = observers ? static_cast<RunObserver&>(*observers) : recorder;
@@ -140,6 +142,9 @@ Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& opti
   } catch (const IntegrationFailure& failure) {
     result.outcome.kind = OutcomeKind::solver_failed;
     result.outcome.message = failure.what();
+  } catch (const std::bad_alloc&) {
+    result.outcome.kind = OutcomeKind::solver_failed;
+    result.outcome.message = "the machine has no more memory for this run";
   }
   judge_end(audit, loop, result.outcome);
   result.outcome.time =
@@ -158,7 +163,7 @@ Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& opti
   return result;
 }
 
-Result simulate(ResolvedRun run, const Progress& progress, Observer* observer) {
+Result simulate(ResolvedRun run, const Progress& progress, Observer* observer, RowSink* rows) {
   RunParts& parts = run.parts();
   const auto start = std::chrono::steady_clock::now();
   Result result;
@@ -167,7 +172,7 @@ Result simulate(ResolvedRun run, const Progress& progress, Observer* observer) {
   } else {
     const auto integrator = parts.make_integrator();
     const double setup_seconds = parts.setup_seconds + seconds_since(start);
-    result = simulate(parts.beam, *integrator, parts.run, progress, observer);
+    result = simulate(parts.beam, *integrator, parts.run, progress, observer, rows);
     result.work.setup_seconds += setup_seconds;
     result.work.wall_seconds = parts.setup_seconds + seconds_since(start);
     add_remedy(result.outcome, parts);
@@ -179,8 +184,8 @@ Result simulate(ResolvedRun run, const Progress& progress, Observer* observer) {
 }
 
 Result simulate(const Problem& problem, const Options& options, const Progress& progress,
-                Observer* observer) {
-  return simulate(resolve(problem, options), progress, observer);
+                Observer* observer, RowSink* rows) {
+  return simulate(resolve(problem, options), progress, observer, rows);
 }
 
 }  // namespace subimpact

@@ -28,6 +28,7 @@ struct RunOptions {
 /// Runs a struck beam from the first touch at t = 0: the lower half of simulate(Case), for a beam
 /// and an integrator made of parts. Result::used stays empty; messages of failures name no remedy.
 Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& options,
-                const Progress& progress = {}, Observer* observer = nullptr);
+                const Progress& progress = {}, Observer* observer = nullptr,
+                RowSink* rows = nullptr);
 
 }  // namespace subimpact

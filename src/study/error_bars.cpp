@@ -38,7 +38,7 @@ void add_error_bars(Result& result, const Result& refined_run, const std::string
   set_error_bars(result, {compare_events(result, refined_run, "time", description, safety)});
 }
 
-Result simulate_with_error_bars(const Case& input, const Progress& progress) {
+Result simulate_with_error_bars(const Case& input, const Progress& progress, RowSink* rows) {
   // Each run shows half of the progress.
   const auto half = [&](double offset) -> Progress {
     if (!progress) return {};
@@ -46,7 +46,7 @@ Result simulate_with_error_bars(const Case& input, const Progress& progress) {
       return progress(0.5 * (offset * end + t));
     };
   };
-  Result result = simulate(input, half(0.0));
+  Result result = simulate(input, half(0.0), nullptr, rows);
   if (result.outcome.kind == OutcomeKind::stopped) return result;
   const RefinedRun refined_run = refined_run_of(input);
   const Result second = simulate(refined_run.input, half(1.0));

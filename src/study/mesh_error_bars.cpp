@@ -108,7 +108,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   return refined_run;
 }
 
-Result simulate_with_all_error_bars(const Case& input, const Progress& progress) {
+Result simulate_with_all_error_bars(const Case& input, const Progress& progress, RowSink* rows) {
   const RefinedRun in_time = refined_run_of(input);
   const std::optional<RefinedRun> fine = on_other_mesh(input, 2.0);
   const std::optional<RefinedRun> coarse = on_other_mesh(input, 0.5);
@@ -126,7 +126,7 @@ Result simulate_with_all_error_bars(const Case& input, const Progress& progress)
   };
   std::future<Result> on_fine;
   if (fine) on_fine = beside(fine->input);
-  Result result = simulate(input, half(0.0));
+  Result result = simulate(input, half(0.0), nullptr, rows);
   std::vector<ErrorPart> parts;
   const auto compare = [&](const Result& other, const char* name, const std::string& description,
                            double factor) {

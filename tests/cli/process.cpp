@@ -2,13 +2,13 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -17,7 +17,7 @@ namespace subimpact {
 namespace fs = std::filesystem;
 
 Finished run_program(const std::vector<std::string>& arguments, const fs::path& working_directory,
-                     int interrupt_after) {
+                     int interrupt_after, int signal, unsigned long most_bytes) {
   const TemporaryDirectory streams;
   const std::string output = streams.path / "stdout";
   const std::string errors = streams.path / "stderr";
@@ -34,13 +34,15 @@ Finished run_program(const std::vector<std::string>& arguments, const fs::path& 
     const int err = ::open(errors.c_str(), O_WRONLY | O_CREAT, 0600);
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
+    const rlimit limit{most_bytes, most_bytes};
+    if (most_bytes > 0) ::setrlimit(RLIMIT_FSIZE, &limit);
     if (::chdir(working_directory.c_str()) != 0) ::_exit(126);
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }
   if (interrupt_after > 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_after));
-    ::kill(child, SIGINT);
+    ::kill(child, signal);
   }
   int state = 0;
   ::waitpid(child, &state, 0);
@@ -65,13 +67,6 @@ TemporaryDirectory::~TemporaryDirectory() {
 std::string TemporaryDirectory::write(const std::string& name, const std::string& content) const {
   std::ofstream(path / name) << content;
   return path / name;
-}
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 }  // namespace subimpact

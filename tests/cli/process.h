@@ -1,8 +1,11 @@
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "read_file.h"
 
 namespace subimpact {
 
@@ -14,9 +17,11 @@ struct Finished {
 };
 
 /// Runs the program with these arguments, its streams captured, in the given working directory.
-/// `interrupt_after` in ms: sends SIGINT then; 0: never.
+/// `interrupt_after` in ms: sends `signal` then; 0: never. `most_bytes`: of a file that is written;
+/// 0: as many as the disk holds.
 Finished run_program(const std::vector<std::string>& arguments,
-                     const std::filesystem::path& working_directory = ".", int interrupt_after = 0);
+                     const std::filesystem::path& working_directory = ".", int interrupt_after = 0,
+                     int signal = SIGINT, unsigned long most_bytes = 0);
 
 /// A directory of the test's own, removed at its end.
 class TemporaryDirectory {
@@ -31,7 +36,5 @@ class TemporaryDirectory {
 
   std::filesystem::path path;
 };
-
-std::string read_file(const std::filesystem::path& path);
 
 }  // namespace subimpact

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "process.h"
+#include "subimpact/io/output_directory.h"
+#include "subimpact/io/read_results.h"
 
 namespace subimpact {
 namespace {
@@ -156,25 +158,51 @@ TEST(Run, ThatLeavesTheModelsValidityEndsWithStatus2AndKeepsItsFiles) {
   EXPECT_EQ(summary_in(directory.path / "here").at("outcome").at("kind"), "left-validity");
 }
 
-TEST(Run, WhoseResultsCannotBeWrittenEndsWithStatus3AndStillPrintsThem) {
+TEST(Run, WhoseResultsCanBeWrittenNowherePrintsThemAndLeavesTheOlderOnes) {
   const TemporaryDirectory directory;
-  fs::create_directories(directory.path / "here" / "history.csv" / "occupied");
-  const Finished finished = run_program(short_run({"--out", "here"}), directory.path);
+  ASSERT_EQ(run_program(short_run({"--out", "here"}), directory.path).status, 0);
+  const std::string before = read_file(directory.path / "here" / "manifest.json");
+  const Finished finished =
+      run_program(short_run({"--out", "here", "--quiet"}), directory.path, 0, SIGINT, 300);
   EXPECT_EQ(finished.status, 3);
-  expect_in(finished.errors, "history.csv: cannot be written");
+  expect_in(finished.errors, "cannot be written (File too large)");
+  expect_in(finished.errors, "nor can the results be written to a directory for temporary files");
   expect_in(finished.output, "zone 1");
+  EXPECT_EQ(read_file(directory.path / "here" / "manifest.json"), before);
+  EXPECT_NO_THROW(read_results(directory.path / "here"));
 }
 
-TEST(Run, InterruptedKeepsWhatItHasComputed) {
+TEST(Run, IntoADirectoryThatCannotBeWrittenIsRefusedBeforeItBegins) {
   const TemporaryDirectory directory;
-  const Finished finished =
-      run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "solver.max_step=1e-9",
-                   "--set", "time.end=1", "--set", "output.interval=0"},
-                  directory.path, 1000);
-  EXPECT_EQ(finished.status, 130);
-  expect_in(finished.errors, "stopped");
-  expect_result_files(directory.path / "here");
-  EXPECT_EQ(summary_in(directory.path / "here").at("outcome").at("kind"), "stopped");
+  const Finished finished = run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "/proc/here",
+                                         "--set", "time.end=1000", "--set", "output.interval=0"},
+                                        directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "this output directory cannot be made");
+}
+
+TEST(Run, BesideAnotherRunIntoTheSameDirectoryIsRefused) {
+  const TemporaryDirectory directory;
+  OutputDirectory other(directory.path / "here", "run");
+  const Finished finished = run_program(short_run({"--out", "here"}), directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "is writing into this directory; wait until it has ended");
+}
+
+TEST(Run, ThatIsToldToEndKeepsWhatItHasComputed) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryDirectory directory;
+    const Finished finished =
+        run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "solver.max_step=1e-9",
+                     "--set", "time.end=1", "--set", "output.interval=1e-6"},
+                    directory.path, 700, signal);
+    EXPECT_EQ(finished.status, 128 + signal);
+    expect_in(finished.errors, "stopped");
+    const FinishedRun run = read_results(directory.path / "here");
+    EXPECT_EQ(run.result.outcome.kind, OutcomeKind::stopped);
+    ASSERT_FALSE(run.result.history.empty());
+    EXPECT_EQ(run.result.history.back().time, run.result.outcome.time);
+  }
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 
+#include "io/row_thinning.h"
 #include "print.h"
+#include "read_file.h"
 #include "sample_result.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
@@ -27,6 +30,14 @@ std::string refusal_of(const std::filesystem::path& directory) {
 
 void expect_in(const std::string& text, const std::string& piece) {
   EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in: " << text;
+}
+
+// As a version before manifest.json left the files.
+void make_older(const std::filesystem::path& directory, std::string summary, const char* layout) {
+  const std::string now = "\"layout\": 4";
+  summary.replace(summary.find(now), now.size(), layout);
+  std::ofstream(directory / "summary.json") << summary;
+  std::filesystem::remove(directory / "manifest.json");
 }
 
 TEST(ReadResults, IsTheInverseOfWritingThem) {
@@ -65,8 +76,11 @@ TEST(ReadResults, TakesAKeyUnderTheNameItHadBefore) {
   std::string text = summary_json(input, sample_result());
   const std::string key = "\"rtol\"";
   text.replace(text.find(key), key.size(), "\"tolerance\"");
-  std::ofstream(directory.path / "summary.json") << text;
-  EXPECT_EQ(read_results(directory.path).input.solver.rtol, 3e-7);
+  make_older(directory.path, text, "\"layout\": 3");
+  const FinishedRun run = read_results(directory.path);
+  EXPECT_EQ(run.input.solver.rtol, 3e-7);
+  ASSERT_EQ(run.result.warnings.size(), 1u);
+  expect_in(run.result.warnings.front(), "without checksums");
 }
 
 TEST(ReadResults, KeepsWarningsAndTheFirstFailure) {
@@ -117,11 +131,10 @@ TEST(ReadResults, OfLayout2HaveOtherNamesAndTheOppositeMoment) {
     ASSERT_NE(text.find(name), std::string::npos) << name;
     text.replace(text.find(name), name.size(), before);
   };
-  rename("\"layout\": 3", "\"layout\": 2");
   rename("\"banded\"", "\"tridiagonal\"");
   rename("\"refined_run\"", "\"companion\"");
   rename("\"first_unresolved_index\"", "\"first_undecided_index\"");
-  std::ofstream(directory.path / "summary.json") << text;
+  make_older(directory.path, text, "\"layout\": 2");
   const FinishedRun run = read_results(directory.path);
   EXPECT_EQ(run.input.study.mass_solver, MassSolverKind::banded);
   ASSERT_TRUE(run.result.error_estimate);
@@ -137,11 +150,16 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
   write_results(directory.path, read_case_text(small_case_text(), "small.toml").value,
                 sample_result());
   EXPECT_EQ(refusal_of(directory.path), "(accepted)");
-  std::ofstream(directory.path / "events.csv") << "index,zone\n1\n";
-  expect_in(refusal_of(directory.path), "events.csv:2: has 1 cell where the header has 2");
+  const std::string summary = read_file(directory.path / "summary.json");
+  std::filesystem::remove(directory.path / "manifest.json");
+  expect_in(refusal_of(directory.path), "has no manifest.json of a run");
+  make_older(directory.path, summary, "\"layout\": 3");
+  EXPECT_EQ(refusal_of(directory.path), "(accepted)");
   std::ofstream(directory.path / "events.csv") << "index,zone\n1,2\n";
   expect_in(refusal_of(directory.path), "events.csv: has no column subzone");
   std::ofstream(directory.path / "events.csv") << events_csv({});
+  std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n1\n";
+  expect_in(refusal_of(directory.path), "transitions.csv:2: has 1 cell where the header has 4");
   std::ofstream(directory.path / "transitions.csv")
       << "time_s,kind,section,value\n0,contact_begins,,0\n1e-6,contact_melts,,0\n";
   expect_in(refusal_of(directory.path), "transitions.csv:3: kind is \"contact_melts\"");
@@ -151,6 +169,73 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
   std::ofstream(directory.path / "events.csv") << events_csv({});
   std::ofstream(directory.path / "summary.json") << "{}";
   expect_in(refusal_of(directory.path), "summary.json: is not the summary of a run");
+}
+
+TEST(ReadResults, RefuseFilesThatWereChangedSince) {
+  const Case input = read_case_text(small_case_text(), "small.toml").value;
+  for (const char* name : {"events.csv", "transitions.csv", "history.csv", "summary.json"}) {
+    const TemporaryDirectory directory;
+    write_results(directory.path, input, sample_result());
+    std::ofstream(directory.path / name, std::ios::app) << " ";
+    expect_in(refusal_of(directory.path),
+              std::string(name) + ": is not the file that the run wrote (its length or checksum");
+    std::filesystem::remove(directory.path / name);
+    expect_in(refusal_of(directory.path),
+              std::string(name) + ": is not the file that the run wrote");
+  }
+}
+
+TEST(ReadResults, RefuseTheFilesOfTwoRuns) {
+  const Case input = read_case_text(small_case_text(), "small.toml").value;
+  const TemporaryDirectory one, other;
+  write_results(one.path, input, sample_result());
+  Result later = sample_result();
+  later.sub_impacts.pop_back();
+  write_results(other.path, input, later);
+  std::filesystem::copy_file(other.path / "events.csv", one.path / "events.csv",
+                             std::filesystem::copy_options::overwrite_existing);
+  expect_in(refusal_of(one.path), "events.csv: is not the file that the run wrote");
+}
+
+TEST(ReadResults, KeepTheExtremesOfALongHistory) {
+  RowThinning<HistoryRow> rows(100'000, 1, {&HistoryRow::force, &HistoryRow::indentation}, 1000);
+  for (int i = 0; i < 100'000; ++i) {
+    HistoryRow row{};
+    row.time = i;
+    row.force = i == 54'321 ? 7.0 : 0.0;
+    row.indentation = i == 12'345 ? -7.0 : 1.0;
+    rows.add(row);
+  }
+  const std::vector<HistoryRow> kept = rows.take();
+  EXPECT_LE(kept.size(), 1100u);
+  const auto has = [&](double time) {
+    return std::any_of(kept.begin(), kept.end(),
+                       [&](const HistoryRow& row) { return row.time == time; });
+  };
+  for (const double time : {0.0, 12'345.0, 54'321.0, 99'999.0}) EXPECT_TRUE(has(time)) << time;
+  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(),
+                             [](const auto& a, const auto& b) { return a.time < b.time; }));
+}
+
+TEST(ReadResults, KeepTheSectionsOfAnInstantTogether) {
+  RowThinning<SectionRow> rows(30'000, 3, {&SectionRow::curvature}, 600);
+  for (int i = 0; i < 30'000; ++i) {
+    SectionRow row{};
+    row.time = i / 3;
+    row.position = i % 3;
+    row.curvature = i == 20'000 ? 1.0 : 0.0;
+    rows.add(row);
+  }
+  const std::vector<SectionRow> kept = rows.take();
+  ASSERT_EQ(kept.size() % 3, 0u);
+  EXPECT_LE(kept.size(), 700u);
+  bool has_extreme = false;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    EXPECT_EQ(kept[i].position, static_cast<double>(i % 3));
+    EXPECT_EQ(kept[i].time, kept[i - i % 3].time);
+    has_extreme = has_extreme || kept[i].curvature == 1.0;
+  }
+  EXPECT_TRUE(has_extreme);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "print.h"
+#include "read_file.h"
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
@@ -186,55 +187,48 @@ TEST(SummaryJson, KeepsAllDigits) {
             0.1 + 0.2);
 }
 
-TEST(WriteResults, LeavesTheFourFilesAndNothingElse) {
+TEST(WriteResults, LeavesItsFilesAndNothingElse) {
   const TemporaryDirectory directory;
-  prepare_output_directory(directory.path / "new" / "deep");
   write_results(directory.path / "new" / "deep", sample_case(), sample_result());
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(directory.path / "new" / "deep")) {
     names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"events.csv", "history.csv", "summary.json",
-                                             "transitions.csv"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"events.csv", "history.csv", "manifest.json",
+                                             "summary.json", "transitions.csv"}));
 }
 
 TEST(WriteResults, ReplacesAnEarlierRun) {
   const TemporaryDirectory directory;
-  write_results(directory.path, sample_case(), sample_result());
+  Case with_sections = sample_case();
+  with_sections.output.sections = {0.5};
+  write_results(directory.path, with_sections, sample_result());
+  EXPECT_TRUE(fs::exists(directory.path / "sections.csv"));
   Result later = sample_result();
   later.sub_impacts.clear();
   write_results(directory.path, sample_case(), later);
-  std::ifstream file(directory.path / "events.csv");
-  std::ostringstream text;
-  text << file.rdbuf();
-  EXPECT_EQ(text.str(), events_csv({}));
+  EXPECT_EQ(read_file(directory.path / "events.csv"), events_csv({}));
+  EXPECT_FALSE(fs::exists(directory.path / "sections.csv"));
 }
 
-TEST(WriteResults, NamesTheFileItCannotWrite) {
-  const TemporaryDirectory directory;
-  fs::create_directories(directory.path / "events.csv" / "occupied");
-  try {
-    write_results(directory.path, sample_case(), sample_result());
-    FAIL() << "a directory was overwritten by a file";
-  } catch (const OutputError& error) {
-    EXPECT_NE(std::string(error.what()).find("events.csv: cannot be written"), std::string::npos)
-        << error.what();
+TEST(WriteResults, OfRowsAsTheyAreMadeAreThoseOfTheWholeResult) {
+  const TemporaryDirectory at_once, as_made;
+  Case input = sample_case();
+  input.end_time = 3e-4;
+  input.output.interval = 1e-7;
+  input.output.sections = {0.5, 0.25};
+  const Result whole = simulate(input);
+  write_results(at_once.path, input, whole);
+  ResultWriter files(as_made.path, input);
+  const Result without_rows = simulate(input, {}, nullptr, &files);
+  EXPECT_TRUE(without_rows.history.empty());
+  EXPECT_EQ(without_rows.n_history_rows, whole.history.size());
+  files.finish(input, without_rows);
+  for (const char* name : {"events.csv", "transitions.csv", "history.csv", "sections.csv"}) {
+    EXPECT_EQ(read_file(as_made.path / name), read_file(at_once.path / name)) << name;
   }
-  EXPECT_FALSE(fs::exists(directory.path / "events.csv.partial"));
-}
-
-TEST(PrepareOutputDirectory, RefusesAPlaceThatIsAFile) {
-  const TemporaryDirectory directory;
-  std::ofstream(directory.path / "file") << "x";
-  EXPECT_THROW(prepare_output_directory(directory.path / "file"), OutputError);
-  EXPECT_THROW(prepare_output_directory(directory.path / "file" / "below"), OutputError);
-}
-
-TEST(PrepareOutputDirectory, LeavesNoTrace) {
-  const TemporaryDirectory directory;
-  prepare_output_directory(directory.path);
-  EXPECT_TRUE(fs::is_empty(directory.path));
+  EXPECT_GT(fs::file_size(as_made.path / "history.csv"), 1'000'000u);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "print.h"
+#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
 
@@ -50,12 +51,13 @@ TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
   const TemporaryDirectory directory;
   const std::vector<WorkPrecision> all = studies();
   {
-    PointLog log(directory.path, {"a", "b"});
+    OutputDirectory files(directory.path, "work-precision", "a-b");
+    PointLog log(files, {"a", "b"});
     EXPECT_EQ(log.n_known(), 0u);
     for (const WorkPrecisionPoint& p : all.front().points) log.append("a", "elastic", p);
   }
-  std::ofstream(directory.path / "work_precision.csv", std::ios::app) << "a,elastic,erk,rt";  // cut
-  const PointLog log(directory.path, {"a", "b"});
+  OutputDirectory files(directory.path, "work-precision", "a-b");
+  const PointLog log(files, {"a", "b"});
   EXPECT_EQ(log.n_known(), 5u);
   const auto unstable = log.known("a", {"nystrom", false, 1e-2});
   ASSERT_TRUE(unstable.has_value());
@@ -73,16 +75,25 @@ TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
 
 TEST(ALogOfPoints, IsNotMixedWithThatOfAnotherCase) {
   const TemporaryDirectory directory;
-  PointLog(directory.path, {"a"}).append("a", "elastic", studies().front().points.front());
-  EXPECT_THROW(PointLog(directory.path, {"b"}), OutputError);
-  EXPECT_EQ(PointLog(directory.path, {"a"}).n_known(), 1u);
+  OutputDirectory files(directory.path, "work-precision");
+  PointLog(files, {"a"}).append("a", "elastic", studies().front().points.front());
+  EXPECT_THROW(PointLog(files, {"b"}), OutputError);
+  EXPECT_EQ(PointLog(files, {"a"}).n_known(), 1u);
+}
+
+TEST(ALogOfPoints, ThatWasChangedIsRefused) {
+  const TemporaryDirectory directory;
+  OutputDirectory files(directory.path, "work-precision");
+  PointLog(files, {"a"}).append("a", "elastic", studies().front().points.front());
+  std::ofstream(directory.path / "work_precision.csv", std::ios::app) << "a,elastic,erk,rt";
+  EXPECT_THROW(PointLog(files, {"a"}), ResultsError);
 }
 
 TEST(ALogOfPoints, HasSettingsThatWereNotRunTriedAgain) {
   const TemporaryDirectory directory;
-  PointLog(directory.path, {"a"})
-      .append("a", "elastic", point("erk", 1e-9, 0.0, 0.0, Verdict::not_run));
-  EXPECT_EQ(PointLog(directory.path, {"a"}).n_known(), 0u);
+  OutputDirectory files(directory.path, "work-precision");
+  PointLog(files, {"a"}).append("a", "elastic", point("erk", 1e-9, 0.0, 0.0, Verdict::not_run));
+  EXPECT_EQ(PointLog(files, {"a"}).n_known(), 0u);
 }
 
 TEST(CasesOfDifferentScenes, HaveDifferentIdsButSettingsDoNotMatter) {

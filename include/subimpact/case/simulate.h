@@ -15,7 +15,8 @@ ResolvedRun resolve(const Case& input);
 
 /// Runs a case. Throws InvalidCase; any other failure is reported in the outcome. Thread-safe (see
 /// simulate(ResolvedRun)).
-Result simulate(const Case& input, const Progress& progress = {}, Observer* observer = nullptr);
+Result simulate(const Case& input, const Progress& progress = {}, Observer* observer = nullptr,
+                RowSink* rows = nullptr);
 /// The same, with an observer alone.
 inline Result simulate(const Case& input, Observer& observer) {
   return simulate(input, {}, &observer);

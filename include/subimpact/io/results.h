@@ -3,37 +3,64 @@
 /// The files of a finished run.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "subimpact/case/case.h"
+#include "subimpact/io/output_directory.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
 
 namespace subimpact {
 
 /// The version of the layout of summary.json, its key "layout": raised when a key is renamed, moved
-/// or removed. 1: files without that key.
-constexpr int summary_layout = 3;
-
-/// A file or directory that cannot be written; `what()` names it, the cause and what to do.
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Creates the directory and tests that it can be written, before time is spent on a run. Throws
-/// OutputError.
-void prepare_output_directory(const std::filesystem::path& directory);
+/// or removed. 1: files without that key; 4: manifest.json lies beside it.
+constexpr int summary_layout = 4;
 
 /// Writes events.csv, transitions.csv, history.csv and summary.json, and sections.csv if
-/// output.sections is not empty. Each file appears whole or not at all: it is written under another
-/// name and then moved into place. Throws OutputError.
+/// output.sections is not empty. All files appear as one, with a manifest.json, or none does (see
+/// OutputDirectory). Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
-/// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact).
+/// The same for a run that is still to come: the directory is locked and known to be writable
+/// before the run, and rows go to their files as they are made.
+///
+///     ResultWriter files(directory, input);
+///     const Result result = simulate(input, {}, nullptr, &files);
+///     files.finish(input, result);
+class ResultWriter final : public RowSink {
+ public:
+  /// Throws OutputError.
+  ResultWriter(const std::filesystem::path& directory, const Case& input);
+  ~ResultWriter() override;
+
+  void add(const HistoryRow& row) override;
+  void add(const SectionRow& row) override;
+
+  /// Writes the other files and puts all in place. If the directory can no longer be written (a
+  /// full disk), all goes to a new directory for temporary files. Throws OutputError if that fails
+  /// too.
+  void finish(const Case& input, const Result& result);
+
+  /// Where the files are, and what a user has to be told.
+  const OutputDirectory& directory() const { return directory_; }
+
+ private:
+  class RowFile;
+  void flush(RowFile& rows);
+  void write_rows(RowFile& rows);
+  template <class Write>
+  void write_or_relocate(Write write);
+
+  OutputDirectory directory_;
+  std::unique_ptr<RowFile> history_, sections_;
+  std::string lost_;  // why rows could be written nowhere
+};
+
+/// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact)
+/// into a directory. Throws OutputError.
 void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
 std::string matches_csv(const Comparison& comparison);

@@ -2,12 +2,12 @@
 
 /// A work-precision study as text and file.
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "subimpact/io/output_directory.h"
 #include "subimpact/study/work_precision.h"
 
 namespace subimpact {
@@ -22,20 +22,21 @@ std::string recommendation_text(const std::vector<Recommendation>& recommendatio
 /// its points and a repeated study continues from there.
 class PointLog {
  public:
-  /// Reads the file of an earlier study of the same cases, and appends to that file. `cases` are
+  /// Reads the file of an earlier study of the same cases, and goes on from its points. `cases` are
   /// the ids of the cases of this study. Throws OutputError if the file cannot be written, or holds
-  /// points of other cases.
-  PointLog(const std::filesystem::path& directory, const std::vector<std::string>& cases);
+  /// points of other cases, and ResultsError if it was changed since.
+  PointLog(OutputDirectory& directory, const std::vector<std::string>& cases);
 
   /// A point of an earlier study.
   std::optional<WorkPrecisionPoint> known(const std::string& case_id, const Setting& setting) const;
   std::size_t n_known() const { return known_.size(); }
-  /// Writes a row and flushes the file. Throws OutputError.
+  /// Commits the file with a row more. Throws OutputError.
   void append(const std::string& case_id, const std::string& label,
               const WorkPrecisionPoint& point);
 
  private:
-  std::filesystem::path path_;
+  OutputDirectory& directory_;
+  std::string text_;
   std::map<std::string, WorkPrecisionPoint> known_;
 };
 

@@ -43,7 +43,17 @@ struct SectionRow {
   double position;           ///< x of the section, m
   double curvature;          ///< kappa, 1/m
   double moment;             ///< M, N m; E I kappa while elastic
-  double plastic_curvature;  ///< kappa + M/(E I), 1/m
+  double plastic_curvature;  ///< kappa - M/(E I), 1/m
+};
+
+/// Takes the rows of a run as they are made, so that they need not be held in memory. Called in the
+/// order of the files, in the thread of the run.
+class RowSink {
+ public:
+  virtual ~RowSink() = default;
+  virtual void add(const HistoryRow& row) = 0;
+  /// The sections of output.sections, at the time of the history row before.
+  virtual void add(const SectionRow& row) = 0;
 };
 
 /// How a simulation ended.
@@ -141,8 +151,9 @@ struct Result {
   ResolvedSettings used;  ///< the same after resolve()
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
-  std::vector<HistoryRow> history;
+  std::vector<HistoryRow> history;            ///< empty if a RowSink took the rows
   std::vector<SectionRow> section_history;    ///< of output.sections, in that order at each time
+  std::size_t n_history_rows = 0;             ///< wherever they went
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
   /// s: the time from which it is proven that no contact follows; searched with time.stop =

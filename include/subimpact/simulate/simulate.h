@@ -55,16 +55,17 @@ ResolvedRun resolve(const Problem& problem, const Options& options);
 
 /// Runs what was resolved, from the first touch at t = 0. Any failure is reported in the outcome,
 /// with all results up to it. `progress`, if any, can end the run; `observer`, if any, is shown
-/// every accepted step and event.
+/// every accepted step and event; `rows`, if any, takes the rows in place of the result.
 ///
 /// Thread-safe: runs in several threads at once share nothing but the parts of their problems, and
 /// each gives the results, bit for bit, that it gives alone. Meshes and laws that several runs
 /// share are called from all of them, so their functions must be pure; observers and progress
 /// functions are called in the thread of their own run.
-Result simulate(ResolvedRun run, const Progress& progress = {}, Observer* observer = nullptr);
+Result simulate(ResolvedRun run, const Progress& progress = {}, Observer* observer = nullptr,
+                RowSink* rows = nullptr);
 
 /// The same in one call. Throws what resolve() throws.
 Result simulate(const Problem& problem, const Options& options, const Progress& progress = {},
-                Observer* observer = nullptr);
+                Observer* observer = nullptr, RowSink* rows = nullptr);
 
 }  // namespace subimpact

@@ -13,8 +13,10 @@ namespace subimpact {
 /// From the first sub-impact on that the refined run does not have, or whose error reaches a
 /// quarter of its duration or of a separation beside it, neither count nor order is certain:
 /// Result::error_estimate names it. Where rtol leaves no room for a smaller one (below 1e-12) the
-/// refined run integrates less accurately instead, and its errors are stated. Throws InvalidCase.
-Result simulate_with_error_bars(const Case& input, const Progress& progress = {});
+/// refined run integrates less accurately instead, and its errors are stated. `rows`, if any, takes
+/// the rows of the case's own run. Throws InvalidCase.
+Result simulate_with_error_bars(const Case& input, const Progress& progress = {},
+                                RowSink* rows = nullptr);
 
 /// The refined run's case, and in words what it changes.
 struct RefinedRun {

@@ -27,8 +27,10 @@ namespace subimpact {
 /// meshes, with an uncertainty equal to the extrapolation beyond the finest mesh.
 ///
 /// The runs on finer and coarser meshes go on beside the others. `progress` follows the case's own
-/// run, then the refined run in time; returning false stops all. Throws InvalidCase.
-Result simulate_with_all_error_bars(const Case& input, const Progress& progress = {});
+/// run, then the refined run in time; returning false stops all. `rows`, if any, takes the rows of
+/// the case's own run. Throws InvalidCase.
+Result simulate_with_all_error_bars(const Case& input, const Progress& progress = {},
+                                    RowSink* rows = nullptr);
 
 /// The order at which event times of a case converge with its mesh: cells 2; Hermite elements 4,
 /// but where sections may yield 2, without hinges 1; nothing for a rigid beam.

@@ -1,0 +1,79 @@
+#pragma once
+
+/// A directory whose files belong together: those of one run, one comparison, one study.
+///
+/// New files are written into a hidden directory beside the present ones. commit() puts them in
+/// place as one: it replaces manifest.json, which lists every file with its checksum, in a single
+/// rename, and then moves the files. A process that is killed before the rename leaves the older
+/// files, one that is killed after it the newer ones; readers find each file under one of two names
+/// by its checksum (ResultFiles). So there is no instant at which a reader takes a mixture.
+///
+/// A lock keeps other writers out, of other hosts too if the file system has locks for them (flock).
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace subimpact {
+
+/// A file or directory that cannot be written; `what()` names it, the cause and what to do.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A random identity of a run: 32 hexadecimal digits.
+std::string new_identity();
+
+class DirectoryLock;
+struct Manifest;
+
+class OutputDirectory {
+ public:
+  /// Makes the directory if missing, locks it and makes sure that files can be written. Finishes
+  /// what a killed writer has left undone. `kind` names what the directory holds: "run", "compare"
+  /// ...; `identity` the one it is of. Throws OutputError, also if another process writes into the
+  /// directory or if it holds files of another kind ("figures" go with the run of that identity).
+  OutputDirectory(std::filesystem::path directory, std::string kind,
+                  std::string identity = new_identity());
+  /// Removes what was not committed.
+  ~OutputDirectory();
+  OutputDirectory(const OutputDirectory&) = delete;
+  OutputDirectory& operator=(const OutputDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Where new files are to be written.
+  const std::filesystem::path& staging() const { return staging_; }
+
+  /// Puts all files of staging() in place; more may follow and be committed in turn. Files of
+  /// another identity that commit() has put there before are removed. A file that no commit() has
+  /// put there, or that was changed since, is kept: under its own name, or as "name.kept" where a
+  /// new file takes its name. Throws OutputError; the older files are in place then.
+  void commit();
+
+  /// After an error of writing: goes on in a new directory below the system's directory for
+  /// temporary files, with all that was staged. Throws OutputError.
+  void relocate(const std::string& cause);
+  bool is_relocated() const { return !relocation_.empty(); }
+
+  /// What a user has to be told: files that were kept, another directory.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  void open(const std::filesystem::path& directory);
+  void begin_staging();
+  void seal();
+  void settle();
+  void put_in_place(const std::string& name, const Manifest& manifest);
+
+  std::filesystem::path path_, staging_;
+  std::string kind_, identity_, commit_;
+  std::unique_ptr<DirectoryLock> lock_;
+  std::string relocation_;  // its cause
+  bool is_committed_ = false;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace subimpact

@@ -1,0 +1,73 @@
+#include "io/sealed_files.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+
+#include "subimpact/io/read_results.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_to_read(const fs::path& path) {
+  throw ResultsError(
+      fmt::format("{}: cannot be read ({}); give the output directory of "
+                  "`subimpact run`",
+                  path.string(), errno != 0 ? std::strerror(errno) : "it is empty"));
+}
+
+std::ifstream open_file(const fs::path& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse_to_read(path);
+  return file;
+}
+
+std::string text_of(std::istream& file, const fs::path& path) {
+  std::ostringstream text;
+  errno = 0;
+  if (!(text << file.rdbuf())) refuse_to_read(path);
+  return std::move(text).str();
+}
+
+}  // namespace
+
+std::string read_whole_file(const fs::path& path) {
+  std::ifstream file = open_file(path);
+  return text_of(file, path);
+}
+
+SealedFiles::SealedFiles(fs::path directory)
+    : directory_(std::move(directory)), manifest_(read_manifest(directory_)) {}
+
+std::ifstream SealedFiles::open(const std::string& name) const {
+  const fs::path path = directory_ / name;
+  if (!manifest_ || manifest_->kind == "figures") return open_file(path);
+  const auto listed = manifest_->files.find(name);
+  if (listed == manifest_->files.end()) {
+    throw ResultsError(fmt::format("{}: is not among the results of `subimpact {}` that {} lists",
+                                   path.string(), manifest_->kind, manifest_name));
+  }
+  // A file that is not yet in its place waits under the name of its commit.
+  for (const fs::path& place : {path, staging_of(directory_, manifest_->commit) / name, path}) {
+    std::ifstream file(place, std::ios::binary);
+    if (file && seal_of(file) == listed->second) return file;
+  }
+  const std::optional<Manifest> now = read_manifest(directory_);
+  if (now && now->commit != manifest_->commit) throw ReplacedMeanwhile();
+  throw ResultsError(
+      fmt::format("{}: is not the file that the run wrote (its length or checksum differs from {}): "
+                  "it was changed or cut short since; run the case again",
+                  path.string(), manifest_name));
+}
+
+std::string SealedFiles::text(const std::string& name) const {
+  std::ifstream file = open(name);
+  return text_of(file, directory_ / name);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,248 @@
+#include "subimpact/io/output_directory.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+
+#include "io/sealed_files.h"
+#include "io/write_file.h"
+#include "read_file.h"
+#include "subimpact/io/read_results.h"
+#include "temporary_directory.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_in(const fs::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+void commit(OutputDirectory& files, const std::string& name, const std::string& content) {
+  write_file(files.staging() / name, content);
+  files.commit();
+}
+
+std::string refusal_of(const fs::path& directory, const std::string& kind,
+                       const std::string& identity = "1") {
+  try {
+    const OutputDirectory files(directory, kind, identity);
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in: " << text;
+}
+
+TEST(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
+  const TemporaryDirectory directory;
+  {
+    const OutputDirectory files(directory.path, "run");
+    write_file(files.staging() / "events.csv", "1");
+  }
+  EXPECT_TRUE(fs::is_empty(directory.path));
+}
+
+TEST(AnOutputDirectory, IsRefusedWhereAFileHasItsName) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path / "file") << "x";
+  expect_in(refusal_of(directory.path / "file", "run"), "a file has that name");
+  expect_in(refusal_of(directory.path / "file" / "below", "run"), "cannot be made");
+}
+
+TEST(AnOutputDirectory, HasOneWriterAtATime) {
+  const TemporaryDirectory directory;
+  {
+    const OutputDirectory first(directory.path, "run");
+    expect_in(refusal_of(directory.path, "run"),
+              "process " + std::to_string(getpid()) + " on ");
+    expect_in(refusal_of(directory.path, "run"), "is writing into this directory; wait until");
+  }
+  EXPECT_EQ(refusal_of(directory.path, "run"), "(accepted)");
+}
+
+TEST(AnOutputDirectory, LosesTheFilesOfTheRunBefore) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory files(directory.path, "run");
+    write_file(files.staging() / "sections.csv", "old");
+    commit(files, "events.csv", "old");
+  }
+  OutputDirectory files(directory.path, "run");
+  EXPECT_EQ(read_file(directory.path / "events.csv"), "old");
+  commit(files, "events.csv", "new");
+  EXPECT_EQ(read_file(directory.path / "events.csv"), "new");
+  EXPECT_FALSE(fs::exists(directory.path / "sections.csv"));
+  EXPECT_TRUE(files.notes().empty());
+}
+
+TEST(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path / "notes.txt") << "mine";
+  std::ofstream(directory.path / "transitions.csv") << "mine";
+  fs::create_symlink("notes.txt", directory.path / "summary.json");
+  {
+    OutputDirectory files(directory.path, "run");
+    write_file(files.staging() / "figure.gp", "drawn");
+    commit(files, "events.csv", "old");
+  }
+  std::ofstream(directory.path / "events.csv", std::ios::app) << " and my remark";
+  std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
+  OutputDirectory files(directory.path, "run");
+  for (const char* name : {"events.csv", "transitions.csv", "summary.json"}) {
+    write_file(files.staging() / name, "new");
+  }
+  files.commit();
+  EXPECT_EQ(read_file(directory.path / "notes.txt"), "mine");
+  EXPECT_EQ(read_file(directory.path / "transitions.csv.kept"), "mine");
+  EXPECT_EQ(read_file(directory.path / "events.csv.kept"), "old and my remark");
+  EXPECT_EQ(read_file(directory.path / "figure.gp"), "drawn and my colours");
+  EXPECT_TRUE(fs::is_symlink(directory.path / "summary.json.kept"));
+  EXPECT_EQ(read_file(directory.path / "summary.json"), "new");
+  EXPECT_EQ(files.notes().size(), 4u);
+}
+
+TEST(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory run(directory.path, "run", "1");
+    commit(run, "events.csv", "of run 1");
+  }
+  {
+    OutputDirectory figures(directory.path, "figures", "1");
+    commit(figures, "response.svg", "of run 1");
+  }
+  EXPECT_EQ(SealedFiles(directory.path).text("events.csv"), "of run 1");
+  EXPECT_EQ(SealedFiles(directory.path).text("response.svg"), "of run 1");
+  expect_in(refusal_of(directory.path, "figures", "2"), "holds the results of another run");
+  OutputDirectory run(directory.path, "run", "2");
+  commit(run, "events.csv", "of run 2");
+  EXPECT_FALSE(fs::exists(directory.path / "response.svg"));
+}
+
+TEST(AnOutputDirectory, HoldsFilesOfOneKind) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory files(directory.path, "compare");
+    commit(files, "comparison.csv", "1");
+  }
+  expect_in(refusal_of(directory.path, "run"), "holds the results of `subimpact compare`");
+  EXPECT_EQ(refusal_of(directory.path, "compare"), "(accepted)");
+}
+
+TEST(AnOutputDirectory, WithAManifestOfAnotherProgramIsRefused) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path / "manifest.json") << "{\"name\": \"of a web page\"}";
+  expect_in(refusal_of(directory.path, "run"), "is not a manifest of this program");
+  EXPECT_EQ(names_in(directory.path), (Names{"manifest.json"}));
+}
+
+// A manifest from elsewhere may name files outside its directory.
+TEST(AnOutputDirectory, IsNotLedOutsideByItsManifest) {
+  const TemporaryDirectory directory;
+  std::ofstream(directory.path / "outside") << "x";
+  fs::create_directory(directory.path / "inside");
+  std::ofstream(directory.path / "inside" / "manifest.json")
+      << R"({"subimpact_manifest": 1, "kind": "run", "identity": "1", "commit": "1", "files": {},
+             "replaced": {"../outside": {"bytes": 1, "sha256":
+             "2d711642b726b04401627ca9fbac32f5c8530fb1903cc4db02258717921a4881"}}})";
+  expect_in(refusal_of(directory.path / "inside", "run"), "is not the name of a file of results");
+  EXPECT_TRUE(fs::exists(directory.path / "outside"));
+}
+
+// The states that a killed writer leaves: before the manifest is replaced, after it, and with some
+// of the files moved.
+class AKilledWriter : public testing::Test {
+ protected:
+  AKilledWriter() {
+    {
+      OutputDirectory files(directory_.path, "run", "1");
+      write_file(files.staging() / "a.csv", "old a");
+      commit(files, "b.csv", "old b");
+    }
+    fs::copy(directory_.path, killed_.path, fs::copy_options::recursive);
+    OutputDirectory files(directory_.path, "run", "2");
+    write_file(files.staging() / "a.csv", "new a");
+    write_file(files.staging() / "b.csv", "new b");
+    staging_ = files.staging().filename();
+    fs::copy(files.staging(), killed_.path / staging_);
+    files.commit();
+  }
+  void replace_manifest() {
+    fs::copy_file(directory_.path / "manifest.json", killed_.path / "manifest.json",
+                  fs::copy_options::overwrite_existing);
+  }
+  std::string read() const {
+    const SealedFiles files(killed_.path);
+    return files.text("a.csv") + ", " + files.text("b.csv");
+  }
+
+  TemporaryDirectory directory_, killed_;
+  fs::path staging_;
+};
+
+TEST_F(AKilledWriter, LeavesTheOlderFilesBeforeItsManifest) {
+  EXPECT_EQ(read(), "old a, old b");
+  const OutputDirectory next(killed_.path, "run");
+  EXPECT_EQ(read(), "old a, old b");
+  EXPECT_FALSE(fs::exists(killed_.path / staging_));
+}
+
+TEST_F(AKilledWriter, LeavesTheNewerFilesFromItsManifestOn) {
+  replace_manifest();
+  EXPECT_EQ(read(), "new a, new b");
+  fs::rename(killed_.path / staging_ / "a.csv", killed_.path / "a.csv");
+  EXPECT_EQ(read(), "new a, new b");
+  const OutputDirectory next(killed_.path, "run");
+  EXPECT_EQ(read(), "new a, new b");
+  EXPECT_EQ(read_file(killed_.path / "b.csv"), "new b");
+  EXPECT_FALSE(fs::exists(killed_.path / staging_));
+}
+
+TEST(AFullDisk, SendsWhatWasStagedElsewhere) {
+  const TemporaryDirectory directory;
+  OutputDirectory files(directory.path, "run");
+  write_file(files.staging() / "events.csv", "1");
+  files.relocate("disk full");
+  commit(files, "summary.json", "2");
+  EXPECT_TRUE(fs::is_empty(directory.path));
+  EXPECT_EQ(SealedFiles(files.path()).text("events.csv"), "1");
+  EXPECT_EQ(SealedFiles(files.path()).text("summary.json"), "2");
+  ASSERT_EQ(files.notes().size(), 1u);
+  EXPECT_EQ(files.notes().front(), "disk full; the results are in " + files.path().string() + " instead");
+  fs::remove_all(files.path());
+}
+
+TEST(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
+  const TemporaryDirectory directory;
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{1000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  try {
+    write_file(directory.path / "events.csv", std::string(5000, 'x'));
+  } catch (const OutputError& error) {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  expect_in(message, "events.csv: cannot be written (File too large); free the disk");
+}
+
+}  // namespace
+}  // namespace subimpact
