@@ -98,8 +98,8 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
   } catch (const ResultsError& error) {
     throw ResultsError(fmt::format("{}: {}", path.string(), error.what()));
   } catch (const nlohmann::json::exception& error) {
-    throw ResultsError(fmt::format("{}: is not a manifest of this program ({})", path.string(),
-                                   error.what()));
+    throw ResultsError(
+        fmt::format("{}: is not a manifest of this program ({})", path.string(), error.what()));
   }
 }
 

@@ -8,8 +8,8 @@
 namespace subimpact {
 
 /// Collects rows of a table, all of a short one, and of a long one those that a figure needs: the
-/// table is cut into spans, and each leaves its first row and, for every value drawn, the rows where
-/// the value is smallest and largest. Rows come in groups of equal number (the sections at an
+/// table is cut into spans, and each leaves its first row and, for every value drawn, the rows
+/// where the value is smallest and largest. Rows come in groups of equal number (the sections at an
 /// instant), which stay together. The last group is kept.
 template <class Row>
 class RowThinning {

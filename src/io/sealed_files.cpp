@@ -59,10 +59,10 @@ std::ifstream SealedFiles::open(const std::string& name) const {
   }
   const std::optional<Manifest> now = read_manifest(directory_);
   if (now && now->commit != manifest_->commit) throw ReplacedMeanwhile();
-  throw ResultsError(
-      fmt::format("{}: is not the file that the run wrote (its length or checksum differs from {}): "
-                  "it was changed or cut short since; run the case again",
-                  path.string(), manifest_name));
+  throw ResultsError(fmt::format(
+      "{}: is not the file that the run wrote (its length or checksum differs from {}): "
+      "it was changed or cut short since; run the case again",
+      path.string(), manifest_name));
 }
 
 std::string SealedFiles::text(const std::string& name) const {

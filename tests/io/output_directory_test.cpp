@@ -68,8 +68,7 @@ TEST(AnOutputDirectory, HasOneWriterAtATime) {
   const TemporaryDirectory directory;
   {
     const OutputDirectory first(directory.path, "run");
-    expect_in(refusal_of(directory.path, "run"),
-              "process " + std::to_string(getpid()) + " on ");
+    expect_in(refusal_of(directory.path, "run"), "process " + std::to_string(getpid()) + " on ");
     expect_in(refusal_of(directory.path, "run"), "is writing into this directory; wait until");
   }
   EXPECT_EQ(refusal_of(directory.path, "run"), "(accepted)");
@@ -223,7 +222,8 @@ TEST(AFullDisk, SendsWhatWasStagedElsewhere) {
   EXPECT_EQ(SealedFiles(files.path()).text("events.csv"), "1");
   EXPECT_EQ(SealedFiles(files.path()).text("summary.json"), "2");
   ASSERT_EQ(files.notes().size(), 1u);
-  EXPECT_EQ(files.notes().front(), "disk full; the results are in " + files.path().string() + " instead");
+  EXPECT_EQ(files.notes().front(),
+            "disk full; the results are in " + files.path().string() + " instead");
   fs::remove_all(files.path());
 }
 
