@@ -1,12 +1,11 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "status_line.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/compare.h"
@@ -24,17 +23,12 @@ int run_comparison(const CompareOptions& options) {
   const LoadedCase loaded = options.input.load();
   check_method_names(options.methods);
   if (!options.directory.empty()) prepare_output_directory(options.directory);
-  const bool shown = isatty(STDERR_FILENO) != 0;
-  Comparison comparison;
-  try {
-    comparison = compare(loaded.value, options.methods, [&](const std::string& name) {
-      if (shown) fmt::print(stderr, "\r\033[Krunning {} ...", name);
-    });
-  } catch (const InvalidCase& error) {
-    if (shown) fmt::print(stderr, "\r\033[K");
-    throw CaseFileError(loaded.message(error));
-  }
-  if (shown) fmt::print(stderr, "\r\033[K");
+  StatusLine status;
+  const Comparison comparison = with_places(loaded, [&] {
+    return compare(loaded.value, options.methods,
+                   [&](const std::string& name) { status.show("running " + name); });
+  });
+  status.clear();
   if (!options.directory.empty()) write_comparison(options.directory, comparison);
   fmt::print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
              comparison_table(comparison));
