@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 
 #include "subimpact/io/report.h"
 #include "subimpact/report/figures.h"
@@ -24,6 +25,10 @@ LoadedCase CaseOptions::load() const {
   for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
   if (!method.empty()) overrides.push_back({"solver.method", method, "--method " + method});
   return read_case_file(file, overrides);
+}
+
+std::string CaseOptions::directory_with(const std::string& ending) const {
+  return std::filesystem::path(file).stem().string() + ending;
 }
 
 void print_notes(const LoadedCase& loaded) {

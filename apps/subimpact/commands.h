@@ -26,7 +26,19 @@ struct CaseOptions {
   void add_to(CLI::App& command);
   /// Throws CaseFileError.
   LoadedCase load() const;
+  /// The case file's name without its ending, and this ending, in the current directory.
+  std::string directory_with(const std::string& ending) const;
 };
+
+/// What `body` returns. An InvalidCase becomes a CaseFileError with the place of its key.
+template <class Body>
+auto with_places(const LoadedCase& loaded, Body body) {
+  try {
+    return body();
+  } catch (const InvalidCase& error) {
+    throw CaseFileError(loaded.message(error));
+  }
+}
 
 /// Says on stderr which of the keys given have no effect.
 void print_notes(const LoadedCase& loaded);

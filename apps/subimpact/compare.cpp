@@ -1,13 +1,12 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "status_line.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/compare.h"
@@ -26,17 +25,12 @@ int run_comparison(const CompareOptions& options) {
   check_method_names(options.methods);
   std::optional<OutputDirectory> directory;
   if (!options.directory.empty()) directory.emplace(options.directory, "compare");
-  const bool shown = isatty(STDERR_FILENO) != 0;
-  Comparison comparison;
-  try {
-    comparison = compare(loaded.value, options.methods, [&](const std::string& name) {
-      if (shown) fmt::print(stderr, "\r\033[Krunning {} ...", name);
-    });
-  } catch (const InvalidCase& error) {
-    if (shown) fmt::print(stderr, "\r\033[K");
-    throw CaseFileError(loaded.message(error));
-  }
-  if (shown) fmt::print(stderr, "\r\033[K");
+  StatusLine status;
+  const Comparison comparison = with_places(loaded, [&] {
+    return compare(loaded.value, options.methods,
+                   [&](const std::string& name) { status.show("running " + name); });
+  });
+  status.clear();
   if (directory) {
     write_comparison(directory->staging(), comparison);
     directory->commit();

@@ -19,14 +19,12 @@ void add_explain(CLI::App& program, int& status) {
       "  subimpact explain case.toml --method central-difference --set model.segments=1001");
   command->callback([options, &status] {
     const LoadedCase loaded = options->load();
-    try {
+    with_places(loaded, [&] {
       ResolvedRun run = resolve(loaded.value);
       print_notes(loaded);
       print_warnings(doubtful_units(loaded.value));
       fmt::print("{}", explanation(loaded.value, run.settings(), estimate_cost(run)));
-    } catch (const InvalidCase& error) {
-      throw CaseFileError(loaded.message(error));
-    }
+    });
     status = done;
   });
 }

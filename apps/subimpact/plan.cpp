@@ -47,16 +47,12 @@ int run_plan(const PlanCommand& command) {
   if (!command.directory.empty()) directory.emplace(command.directory, "plan");
   InterruptListener listener;
   StatusLine status;
-  Plan result;
-  try {
-    result = plan(
+  const Plan result = with_places(loaded, [&] {
+    return plan(
         loaded.value, *seconds_of(command.error),
         [&](const std::string& what) { status.show(what); },
         [&](double) { return !listener.interrupted(); });
-  } catch (const InvalidCase& error) {
-    status.clear();
-    throw CaseFileError(loaded.message(error));
-  }
+  });
   status.clear();
   fmt::print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
              mesh_limit_table(result.limit), "\n" + plan_table(result));

@@ -1,14 +1,12 @@
 #include "subimpact/report/stability.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -56,9 +54,7 @@ class Session {
   int run() {
     directory_.emplace(command_.directory, "stability", case_id(input_));
     for (const Part& part : parts_) {
-      const auto& asked = command_.parts;
-      if (!asked.empty() && std::find(asked.begin(), asked.end(), part.name) == asked.end())
-        continue;
+      if (!asked_for(command_.parts, part.name)) continue;
       if (listener_.interrupted()) break;
       status_.show(part.name);
       part.run();
@@ -131,22 +127,18 @@ class Session {
 
 int run_stability(StabilityCommand command) {
   const LoadedCase loaded = command.input.load();
-  if (command.directory.empty()) {
-    command.directory = std::filesystem::path(command.input.file).stem().string() + "-stability";
-  }
-  try {
+  if (command.directory.empty()) command.directory = command.input.directory_with("-stability");
+  return with_places(loaded, [&] {
     check_methods(loaded.value, command.methods);
     Session session(loaded.value, command);
     const auto names = session.names();
     for (const std::string& part : command.parts) {
       if (std::find(names.begin(), names.end(), part) != names.end()) continue;
-      throw CaseFileError(fmt::format("--parts {}: unknown part; allowed: {}", part,
-                                      "critical, contact, damping, map, pairs, layers"));
+      throw CaseFileError(
+          fmt::format("--parts {}: unknown part; allowed: {}", part, fmt::join(names, ", ")));
     }
     return session.run();
-  } catch (const InvalidCase& error) {
-    throw CaseFileError(loaded.message(error));
-  }
+  });
 }
 
 }  // namespace

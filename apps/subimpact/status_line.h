@@ -1,5 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
 #include <string>
 
 namespace subimpact::app {
@@ -7,16 +11,22 @@ namespace subimpact::app {
 /// What is running, on one line of stderr, if that is a terminal.
 class StatusLine {
  public:
-  StatusLine();
+  StatusLine() = default;
   ~StatusLine() { clear(); }
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  void show(const std::string& text);
-  void clear();
+  void show(const std::string& text) {
+    if (!shown_) return;
+    fmt::print(stderr, "\r\033[K{} ...", text);
+    std::fflush(stderr);
+  }
+  void clear() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
 
  private:
-  bool shown_;
+  bool shown_ = isatty(STDERR_FILENO) != 0;
 };
 
 }  // namespace subimpact::app

@@ -5,10 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "case/counted.h"
 #include "commands.h"
@@ -127,19 +124,13 @@ class Session {
 
 int run_work_precision(WorkPrecisionCommand command) {
   const LoadedCase loaded = command.input.load();
-  if (command.directory.empty()) {
-    command.directory =
-        std::filesystem::path(command.input.file).stem().string() + "-work-precision";
-  }
-  try {
+  if (command.directory.empty())
+    command.directory = command.input.directory_with("-work-precision");
+  return with_places(loaded, [&] {
     const std::vector<LabelledCase> cases = cases_of(loaded, command.sections);
-    for (const LabelledCase& entry : cases) {
-      check_methods(entry.input, command.methods);
-    }
+    for (const LabelledCase& entry : cases) check_methods(entry.input, command.methods);
     return Session(command, cases).run();
-  } catch (const InvalidCase& error) {
-    throw CaseFileError(loaded.message(error));
-  }
+  });
 }
 
 }  // namespace

@@ -28,10 +28,19 @@ struct Member {  // an enumeration
   static KeyValue to_value(T x) { return std::string(name_of(x)); }
   static T from_value(const KeyValue& v) { return value_of<T>(std::get<std::string>(v)); }
 };
+// A member of a type that a KeyValue holds.
+template <class T, KeyType key_type>
+struct HeldMember {
+  static constexpr KeyType type = key_type;
+  static KeyValue to_value(const T& x) { return x; }
+  static T from_value(const KeyValue& v) { return std::get<T>(v); }
+};
 template <>
-struct Member<double> {
-  static constexpr KeyType type = KeyType::number;
-  static KeyValue to_value(double x) { return x; }
+struct Member<bool> : HeldMember<bool, KeyType::flag> {};
+template <>
+struct Member<std::string> : HeldMember<std::string, KeyType::text> {};
+template <>
+struct Member<double> : HeldMember<double, KeyType::number> {
   static double from_value(const KeyValue& v) {
     if (const auto* whole = std::get_if<std::int64_t>(&v)) return static_cast<double>(*whole);
     return std::get<double>(v);
@@ -44,21 +53,7 @@ struct Member<int> {
   static int from_value(const KeyValue& v) { return static_cast<int>(std::get<std::int64_t>(v)); }
 };
 template <>
-struct Member<bool> {
-  static constexpr KeyType type = KeyType::flag;
-  static KeyValue to_value(bool x) { return x; }
-  static bool from_value(const KeyValue& v) { return std::get<bool>(v); }
-};
-template <>
-struct Member<std::string> {
-  static constexpr KeyType type = KeyType::text;
-  static KeyValue to_value(const std::string& x) { return x; }
-  static std::string from_value(const KeyValue& v) { return std::get<std::string>(v); }
-};
-template <>
-struct Member<std::vector<double>> {
-  static constexpr KeyType type = KeyType::numbers;
-  static KeyValue to_value(const std::vector<double>& x) { return x; }
+struct Member<std::vector<double>> : HeldMember<std::vector<double>, KeyType::numbers> {
   static std::vector<double> from_value(const KeyValue& v) {
     // An empty list in a case file has no element type.
     const auto* numbers = std::get_if<std::vector<double>>(&v);

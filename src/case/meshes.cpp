@@ -95,33 +95,29 @@ Mesh make_rigid_mesh(const Case& input) {
   return std::make_shared<RigidMesh>(input.scene.beam, input.scene.striker.position);
 }
 
+// Whether one half is modelled, which needs an odd count of cells or an even one of elements.
+bool uses_half(const Case& input, const char* key, int count, bool odd, const char* what) {
+  if (!uses_symmetry(input)) return false;
+  if ((count % 2 != 0) == odd) return true;
+  throw InvalidCase(
+      key,
+      fmt::format("is {}, but the half model of a scene struck at mid-span needs an {} number, "
+                  "so that a {} lies under the striker; use {} or {}, or set model.symmetry = "
+                  "\"off\"",
+                  count, odd ? "odd" : "even", what, count - 1, count + 1));
+}
+
 Mesh make_cell_mesh(const Case& input) {
-  const bool half = uses_symmetry(input);
   const int segments = input.model.segments;
-  if (half && segments % 2 == 0) {
-    throw InvalidCase(
-        "model.segments",
-        fmt::format(
-            "is {}, but the half model of a scene struck at mid-span needs an odd number, so "
-            "that a cell lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
-            segments, segments - 1, segments + 1));
-  }
+  const bool half = uses_half(input, "model.segments", segments, true, "cell");
   return std::make_shared<CellMesh>(input.scene.beam, input.scene.striker.position,
                                     static_cast<std::size_t>(segments),
                                     half ? CellMesh::Extent::half : CellMesh::Extent::whole);
 }
 
 Mesh make_hermite_mesh(const Case& input) {
-  const bool half = uses_symmetry(input);
   const int elements = input.model.elements;
-  if (half && elements % 2 != 0) {
-    throw InvalidCase(
-        "model.elements",
-        fmt::format("is {}, but the half model of a scene struck at mid-span needs an even number, "
-                    "so that a node lies under the striker; use {} or {}, or set model.symmetry = "
-                    "\"off\"",
-                    elements, elements - 1, elements + 1));
-  }
+  const bool half = uses_half(input, "model.elements", elements, false, "node");
   return std::make_shared<HermiteMesh>(
       input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
       static_cast<std::size_t>(input.model.sections_per_element),

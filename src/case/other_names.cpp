@@ -1,6 +1,5 @@
 #include "case/other_names.h"
 
-#include <algorithm>
 #include <cctype>
 
 namespace subimpact {

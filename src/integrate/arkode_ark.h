@@ -1,11 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "integrate/arkode_erk.h"
+#include "integrate/coefficient_table.h"
+#include "integrate/options.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
@@ -14,14 +13,6 @@ namespace subimpact {
 /// users see them; the first is the default.
 const std::vector<CoefficientTable>& dirk_tables();
 const std::vector<CoefficientTable>& imex_tables();
-
-struct ArkOptions {
-  std::string table;
-  double relative_tolerance = 1e-8;
-  std::optional<double> fixed_step;  ///< s; adaptive if empty
-  std::optional<double> max_step;    ///< s
-  VectorOperations vector_operations = VectorOperations::project;
-};
 
 /// SUNDIALS ARKODE's diagonally implicit Runge-Kutta methods (ARKStep) on
 ///
@@ -33,12 +24,14 @@ struct ArkOptions {
 /// restart keeps the step size, a state inside the last step is a retaken, shorter step. With a
 /// fixed step the tolerance still bounds the error of Newton's iteration. Throws
 /// std::invalid_argument for a table that is not among dirk_tables().
-std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system, const ArkOptions& options);
+std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system,
+                                             const IntegratorOptions& options);
 
 /// The same with the right-hand side in two parts: [v, stiff part of f] taken implicitly,
 /// [0, rest of f] explicitly, by a pair of tables that share their stages. The Newton matrix then
 /// only changes where a section flows. Throws std::invalid_argument for a pair that is not among
 /// imex_tables().
-std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system, const ArkOptions& options);
+std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system,
+                                             const IntegratorOptions& options);
 
 }  // namespace subimpact

@@ -8,10 +8,9 @@ CentralDifference::CentralDifference(SecondOrderOde& ode, double step)
     : ode_(ode), n_(ode.n_positions()), step_(step), a0_(n_), a1_(n_), a_partial_(n_) {}
 
 void CentralDifference::restart(double t, const State& y) {
-  t0_ = t1_ = origin_ = t;
+  stand_at(t, y);
+  origin_ = t;
   steps_from_origin_ = 0;
-  y0_ = y;
-  y1_ = y;
   ode_.acceleration({y1_.data(), n_}, a1_);
   ++work_.right_hand_sides;
 }

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
-#include "integrate/arkode_erk.h"
+#include "integrate/options.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
@@ -18,17 +17,10 @@ constexpr int bdf_order_limit = 5;
 /// A state inside the last step comes from the method's own polynomial (CVodeGetDky), with the
 /// order of the method. A restart (CVodeReInit) discards the past steps of a multistep method: it
 /// begins again at order one with an estimated step, and raises both. There is no fixed step.
-struct CvodeOptions {
-  int max_order = 0;  ///< 1 to the limit above
-  double relative_tolerance = 1e-8;
-  std::optional<double> max_step;  ///< s
-  VectorOperations vector_operations = VectorOperations::project;
-};
-
 /// Adams-Moulton, orders 1 to 12, corrected by fixed-point iteration; no matrices. For accuracy,
 /// not for long steps: the iteration converges for omega h below about 1, and orders above 2 let
 /// undamped oscillations grow at steps that tolerances looser than 1e-6 choose.
-std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const CvodeOptions& options);
+std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const IntegratorOptions& options);
 
 /// Backward differentiation formulas, orders 1 to 5, corrected by Newton's method. On an undamped
 /// oscillation of frequency omega, order 2 is stable for every step but damps; from order 3 on the
@@ -41,6 +33,7 @@ std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const CvodeOpt
 ///     (Mass + gamma^2 K) x2 = Mass b2 - gamma K b1,   x1 = b1 + gamma x2,
 ///
 /// which stays sparse: KLU factors it, its pattern analysed once.
-std::unique_ptr<Integrator> make_cvode_bdf(MechanicalSystem& system, const CvodeOptions& options);
+std::unique_ptr<Integrator> make_cvode_bdf(MechanicalSystem& system,
+                                           const IntegratorOptions& options);
 
 }  // namespace subimpact

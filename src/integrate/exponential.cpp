@@ -27,7 +27,7 @@ constexpr double part_for_doubling = 1.0 / 64.0;
 }  // namespace
 
 Exponential::Exponential(std::unique_ptr<ForcedOscillators> oscillators,
-                         const ExponentialOptions& options)
+                         const IntegratorOptions& options)
     : owned_(std::move(oscillators)),
       oscillators_(*owned_),
       options_(options),
@@ -56,9 +56,7 @@ double Exponential::displacement(const double* values) const {
 }
 
 void Exponential::restart(double t, const State& y) {
-  t0_ = t1_ = t;
-  y0_ = y;
-  y1_ = y;
+  stand_at(t, y);
   lambda1_ = displacement(y1_.data());
   rate1_ = displacement(y1_.data() + n_);
   bound_ = -1.0;

@@ -2,18 +2,12 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 
+#include "integrate/options.h"
 #include "integrate/oscillator_step.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
-
-struct ExponentialOptions {
-  double relative_tolerance = 1e-8;
-  std::optional<double> fixed_step;  ///< s; adaptive if empty
-  std::optional<double> max_step;    ///< s
-};
 
 /// The exponential method: oscillators driven by one scalar force, integrated exactly but for that
 /// force, which is a cubic over each step, collocated at its four Gauss points.
@@ -36,7 +30,7 @@ struct ExponentialOptions {
 /// times: a cubic misses the force by O(h^4), and lambda is its second integral.
 class Exponential final : public Integrator {
  public:
-  Exponential(std::unique_ptr<ForcedOscillators> oscillators, const ExponentialOptions& options);
+  Exponential(std::unique_ptr<ForcedOscillators> oscillators, const IntegratorOptions& options);
 
   void restart(double t, const State& y) override;
   void step() override;
@@ -61,7 +55,7 @@ class Exponential final : public Integrator {
 
   std::unique_ptr<ForcedOscillators> owned_;
   ForcedOscillators& oscillators_;
-  ExponentialOptions options_;
+  IntegratorOptions options_;
   std::size_t n_;
   SecondOrderOde::Scales scales_;
   double unit_;  // length of level 0, s

@@ -29,7 +29,7 @@ void add_stages(VectorSum& sum, const std::vector<double>& row, std::size_t leng
 
 }  // namespace
 
-Nystrom::Nystrom(SecondOrderOde& ode, const NystromOptions& options)
+Nystrom::Nystrom(SecondOrderOde& ode, const IntegratorOptions& options)
     : ode_(ode),
       table_(nystrom_table(options.table)),
       first_same_as_last_(table_.first_same_as_last()),
@@ -40,8 +40,7 @@ Nystrom::Nystrom(SecondOrderOde& ode, const NystromOptions& options)
       velocity_weight_(1.0 / (options.relative_tolerance * ode.scales().velocity)),
       stages_(table_.n_stages(), Vector(n_)),
       partial_stages_(table_.n_stages(), Vector(n_)),
-      end_acceleration_(n_),
-      trial_(2 * n_) {
+      end_acceleration_(n_) {
   // A first guess the controller corrects at once: a thousandth of the problem's own time scale.
   next_step_ = fixed_step_.value_or(1e-3 * ode.scales().position / ode.scales().velocity);
 }
@@ -52,9 +51,7 @@ void Nystrom::accelerate(const double* positions, Vector& result) {
 }
 
 void Nystrom::restart(double t, const State& y) {
-  t0_ = t1_ = t;
-  y0_ = y;
-  y1_ = y;
+  stand_at(t, y);
   accelerate(y1_.data(), end_acceleration_);
 }
 

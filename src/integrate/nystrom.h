@@ -1,20 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "integrate/nystrom_tables.h"
+#include "integrate/options.h"
 #include "numerics/lanes.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
-
-struct NystromOptions {
-  std::string table = "dprkn8";
-  double relative_tolerance = 1e-8;
-  std::optional<double> fixed_step;  ///< s; adaptive if empty
-  std::optional<double> max_step;    ///< s
-};
 
 /// Explicit Runge-Kutta-Nystroem methods for q'' = a(q): as the acceleration does not depend on the
 /// velocity, stages carry positions only, which halves the vector work and, order for order, needs
@@ -26,7 +19,7 @@ struct NystromOptions {
 /// table.
 class Nystrom final : public Integrator {
  public:
-  Nystrom(SecondOrderOde& ode, const NystromOptions& options);
+  Nystrom(SecondOrderOde& ode, const IntegratorOptions& options);
 
   void restart(double t, const State& y) override;
   void step() override;
@@ -52,7 +45,6 @@ class Nystrom final : public Integrator {
   std::vector<Vector> stages_;          // accelerations of the last step's stages
   std::vector<Vector> partial_stages_;  // of a partial step; the first is not used
   Vector end_acceleration_;             // at time(), the next step's first stage
-  Vector trial_;
   WorkCounts work_;
 };
 

@@ -153,7 +153,7 @@ const std::vector<NystromTable>& nystrom_tables() {
 
 const NystromTable& nystrom_table(const std::string& name) {
   for (const NystromTable& table : nystrom_tables()) {
-    if (table.name == name) return table;
+    if (name.empty() || table.name == name) return table;
   }
   throw std::invalid_argument("unknown Runge-Kutta-Nystroem table '" + name + "'");
 }

@@ -27,7 +27,7 @@ struct NystromTable : CoefficientTable {
 /// All tables; the first is the default.
 const std::vector<NystromTable>& nystrom_tables();
 
-/// Throws std::invalid_argument for an unknown name.
+/// The first for an empty name. Throws std::invalid_argument for an unknown one.
 const NystromTable& nystrom_table(const std::string& name);
 
 }  // namespace subimpact

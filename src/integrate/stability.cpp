@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -15,15 +14,14 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Eigenvalues of a real 2 x 2 matrix: the larger modulus.
+}  // namespace
+
 double spectral_radius(const std::array<std::array<double, 2>, 2>& m) {
   const double half_trace = 0.5 * (m[0][0] + m[1][1]);
   const double determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   const Complex root = std::sqrt(Complex(half_trace * half_trace - determinant, 0.0));
   return std::max(std::abs(half_trace + root), std::abs(half_trace - root));
 }
-
-}  // namespace
 
 double nystrom_growth(const std::string& name, double y) {
   const NystromTable& table = nystrom_table(name);
@@ -58,13 +56,13 @@ double bdf_growth(int order, double y) {
       binomial *= static_cast<double>(m - j) / (j + 1);
     }
   }
-  // RefinedRun matrix of (alpha_0 - i y) zeta^k + alpha_1 zeta^(k-1) + ...
-  Eigen::MatrixXcd refined_run = Eigen::MatrixXcd::Zero(order, order);
+  // Companion matrix of (alpha_0 - i y) zeta^k + alpha_1 zeta^(k-1) + ...
+  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(order, order);
   for (int j = 0; j < order; ++j) {
-    refined_run(0, j) = -alpha[static_cast<std::size_t>(j) + 1] / Complex(alpha[0], -y);
-    if (j + 1 < order) refined_run(j + 1, j) = 1.0;
+    companion(0, j) = -alpha[static_cast<std::size_t>(j) + 1] / Complex(alpha[0], -y);
+    if (j + 1 < order) companion(j + 1, j) = 1.0;
   }
-  return refined_run.eigenvalues().cwiseAbs().maxCoeff();
+  return companion.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace subimpact

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
 #include <complex>
 #include <string>
 
 namespace subimpact {
+
+/// The larger modulus of the eigenvalues of a real 2 x 2 matrix.
+double spectral_radius(const std::array<std::array<double, 2>, 2>& m);
 
 /// Stability of tables of coefficients for an undamped oscillation q'' = -omega^2 q in steps of
 /// omega h = y. All throw std::invalid_argument for an unknown table.

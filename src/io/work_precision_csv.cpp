@@ -82,9 +82,8 @@ const Columns<LoggedPoint>& point_columns() {
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
-  std::istringstream text(line);
+  std::istringstream text(line + ',');  // an empty last cell counts too
   for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-  if (!line.empty() && line.back() == ',') cells.emplace_back();
   return cells;
 }
 

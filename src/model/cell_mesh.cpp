@@ -28,14 +28,8 @@ constexpr double clamped_share = 1.0 / 9.0;
 
 // Sections of an end, outermost first, in units of 1/dx^2.
 std::vector<std::array<double, 2>> end_stencils(EndSupport end) {
-  switch (end) {
-    case EndSupport::pinned:
-      return {{-3.0, 1.0}};
-    case EndSupport::clamped:
-      return {{1.0 - clamped_share, 0.0}, {-2.0 + clamped_share, 1.0}};
-    case EndSupport::free:
-      break;
-  }
+  if (end == EndSupport::pinned) return {{-3.0, 1.0}};
+  if (end == EndSupport::clamped) return {{1.0 - clamped_share, 0.0}, {-2.0 + clamped_share, 1.0}};
   return {};
 }
 

@@ -28,28 +28,16 @@ ContactBranch ContactLaw::first_branch(ContactHistory history) const {
 
 double ContactLaw::branch_force(ContactBranch branch, ContactHistory history,
                                 double indentation) const {
-  switch (branch) {
-    case ContactBranch::separated:
-      return 0.0;
-    case ContactBranch::elastic:
-      return elastic_force(history, indentation);
-    case ContactBranch::plastic:
-      return plastic_force(indentation);
-  }
-  return 0.0;
+  if (branch == ContactBranch::separated) return 0.0;
+  return branch == ContactBranch::elastic ? elastic_force(history, indentation)
+                                          : plastic_force(indentation);
 }
 
 double ContactLaw::branch_slope(ContactBranch branch, ContactHistory history,
                                 double indentation) const {
-  switch (branch) {
-    case ContactBranch::separated:
-      return 0.0;
-    case ContactBranch::elastic:
-      return elastic_slope(history, indentation);
-    case ContactBranch::plastic:
-      return plastic_slope(indentation);
-  }
-  return 0.0;
+  if (branch == ContactBranch::separated) return 0.0;
+  return branch == ContactBranch::elastic ? elastic_slope(history, indentation)
+                                          : plastic_slope(indentation);
 }
 
 double ContactLaw::indentation_at(double energy) const {

@@ -180,6 +180,12 @@ void HermiteMesh::assemble_mass() {
   }
 }
 
+HermiteMesh::Local HermiteMesh::Factors::row(const std::array<double, 2>& of_curvature) const {
+  const auto [of_mean, of_half] = of_curvature;
+  return {of_half * of_displacements, -of_mean * mean + of_half * of_slopes,
+          -of_half * of_displacements, of_mean * mean + of_half * of_slopes};
+}
+
 HermiteMesh::Factors HermiteMesh::factors_of(double length) const {
   const double mean = 1.0 / (length * slope_unit_);
   return {length, mean, 6.0 / (length * length), 3.0 / (length * slope_unit_)};
@@ -219,10 +225,7 @@ void HermiteMesh::place_element(std::size_t element, double left, const ElementR
   for (std::size_t g = 0; g < rule.size(); ++g) {
     positions_.push_back(left + 0.5 * (1.0 + rule.points[g]) * f.length);
     weights_.push_back(copies_ * rule.weights[g] * f.length);
-    const auto [of_mean, of_half] = rule.of_curvature[g];
-    const Local all{of_half * f.of_displacements, -of_mean * f.mean + of_half * f.of_slopes,
-                    -of_half * f.of_displacements, of_mean * f.mean + of_half * f.of_slopes};
-    add_row(unknowns, all);
+    add_row(unknowns, f.row(rule.of_curvature[g]));
   }
 }
 
@@ -380,11 +383,7 @@ double HermiteMesh::frequency_squared(const Factors& f, const ElementRule& rule,
   stiffness(1, 1) = springs[0];
   stiffness(3, 3) = springs[1];
   for (std::size_t g = 0; g < rule.size(); ++g) {
-    const auto [of_mean, of_half] = rule.of_curvature[g];
-    const Eigen::Vector4d row(of_half * f.of_displacements,
-                              -of_mean * f.mean + of_half * f.of_slopes,
-                              -of_half * f.of_displacements,  //
-                              of_mean * f.mean + of_half * f.of_slopes);
+    const Eigen::Vector4d row(f.row(rule.of_curvature[g]).data());
     stiffness += bending_stiffness * rule.weights[g] * f.length * row * row.transpose();
   }
   const Eigen::MatrixXd mass =

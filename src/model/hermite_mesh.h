@@ -77,12 +77,16 @@ class HermiteMesh final : public BeamMesh {
   struct Node {
     std::size_t displacement, slope_before, slope_after;
   };
+  using Local = std::array<double, 4>;
+
   // What makes a curvature of an element's unknowns w_0, h t_0, w_1, h t_1.
   struct Factors {
     double length;            // a, m
     double mean;              // of the difference of slopes: 1/(a h)
     double of_displacements;  // 6/a^2
     double of_slopes;         // 3/(a h)
+    // Those of a section's curvature (ElementRule::of_curvature) on the unknowns.
+    Local row(const std::array<double, 2>& of_curvature) const;
   };
   // Equal elements in a row with Gauss points and all their unknowns, in order.
   struct Run {
@@ -102,7 +106,6 @@ class HermiteMesh final : public BeamMesh {
     std::size_t slope_before, slope_after;  // unknowns; none where held
     double inverse;                         // 1/(L h), L of the part modelled, 1/m2
   };
-  using Local = std::array<double, 4>;
 
   Factors factors_of(double length) const;
   bool is_chain() const;

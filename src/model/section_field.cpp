@@ -125,10 +125,6 @@ void SectionField::commit_reversal(std::size_t section, double curvature) {
   offset_[section] = window.offset;
 }
 
-std::size_t SectionField::commit(std::span<const double> curvatures) {
-  return commit(curvatures, {});
-}
-
 std::size_t SectionField::commit(std::span<const double> curvatures,
                                  std::span<const double> rates) {
   flowing_.clear();

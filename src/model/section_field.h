@@ -48,11 +48,9 @@ class SectionField {
     return stiffness_ * curvature - offset_[section];
   }
 
-  /// Takes the curvatures as reached (an accepted state). Returns how many sections flowed.
-  std::size_t commit(std::span<const double> curvatures);
-  /// The same; the curvature rates (1/(m s)) decide which of the sections that flowed continue to
-  /// flow.
-  std::size_t commit(std::span<const double> curvatures, std::span<const double> rates);
+  /// Takes the curvatures as reached (an accepted state). The curvature rates (1/(m s)), if given,
+  /// decide which of the sections that flowed continue to flow. Returns how many flowed.
+  std::size_t commit(std::span<const double> curvatures, std::span<const double> rates = {});
   /// Commits the curvature at which one section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature);
 

@@ -1,7 +1,5 @@
 #include "subimpact/numerics/banded_matrix.h"
 
-#include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "numerics/lanes.h"

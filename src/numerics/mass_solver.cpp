@@ -6,8 +6,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "numerics/lanes.h"
-
 namespace subimpact {
 namespace {
 

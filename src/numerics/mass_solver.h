@@ -1,8 +1,6 @@
 #pragma once
 
-#include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "numerics/lanes.h"
@@ -16,7 +14,6 @@ class MassSolver {
   virtual ~MassSolver() = default;
   /// Overwrites the right-hand side with the solution.
   virtual void solve(std::span<double> x) const = 0;
-  virtual std::string name() const = 0;
 };
 
 /// Cholesky factorisation of a banded matrix, arranged so that its recurrences run block by block.
@@ -31,7 +28,6 @@ class BandedSolver final : public MassSolver {
  public:
   explicit BandedSolver(const BandedMatrix& matrix);
   void solve(std::span<double> x) const override;
-  std::string name() const override { return "banded"; }
 
  private:
   static constexpr std::size_t block = 8;

@@ -60,6 +60,12 @@ class Integrator {
   virtual WorkCounts work() const = 0;
 
  protected:
+  /// Before the first step: both ends of the last one.
+  void stand_at(double t, const State& y) {
+    t0_ = t1_ = t;
+    y0_ = y;
+    y1_ = y;
+  }
   /// For a step that failed after its start became (t0_, y0_): back to that start.
   void undo_step() {
     t1_ = t0_;

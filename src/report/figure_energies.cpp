@@ -12,7 +12,7 @@ NumberRows spans(const Result& result, TimeUnit unit, int SubImpact::*number) {
   NumberRows found;
   int last_zone = 0;
   for (const SubImpact& s : result.sub_impacts) {
-    const double to = s.end.value_or(result.outcome.time) * unit.per_second;
+    const double to = result.end_of(s) * unit.per_second;
     const bool same = !found.empty() && found.back()[2] == s.*number && last_zone == s.zone;
     if (!same) found.push_back({s.start * unit.per_second, to, 1.0 * (s.*number)});
     found.back()[1] = to;

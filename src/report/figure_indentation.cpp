@@ -6,6 +6,7 @@
 
 #include "case/problem.h"
 #include "report/figure_script.h"
+#include "report/strike_words.h"
 
 namespace subimpact {
 namespace {
@@ -39,22 +40,9 @@ std::vector<Point> loop(const ContactLaw& law, const Units& units, const Result&
   return line;
 }
 
-double end_of(const SubImpact& s, const Result& result) {
-  return s.end.value_or(result.outcome.time);
-}
-
 double growth_of_residual(std::size_t i, const Result& result) {
   return result.sub_impacts[i].residual_indentation -
          result.sub_impacts[i - 1].residual_indentation;
-}
-
-// Those after the first in which the contact yielded.
-std::vector<std::size_t> yielding_again(const Result& result) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
-    if (growth_of_residual(i, result) > 0.0) found.push_back(i);
-  }
-  return found;
 }
 
 // As many as insets can show, the deepest ones, in order of time.
@@ -120,7 +108,7 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
     later = loop(*law, units, result, result.sub_impacts[1].start, result.outcome.time);
   }
   const double first_end =
-      result.sub_impacts.empty() ? 0.0 : end_of(result.sub_impacts.front(), result);
+      result.sub_impacts.empty() ? 0.0 : result.end_of(result.sub_impacts.front());
   figure.line("later", later, panel, shown);
   figure.line("first", loop(*law, units, result, 0.0, first_end), panel, shown);
   NumberRows insets, loops;
@@ -131,7 +119,7 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
     insets.push_back(
         {static_cast<double>(i + 1), s.start * 1e3, range.from, range.to, s.peak_force * force});
     const double inset = static_cast<double>(insets.size());
-    for (const Point& p : thin_for_panel(loop(*law, units, result, s.start, end_of(s, result)),
+    for (const Point& p : thin_for_panel(loop(*law, units, result, s.start, result.end_of(s)),
                                          {210, 380 / static_cast<int>(again.size())}, range)) {
       loops.push_back({inset, p.x, p.y});
     }

@@ -44,9 +44,8 @@ FigureScript first_sub_impact_figure(const Case& input, const Result& result) {
       "the first sub-impact (shaded). Broken lines: the yield stress and the "
       "instant at which a fibre of the beam first yields.",
       {800, 580});
-  const double end = result.sub_impacts.empty()
-                         ? result.outcome.time
-                         : result.sub_impacts.front().end.value_or(result.outcome.time);
+  const double end =
+      result.sub_impacts.empty() ? result.outcome.time : result.end_of(result.sub_impacts.front());
   const double shown = std::min(1.08 * end, result.outcome.time);
   const TimeUnit unit = time_unit(shown);
   const Unit newton = force_unit(result.max_force);

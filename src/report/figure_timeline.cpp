@@ -32,7 +32,7 @@ std::vector<Column> columns_of(const Result& result) {
   std::vector<Column> columns;
   int zone = 0;
   for (const SubImpact& s : result.sub_impacts) {
-    const double end = s.end.value_or(result.outcome.time);
+    const double end = result.end_of(s);
     if (s.zone != zone) columns.push_back({s.start, end, fmt::format("zone {}", s.zone)});
     columns.back().to = end;
     zone = s.zone;
@@ -61,7 +61,7 @@ std::vector<Column> columns_of(const Result& result) {
 }
 
 double duration_us(const SubImpact& s, const Result& result) {
-  return 1e6 * (s.end.value_or(result.outcome.time) - s.start);
+  return 1e6 * (result.end_of(s) - s.start);
 }
 double impulse_mNs(const SubImpact& s, const Result&) { return 1e3 * s.impulse; }
 

@@ -1,7 +1,5 @@
 #include "report/inlined_svg.h"
 
-#include <initializer_list>
-
 namespace subimpact {
 namespace {
 

@@ -1,8 +1,9 @@
 #include "report/strike_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "case/counted.h"
 #include "subimpact/io/report.h"
@@ -15,10 +16,6 @@ namespace {
 // Rises of the striker's energy below this part of its first value are rounding and integration
 // error.
 constexpr double negligible_gain = 1e-6;
-
-double end_of(const SubImpact& s, const Result& result) {
-  return s.end.value_or(result.outcome.time);
-}
 
 std::string sub_impact_words(const Result& result) {
   const auto& hits = result.sub_impacts;
@@ -47,7 +44,7 @@ std::string sub_impact_words(const Result& result) {
   for (const SubImpact& s : hits) impulse += s.impulse;
   const SubImpact& first = hits.front();
   text += fmt::format("The first contact lasts {}, peaks at {:.4g} N and carries {:.3g} N s",
-                      duration_text(end_of(first, result) - first.start), first.peak_force,
+                      duration_text(result.end_of(first) - first.start), first.peak_force,
                       first.impulse);
   if (hits.size() > 1) text += fmt::format(", {:.0f} % of all", 100.0 * first.impulse / impulse);
   return text + ".";
@@ -59,11 +56,7 @@ std::string yield_words(const Case& input, const Result& result) {
     text += fmt::format("The contact first yields after {}, at an indentation of {:.4g} mm",
                         duration_text(*result.first_contact_yield),
                         1e3 * result.used.yield_indentation);
-    std::size_t again = 0;
-    for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
-      const double before = result.sub_impacts[i - 1].residual_indentation;
-      if (result.sub_impacts[i].residual_indentation > before) ++again;
-    }
+    const std::size_t again = yielding_again(result).size();
     text += again == 0 ? "; no later sub-impact yields further. "
                        : fmt::format("; {} later {} further. ", again,
                                      again == 1 ? "sub-impact yields" : "sub-impacts yield");
@@ -124,36 +117,27 @@ std::string part_name(const StrikePart& part) {
 }
 
 std::string recovery_words(const StrikeAccount& account) {
-  std::string text = "The beam's elastic bending energy separates compression from recovery. It ";
-  std::size_t n_subzones = 0;
-  std::vector<std::string> pieces;
+  using Kind = StrikePart::Kind;
+  const auto is_divided = [&](int zone) {
+    return std::any_of(account.parts.begin(), account.parts.end(), [&](const StrikePart& part) {
+      return part.kind == Kind::subzone_separation && part.zone == zone;
+    });
+  };
+  std::vector<std::string> of_zones, within_zones;
   for (const StrikePart& part : account.parts) {
-    using Kind = StrikePart::Kind;
+    const std::string words = change_words(part) + " " + part_name(part);
     if (part.kind == Kind::zone || part.kind == Kind::separation) {
-      pieces.push_back(change_words(part) + " " + part_name(part));
+      of_zones.push_back(words);
+    } else if (is_divided(part.zone)) {
+      within_zones.push_back(words);
     }
-    if (part.kind == Kind::subzone_separation) ++n_subzones;
   }
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (i > 0) text += i + 1 == pieces.size() ? ", and " : ", ";
-    text += pieces[i];
-  }
-  text += ". ";
-  if (n_subzones > 0) {
-    text += "Within zones: it ";
-    bool first = true;
-    for (const StrikePart& part : account.parts) {
-      using Kind = StrikePart::Kind;
-      if (part.kind != Kind::subzone && part.kind != Kind::subzone_separation) continue;
-      bool divided = false;
-      for (const StrikePart& other : account.parts) {
-        divided = divided || (other.kind == Kind::subzone_separation && other.zone == part.zone);
-      }
-      if (!divided) continue;
-      text += fmt::format("{}{} {}", first ? "" : ", ", change_words(part), part_name(part));
-      first = false;
-    }
-    text += ". ";
+  if (of_zones.size() > 1) of_zones.back() = "and " + of_zones.back();
+  std::string text =
+      fmt::format("The beam's elastic bending energy separates compression from recovery. It {}. ",
+                  fmt::join(of_zones, ", "));
+  if (!within_zones.empty()) {
+    text += fmt::format("Within zones: it {}. ", fmt::join(within_zones, ", "));
   }
   text += fmt::format(
       "Its largest value, {:.3g} J, is reached at {}; what follows is recovery, down "
@@ -163,6 +147,15 @@ std::string recovery_words(const StrikeAccount& account) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> yielding_again(const Result& result) {
+  std::vector<std::size_t> found;
+  const auto& hits = result.sub_impacts;
+  for (std::size_t i = 1; i < hits.size(); ++i) {
+    if (hits[i].residual_indentation > hits[i - 1].residual_indentation) found.push_back(i);
+  }
+  return found;
+}
 
 std::vector<std::string> strike_words(const Case& input, const Result& result) {
   std::vector<std::string> paragraphs{sub_impact_words(result), yield_words(input, result)};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
 #include "io/csv_columns.h"
@@ -23,20 +22,9 @@ struct ChartPoint {
 };
 
 std::string mark_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::right:
-      return "right";
-    case Verdict::wrong_count:
-      return "wrong";
-    case Verdict::inaccurate:
-    case Verdict::unstable:
-    case Verdict::failed:
-      return "failed";
-    case Verdict::refused:
-    case Verdict::not_run:
-      return "";
-  }
-  return "";
+  if (verdict == Verdict::right) return "right";
+  if (verdict == Verdict::wrong_count) return "wrong";
+  return verdict == Verdict::refused || verdict == Verdict::not_run ? "" : "failed";
 }
 
 // An error below a tenth of the reference's cannot be distinguished from none and is shown as that.

@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "integrate/arkode_ark.h"
 #include "integrate/arkode_erk.h"
@@ -29,65 +28,14 @@ constexpr int usual_bdf_order = 5;
 constexpr double erk_radians = 0.11;
 constexpr double nystrom_radians = 0.22;
 
-VectorOperations vector_operations_of(const Options& input) {
-  return input.study.vector_operations == VectorOperationsKind::library ? VectorOperations::library
-                                                                        : VectorOperations::project;
-}
-
-// Options that all of SUNDIALS' one-step methods share.
-template <class Chosen>
-Chosen one_step_options(const Options& input, const ResolvedSettings& used) {
-  Chosen options;
-  options.table = *used.table;
-  options.relative_tolerance = input.solver.rtol;
-  options.fixed_step = input.solver.step;
-  options.max_step = input.solver.max_step;
-  options.vector_operations = vector_operations_of(input);
-  return options;
-}
-
-CvodeOptions multistep_options(const Options& input, const ResolvedSettings& used) {
-  CvodeOptions options;
-  options.max_order = *used.max_order;
-  options.relative_tolerance = input.solver.rtol;
-  options.max_step = input.solver.max_step;
-  options.vector_operations = vector_operations_of(input);
-  return options;
-}
-
-std::unique_ptr<Nystrom> make_nystrom(const Options& input, const ResolvedSettings& used,
-                                      StruckBeam& beam) {
-  NystromOptions options;
-  if (used.table) options.table = *used.table;
-  options.relative_tolerance = input.solver.rtol;
-  options.fixed_step = input.solver.step;
-  options.max_step = input.solver.max_step;
-  return std::make_unique<Nystrom>(beam, options);
-}
-
 // Where the beam may yield only free flight has a closed form; nystrom does the rest.
-IntegratorPointer make_exponential(const Options& input, const ResolvedSettings& used,
-                                   StruckBeam& beam) {
+IntegratorPointer make_exponential(StruckBeam& beam, const IntegratorOptions& options) {
   if (beam.sections().can_yield()) {
     return std::make_unique<FreeFlight>(
-        make_nystrom(input, used, beam), beam,
-        input.solver.max_step.value_or(std::numeric_limits<double>::infinity()));
+        std::make_unique<Nystrom>(beam, options), beam,
+        options.max_step.value_or(std::numeric_limits<double>::infinity()));
   }
-  ExponentialOptions options;
-  options.relative_tolerance = input.solver.rtol;
-  options.fixed_step = input.solver.step;
-  options.max_step = input.solver.max_step;
   return std::make_unique<Exponential>(std::make_unique<ModalBeam>(beam), options);
-}
-
-template <class Tables>
-std::vector<MethodTable> list_of(Method method, const Tables& tables) {
-  std::vector<MethodTable> list;
-  for (const CoefficientTable& table : tables) {
-    list.push_back(
-        {method, table.name, table.order, table.embedded_order, table.evaluations, table.note});
-  }
-  return list;
 }
 
 std::vector<MethodDescriptor> make_descriptors() {
@@ -101,8 +49,10 @@ std::vector<MethodDescriptor> make_descriptors() {
        .modes = Modes::where_cheaper,
        .events = EventHandling::interpolated,
        .audit_interval = 256,
-       .make = [](const Options&, const ResolvedSettings& used, StruckBeam& beam)
-           -> IntegratorPointer { return std::make_unique<CentralDifference>(beam, *used.step); }},
+       .make =
+           [](StruckBeam& beam, const IntegratorOptions& options) {
+             return std::make_unique<CentralDifference>(beam, *options.fixed_step);
+           }},
       {.kind = Method::erk,
        .name = "erk",
        .note = "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event "
@@ -110,20 +60,23 @@ std::vector<MethodDescriptor> make_descriptors() {
        .sundials = true,
        .modes = Modes::where_cheaper,
        .radians_per_evaluation = erk_radians,
-       .tables = [] { return list_of(Method::erk, explicit_tables()); },
-       .make =
-           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
-             return make_arkode_erk(beam, one_step_options<ErkOptions>(input, used));
-           }},
+       .tables = explicit_tables,
+       .make = make_arkode_erk},
       {.kind = Method::nystrom,
        .name = "nystrom",
        .note = "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of "
                "its cost",
        .modes = Modes::where_cheaper,
        .radians_per_evaluation = nystrom_radians,
-       .tables = [] { return list_of(Method::nystrom, nystrom_tables()); },
-       .make = [](const Options& input, const ResolvedSettings& used, StruckBeam& beam)
-           -> IntegratorPointer { return make_nystrom(input, used, beam); }},
+       .tables =
+           [] {
+             const auto& tables = nystrom_tables();
+             return std::vector<CoefficientTable>(tables.begin(), tables.end());
+           },
+       .make =
+           [](StruckBeam& beam, const IntegratorOptions& options) {
+             return std::make_unique<Nystrom>(beam, options);
+           }},
       {.kind = Method::exponential,
        .name = "exponential",
        .note = "natural modes: an elastic beam under a collocated contact force, free flight in "
@@ -139,11 +92,8 @@ std::vector<MethodDescriptor> make_descriptors() {
        .implicit = true,
        .sundials = true,
        .audit_interval = 4,
-       .tables = [] { return list_of(Method::dirk, dirk_tables()); },
-       .make =
-           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
-             return make_arkode_dirk(beam, one_step_options<ArkOptions>(input, used));
-           }},
+       .tables = dirk_tables,
+       .make = make_arkode_dirk},
       {.kind = Method::imex,
        .name = "imex",
        .note = "implicit for bending, explicit for the contact force (ARKODE): dirk with simpler "
@@ -151,11 +101,8 @@ std::vector<MethodDescriptor> make_descriptors() {
        .implicit = true,
        .sundials = true,
        .audit_interval = 4,
-       .tables = [] { return list_of(Method::imex, imex_tables()); },
-       .make =
-           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
-             return make_arkode_imex(beam, one_step_options<ArkOptions>(input, used));
-           }},
+       .tables = imex_tables,
+       .make = make_arkode_imex},
       // To a multistep method a restart at each reversal costs more than the reversal's error.
       {.kind = Method::adams,
        .name = "adams",
@@ -166,10 +113,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .reversals = ReversalHandling::step_end,
        .audit_interval = 64,
        .order = {{adams_order_limit, usual_adams_order}},
-       .make =
-           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
-             return make_cvode_adams(beam, multistep_options(input, used));
-           }},
+       .make = make_cvode_adams},
       {.kind = Method::bdf,
        .name = "bdf",
        .note = "backward differentiation (CVODE): for tolerances of 1e-7 and below; at looser "
@@ -180,10 +124,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .reversals = ReversalHandling::step_end,
        .audit_interval = 64,
        .order = {{bdf_order_limit, usual_bdf_order}},
-       .make =
-           [](const Options& input, const ResolvedSettings& used, StruckBeam& beam) {
-             return make_cvode_bdf(beam, multistep_options(input, used));
-           }},
+       .make = make_cvode_bdf},
   };
 }
 
@@ -213,8 +154,11 @@ const std::vector<MethodTable>& method_tables() {
   static const std::vector<MethodTable> tables = [] {
     std::vector<MethodTable> list;
     for (const MethodDescriptor& descriptor : methods()) {
-      if (descriptor.tables == nullptr) continue;
-      for (MethodTable& table : descriptor.tables()) list.push_back(std::move(table));
+      if (!descriptor.tables) continue;
+      for (const CoefficientTable& table : descriptor.tables()) {
+        list.push_back({descriptor.kind, table.name, table.order, table.embedded_order,
+                        table.evaluations, table.note});
+      }
     }
     return list;
   }();

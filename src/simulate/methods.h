@@ -1,14 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
+#include "integrate/coefficient_table.h"
+#include "integrate/options.h"
 #include "ode/integrator.h"
 #include "subimpact/simulate/method_tables.h"
 #include "subimpact/simulate/options.h"
-#include "subimpact/simulate/result.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {
@@ -56,9 +57,8 @@ struct MethodDescriptor {
   double radians_per_evaluation = 0.0;
 
   /// Coefficients that solver.table may name, the default first; none for a method without tables.
-  std::vector<MethodTable> (*tables)() = nullptr;
-  std::unique_ptr<Integrator> (*make)(const Options&, const ResolvedSettings&,
-                                      StruckBeam&) = nullptr;
+  std::function<std::vector<CoefficientTable>()> tables = {};
+  std::function<std::unique_ptr<Integrator>(StruckBeam&, const IntegratorOptions&)> make = {};
 };
 
 /// All methods, in the order in which they are listed.

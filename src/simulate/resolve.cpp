@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "integrate/klu_mass_solver.h"
@@ -41,8 +40,8 @@ constexpr double correction_share = 1.0;
 
 std::vector<std::string> tables_of(const MethodDescriptor& method) {
   std::vector<std::string> names;
-  if (method.tables == nullptr) return names;
-  for (const MethodTable& table : method.tables()) names.push_back(table.name);
+  if (!method.tables) return names;
+  for (const CoefficientTable& table : method.tables()) names.push_back(table.name);
   return names;
 }
 
@@ -163,15 +162,11 @@ double energy_tolerance(const Options& options, const ResolvedSettings& used) {
 // Whether an elastic beam on this mesh is integrated in its natural modes. Explicit methods see the
 // same motion in either unknowns, but a step in modes needs no mass solve.
 bool in_modes(const Options& options, const BeamMesh& mesh) {
-  switch (descriptor_of(options.solver.method).modes) {
-    case MethodDescriptor::Modes::always:
-      return true;
-    case MethodDescriptor::Modes::where_cheaper:
-      return mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded;
-    case MethodDescriptor::Modes::never:
-      return false;
+  const MethodDescriptor::Modes modes = descriptor_of(options.solver.method).modes;
+  if (modes != MethodDescriptor::Modes::where_cheaper) {
+    return modes == MethodDescriptor::Modes::always;
   }
-  return false;
+  return mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded;
 }
 
 SectionField make_sections(const Problem& problem, SectionField::Storage storage) {
@@ -325,7 +320,15 @@ RunParts::RunParts(const Problem& problem, const Options& options, StruckBeam st
       run(run_options(problem, options, settings, beam.mesh())) {}
 
 std::unique_ptr<Integrator> RunParts::make_integrator() {
-  return descriptor_of(given.solver.method).make(given, settings, beam);
+  const bool library = given.study.vector_operations == VectorOperationsKind::library;
+  const IntegratorOptions options{
+      .relative_tolerance = given.solver.rtol,
+      .fixed_step = settings.step,
+      .max_step = given.solver.max_step,
+      .table = settings.table.value_or(""),
+      .max_order = settings.max_order.value_or(0),
+      .vector_operations = library ? VectorOperations::library : VectorOperations::project};
+  return descriptor_of(given.solver.method).make(beam, options);
 }
 
 ResolvedRun::ResolvedRun(std::unique_ptr<RunParts> parts) : parts_(std::move(parts)) {}

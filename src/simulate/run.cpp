@@ -6,7 +6,6 @@
 #include <chrono>
 #include <new>
 
-#include "simulate/observers.h"
 #include "simulate/recorder.h"
 #include "simulate/run_parts.h"
 #include "subimpact/model/contact_law_check.h"
@@ -22,6 +21,37 @@ constexpr long proof_interval = 32;
 constexpr long fewest_steps_in_contact = 8;
 
 constexpr double us = 1e6;  // per second
+
+// The program's own recorder with a user's observer behind it.
+class Observers final : public RunObserver {
+ public:
+  Observers(RunObserver& recorder, Observer& guest) : recorder_(recorder), guest_(guest) {}
+
+  void on_step(const ObservedStep& step, StruckBeam& beam) override {
+    recorder_.on_step(step, beam);
+  }
+  void on_accepted(double time, const State& y, StruckBeam& beam) override {
+    recorder_.on_accepted(time, y, beam);
+    guest_.on_step({time, y, beam});
+  }
+  void on_reversal(const Transition& reversal) override {
+    recorder_.on_reversal(reversal);
+    guest_.on_reversal(reversal);
+  }
+  void before_event(const Transition& event, const State& y, StruckBeam& beam) override {
+    recorder_.before_event(event, y, beam);
+    guest_.before_event(event, {event.time, y, beam});
+  }
+  void after_event(const Transition& event, const State& y, StruckBeam& beam) override {
+    recorder_.after_event(event, y, beam);
+    guest_.after_event(event, {event.time, y, beam});
+  }
+  bool audits_events() const override { return recorder_.audits_events(); }
+
+ private:
+  RunObserver& recorder_;
+  Observer& guest_;
+};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 
 #include "integrate/stability.h"
 #include "numerics/bracketed_root.h"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "study/error_part.h"
 
 namespace subimpact {

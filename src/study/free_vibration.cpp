@@ -1,9 +1,10 @@
 #include "study/free_vibration.h"
 
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <vector>
+
+#include "integrate/stability.h"
 
 namespace subimpact {
 namespace {
@@ -56,12 +57,8 @@ FreeVibration::Amplitudes FreeVibration::run(std::size_t mode, double step, int 
 double FreeVibration::growth(std::size_t mode, double step, int n_steps) {
   const Amplitudes first = run(mode, step, n_steps, {1.0, 0.0});
   const Amplitudes second = run(mode, step, n_steps, {0.0, 1.0});
-  const double half_trace = 0.5 * (first.displacement + second.velocity);
-  const double determinant =
-      first.displacement * second.velocity - first.velocity * second.displacement;
-  const std::complex<double> root =
-      std::sqrt(std::complex<double>(half_trace * half_trace - determinant, 0.0));
-  const double radius = std::max(std::abs(half_trace + root), std::abs(half_trace - root));
+  const double radius = spectral_radius(
+      {{{first.displacement, second.displacement}, {first.velocity, second.velocity}}});
   if (!std::isfinite(radius)) return std::numeric_limits<double>::infinity();
   return std::pow(radius, 1.0 / n_steps);
 }

@@ -2,6 +2,7 @@
 
 #include "simulate/methods.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 
@@ -21,6 +22,15 @@ Case with_method(const Case& input, const std::string& name) {
   const bool fixed = descriptor_of(chosen.solver.method).steps == MethodDescriptor::Steps::fixed;
   if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
   return chosen;
+}
+
+bool can_run(const Case& input) {
+  try {
+    resolve(input);
+    return true;
+  } catch (const InvalidCase&) {
+    return false;
+  }
 }
 
 }  // namespace subimpact

@@ -11,4 +11,7 @@ namespace subimpact {
 /// for this method. Throws InvalidCase for an unknown name.
 Case with_method(const Case& input, const std::string& name);
 
+/// Whether resolve() takes the case.
+bool can_run(const Case& input);
+
 }  // namespace subimpact

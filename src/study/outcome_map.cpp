@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
+#include <span>
 
 #include "case/counted.h"
 #include "study/method_choice.h"
@@ -22,15 +24,6 @@ struct Trial {
   Case input;
 };
 
-bool accepts(const Case& input) {
-  try {
-    resolve(input);
-    return true;
-  } catch (const InvalidCase&) {
-    return false;
-  }
-}
-
 class Trials {
  public:
   Trials(const Case& input, const std::vector<std::string>& methods)
@@ -39,42 +32,39 @@ class Trials {
   }
 
   void add_steps(const std::string& row, const std::string& method, bool forced = false) {
-    if (!asked_for(methods_, method)) return;
-    Case chosen = with_method(input_, method);
-    if (!accepts_method(chosen)) return;
-    chosen.study.beyond_critical = forced;
-    for (const double angle : angles) {
+    add("fixed step", row, method, angles, [&](Case& chosen, double angle) {
+      chosen.study.beyond_critical = forced;
       chosen.solver.step = angle / highest_frequency_;
-      add("fixed step", row, angle, chosen);
-    }
+    });
   }
 
   void add_tolerances(const std::string& row, const std::string& method,
                       std::optional<int> max_order = {}) {
-    if (!asked_for(methods_, method)) return;
-    Case chosen = with_method(input_, method);
-    if (!accepts_method(chosen)) return;
-    chosen.solver.max_order = max_order;
-    for (const double rtol : tolerances) {
+    add("tolerance", row, method, tolerances, [&](Case& chosen, double rtol) {
+      chosen.solver.max_order = max_order;
       chosen.solver.rtol = rtol;
-      add("tolerance", row, rtol, chosen);
-    }
+    });
   }
 
   std::vector<Trial> list;
 
  private:
-  static bool accepts_method(Case chosen) {
-    chosen.solver.step.reset();
-    return accepts(chosen);
-  }
-  void add(const char* group, const std::string& row, double x, const Case& chosen) {
-    Trial trial;
-    trial.point.group = group;
-    trial.point.row = row;
-    trial.point.x = x;
-    trial.input = chosen;
-    list.push_back(trial);
+  // One trial per x, in a row of its own, if the method can run the case at all.
+  template <class Set>
+  void add(const char* group, const std::string& row, const std::string& method,
+           std::span<const double> all, Set set) {
+    if (!asked_for(methods_, method)) return;
+    Case chosen = with_method(input_, method);
+    Case without_step = chosen;
+    without_step.solver.step.reset();
+    if (!can_run(without_step)) return;
+    for (const double x : all) {
+      set(chosen, x);
+      list.push_back({{}, chosen});
+      list.back().point.group = group;
+      list.back().point.row = row;
+      list.back().point.x = x;
+    }
   }
 
   Case input_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <future>
-#include <limits>
 
 #include "case/problem.h"
 #include "study/method_choice.h"

@@ -18,21 +18,13 @@ const HistoryRow& row_at(const Result& result, double time) {
 
 StrikePart part(const Result& result, StrikePart::Kind kind, int zone, int subzone, double start,
                 double end) {
-  const HistoryRow& first = row_at(result, start);
-  const HistoryRow& last = row_at(result, end);
   return {kind,
           zone,
           subzone,
           start,
           end,
-          first.bending_elastic,
-          last.bending_elastic,
-          first.striker_energy,
-          last.striker_energy};
-}
-
-double end_of(const SubImpact& s, const Result& result) {
-  return s.end.value_or(result.outcome.time);
+          row_at(result, start).bending_elastic,
+          row_at(result, end).bending_elastic};
 }
 
 }  // namespace
@@ -55,10 +47,10 @@ std::optional<StrikeAccount> account_of(const Result& result) {
     const std::size_t zone_last = last_where(first, same_zone);
     const int zone = hits[first].zone;
     account.parts.push_back(
-        part(result, Kind::zone, zone, 0, hits[first].start, end_of(hits[zone_last], result)));
+        part(result, Kind::zone, zone, 0, hits[first].start, result.end_of(hits[zone_last])));
     for (std::size_t i = first; i <= zone_last;) {
       const std::size_t last = last_where(i, same_subzone);
-      const double end = end_of(hits[last], result);
+      const double end = result.end_of(hits[last]);
       account.parts.push_back(
           part(result, Kind::subzone, zone, hits[i].subzone, hits[i].start, end));
       if (last < zone_last) {
@@ -69,11 +61,11 @@ std::optional<StrikeAccount> account_of(const Result& result) {
     }
     if (zone_last + 1 < hits.size()) {
       account.parts.push_back(part(result, Kind::separation, zone, 0,
-                                   end_of(hits[zone_last], result), hits[zone_last + 1].start));
+                                   result.end_of(hits[zone_last]), hits[zone_last + 1].start));
     }
     first = zone_last + 1;
   }
-  account.strike_end = end_of(hits.back(), result);
+  account.strike_end = result.end_of(hits.back());
   account.elastic_at_end = row_at(result, account.strike_end).bending_elastic;
   double lowest = result.history.front().striker_energy;
   for (const HistoryRow& row : result.history) {

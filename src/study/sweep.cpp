@@ -15,15 +15,6 @@ constexpr int n_halvings = 8;
 constexpr int loosest_decade = -2;
 constexpr int tightest_decade = -12;
 
-bool can_run(const Case& input, const std::string& method) {
-  try {
-    resolve(with_method(input, method));
-    return true;
-  } catch (const InvalidCase&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 std::string Setting::text() const {
@@ -65,7 +56,7 @@ std::vector<std::string> default_methods(const Case& input) {
        {"central-difference", "exponential", "nystrom:dprkn8", "nystrom:dprkn12", "erk:dop853",
         "erk:dormand-prince", "erk:verner", "erk:bogacki-shampine", "adams", "bdf",
         "dirk:esdirk547", "imex:ark437"}) {
-    if (can_run(input, method)) methods.push_back(method);
+    if (can_run(with_method(input, method))) methods.push_back(method);
   }
   return methods;
 }

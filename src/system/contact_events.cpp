@@ -1,8 +1,6 @@
 #include "system/contact_events.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "numerics/hermite.h"
 
@@ -74,17 +72,11 @@ std::optional<Crossing> find_crossing(const ContactState& contact, const Indenta
     }
     if (found && !(earliest && earliest->guess <= found->guess)) earliest = found;
   };
-  switch (contact.branch()) {
-    case ContactBranch::separated:
-      consider(EventKind::contact_begins);
-      break;
-    case ContactBranch::elastic:
-      consider(EventKind::contact_ends);
-      consider(EventKind::contact_yields);
-      break;
-    case ContactBranch::plastic:
-      consider(EventKind::contact_unloads);
-      break;
+  if (contact.branch() == ContactBranch::separated) consider(EventKind::contact_begins);
+  if (contact.branch() == ContactBranch::plastic) consider(EventKind::contact_unloads);
+  if (contact.branch() == ContactBranch::elastic) {
+    consider(EventKind::contact_ends);
+    consider(EventKind::contact_yields);
   }
   return earliest;
 }

@@ -58,9 +58,7 @@ EventFreeHorizon FreeFlight::make_horizon() const {
 }
 
 void FreeFlight::restart(double t, const State& y) {
-  t0_ = t1_ = t;
-  y0_ = y;
-  y1_ = y;
+  stand_at(t, y);
   other_->restart(t, y);
   other_is_current_ = true;
   flying_ = false;

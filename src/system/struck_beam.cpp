@@ -5,16 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "model/contact_laws.h"
-
 namespace subimpact {
-
-StruckBeam::StruckBeam(const Scene& scene, std::shared_ptr<const BeamMesh> mesh,
-                       SectionField sections, std::unique_ptr<MassSolver> mass_solver)
-    : StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), make_contact_law(scene),
-                                 scene.striker.mass, scene.striker.velocity,
-                                 0.5 * scene.beam.youngs_modulus * scene.beam.thickness,
-                                 std::move(mass_solver)}) {}
 
 StruckBeam::StruckBeam(StruckBeamParts parts)
     : mesh_(std::move(parts.mesh)),

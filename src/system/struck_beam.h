@@ -44,9 +44,6 @@ struct SectionMotion {
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
-  /// With the striker and the contact law of a scene.
-  StruckBeam(const Scene& scene, std::shared_ptr<const BeamMesh> mesh, SectionField sections,
-             std::unique_ptr<MassSolver> mass_solver);
 
   std::size_t n_positions() const override { return n_ + 1; }
   void acceleration(std::span<const double> positions, std::span<double> result) override;

@@ -13,7 +13,7 @@ namespace {
 
 State run(SpringChain& chain, const std::string& table, VectorOperations operations,
           std::optional<double> fixed_step, long* steps = nullptr) {
-  ErkOptions options;
+  IntegratorOptions options;
   options.table = table;
   options.relative_tolerance = 1e-7;
   options.fixed_step = fixed_step;
@@ -60,7 +60,7 @@ TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
   AnyMotion motion(
       1, [](std::span<const double> q, std::span<double> a) { a[0] = 6.0 * q[0] * q[0]; });
   for (const CoefficientTable& table : explicit_tables()) {
-    ErkOptions options;
+    IntegratorOptions options;
     options.table = table.name;
     const auto integrator = make_arkode_erk(motion, options);
     integrator->restart(0.0, {1.0, 2.0});
@@ -80,14 +80,19 @@ TEST(ExplicitTables, AreFoundByNameAndNoOtherNameIs) {
   SpringChain chain(2);
   for (const CoefficientTable& table : explicit_tables()) {
     EXPECT_GT(table.order, table.embedded_order) << table.name;
-    ErkOptions options;
+    IntegratorOptions options;
     options.table = table.name;
     EXPECT_NO_THROW(make_arkode_erk(chain, options));
   }
-  ErkOptions unknown;
+  IntegratorOptions unknown;
   unknown.table = "no-such-table";
   EXPECT_THROW(make_arkode_erk(chain, unknown), std::invalid_argument);
-  EXPECT_EQ(explicit_tables().front().name, ErkOptions{}.table);
+}
+
+TEST(ExplicitTables, TheFirstIsTakenWhereNoneIsNamed) {
+  SpringChain chain(3);
+  const auto by_name = run(chain, explicit_tables().front().name, VectorOperations::project, 0.1);
+  EXPECT_EQ(run(chain, "", VectorOperations::project, 0.1), by_name);
 }
 
 }  // namespace

@@ -17,10 +17,10 @@ namespace {
 struct Family {
   std::string name;
   int max_order;
-  std::function<std::unique_ptr<Integrator>(MechanicalSystem&, const CvodeOptions&)> make;
+  std::function<std::unique_ptr<Integrator>(MechanicalSystem&, const IntegratorOptions&)> make;
 
   std::unique_ptr<Integrator> with_tolerance(MechanicalSystem& system, double rtol) const {
-    CvodeOptions options;
+    IntegratorOptions options;
     options.max_order = max_order;
     options.relative_tolerance = rtol;
     return make(system, options);
@@ -150,7 +150,7 @@ TEST(BdfOnTheImaginaryAxis, OrdersAboveTwoLetAFastOscillationGrow) {
   const double seed = 1e-10;
   for (int order = 1; order <= bdf_order_limit; ++order) {
     Oscillators pair(Eigen::Vector2d(1.0, fast), Eigen::Vector2d(1.0, seed));
-    CvodeOptions options;
+    IntegratorOptions options;
     options.max_order = order;
     options.relative_tolerance = 1e-6;
     options.max_step = 1.0 / fast;

@@ -34,7 +34,7 @@ class Pair final : public ForcedOscillators {
   std::vector<double> displacements_{-1.0, 1.0};
 };
 
-State integrate_pair(const ExponentialOptions& options, double end_time, bool free = false) {
+State integrate_pair(const IntegratorOptions& options, double end_time, bool free = false) {
   auto pair = std::make_unique<Pair>();
   pair->free = free;
   Exponential method(std::move(pair), options);

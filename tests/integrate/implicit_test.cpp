@@ -18,18 +18,18 @@ namespace {
 struct ImplicitMethod {
   std::string name;
   CoefficientTable table;
-  std::unique_ptr<Integrator> (*make)(MechanicalSystem&, const ArkOptions&);
+  std::unique_ptr<Integrator> (*make)(MechanicalSystem&, const IntegratorOptions&);
 
   std::unique_ptr<Integrator> with_step(MechanicalSystem& system, double step,
                                         double newton_tolerance = 1e-13) const {
-    ArkOptions options;
+    IntegratorOptions options;
     options.table = table.name;
     options.fixed_step = step;
     options.relative_tolerance = newton_tolerance;
     return make(system, options);
   }
   std::unique_ptr<Integrator> with_tolerance(MechanicalSystem& system, double rtol) const {
-    ArkOptions options;
+    IntegratorOptions options;
     options.table = table.name;
     options.relative_tolerance = rtol;
     return make(system, options);
@@ -131,7 +131,7 @@ TEST_P(ImplicitOrder, InsideStepsIsTheTables) {
 // |R(i omega h)| after one step of an oscillator.
 double amplification(const std::string& table, double angle) {
   Oscillators one(Eigen::VectorXd::Ones(1), Eigen::VectorXd::Ones(1));
-  ArkOptions options;
+  IntegratorOptions options;
   options.table = table;
   options.fixed_step = angle;
   options.relative_tolerance = 1e-13;
@@ -285,7 +285,7 @@ TEST_P(Implicit, WhatForceOrStiffnessThrowsComesOutWhole) {
 
 TEST_P(Implicit, AnUnknownTableIsRefused) {
   CurvedSystem system;
-  ArkOptions options;
+  IntegratorOptions options;
   options.table = "dop853";
   EXPECT_THROW(GetParam().make(system, options), std::invalid_argument);
 }

@@ -31,7 +31,7 @@ inline std::vector<ExplicitMethod> adaptive_methods() {
   std::vector<ExplicitMethod> methods;
   for (const CoefficientTable& table : explicit_tables()) {
     const auto make = [name = table.name](SecondOrderOde& ode, auto set) {
-      ErkOptions options;
+      IntegratorOptions options;
       options.table = name;
       set(options);
       return make_arkode_erk(ode, options);
@@ -39,15 +39,16 @@ inline std::vector<ExplicitMethod> adaptive_methods() {
     methods.push_back(
         {"erk_" + table.name, table.order, 0.3, table.evaluations,
          [make](SecondOrderOde& ode, double step) {
-           return make(ode, [step](ErkOptions& options) { options.fixed_step = step; });
+           return make(ode, [step](IntegratorOptions& options) { options.fixed_step = step; });
          },
          [make](SecondOrderOde& ode, double rtol) {
-           return make(ode, [rtol](ErkOptions& options) { options.relative_tolerance = rtol; });
+           return make(ode,
+                       [rtol](IntegratorOptions& options) { options.relative_tolerance = rtol; });
          }});
   }
   for (const NystromTable& table : nystrom_tables()) {
     const auto make = [name = table.name](SecondOrderOde& ode, auto set) {
-      NystromOptions options;
+      IntegratorOptions options;
       options.table = name;
       set(options);
       return std::unique_ptr<Integrator>(std::make_unique<Nystrom>(ode, options));
@@ -56,10 +57,11 @@ inline std::vector<ExplicitMethod> adaptive_methods() {
     methods.push_back(
         {"nystrom_" + table.name, table.order, table.order > 8 ? 1.0 : 0.5, table.evaluations,
          [make](SecondOrderOde& ode, double step) {
-           return make(ode, [step](NystromOptions& options) { options.fixed_step = step; });
+           return make(ode, [step](IntegratorOptions& options) { options.fixed_step = step; });
          },
          [make](SecondOrderOde& ode, double rtol) {
-           return make(ode, [rtol](NystromOptions& options) { options.relative_tolerance = rtol; });
+           return make(ode,
+                       [rtol](IntegratorOptions& options) { options.relative_tolerance = rtol; });
          }});
   }
   return methods;

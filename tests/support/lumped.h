@@ -13,6 +13,7 @@
 #include "model/modal_mesh.h"
 #include "simulate/event_loop.h"
 #include "simulate/recorder.h"
+#include "struck_beam_of.h"
 #include "system/modal_beam.h"
 
 namespace subimpact {
@@ -44,8 +45,7 @@ struct TwoBodies {
     scene.striker = {striker_mass, 0.5, velocity, 0.5};
     std::unique_ptr<BeamMesh> mesh = std::make_unique<LumpedMesh>(target_mass);
     if (in_modes) mesh = std::make_unique<ModalMesh>(std::move(mesh), spring);
-    auto solver = std::make_unique<BandedSolver>(mesh->mass());
-    return StruckBeam(scene, std::move(mesh), SectionField(1, spring), std::move(solver));
+    return struck_beam_of(scene, std::move(mesh), SectionField(1, spring));
   }
 };
 
@@ -61,12 +61,12 @@ struct Way {
   std::unique_ptr<Integrator> make(StruckBeam& beam) const {
     if (in_modes()) {
       return std::make_unique<Exponential>(std::make_unique<ModalBeam>(beam),
-                                           ExponentialOptions{rtol, fixed_step, {}});
+                                           IntegratorOptions{rtol, fixed_step});
     }
     if (table.rfind("dprkn", 0) == 0) {
-      return std::make_unique<Nystrom>(beam, NystromOptions{table, rtol, fixed_step, {}});
+      return std::make_unique<Nystrom>(beam, IntegratorOptions{rtol, fixed_step, {}, table});
     }
-    ErkOptions options;
+    IntegratorOptions options;
     options.table = table;
     options.relative_tolerance = rtol;
     options.fixed_step = fixed_step;

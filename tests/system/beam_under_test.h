@@ -11,7 +11,7 @@
 #include "model/cell_mesh.h"
 #include "paper_scene.h"
 #include "random_walk.h"
-#include "system/struck_beam.h"
+#include "struck_beam_of.h"
 
 namespace subimpact {
 
@@ -41,8 +41,7 @@ inline StruckBeam make_beam(const Model& model) {
   SectionField sections =
       model.yields ? SectionField(mesh->n_sections(), SectionLaw(scene.beam, Fibres::continuous()))
                    : SectionField(mesh->n_sections(), scene.beam.bending_stiffness());
-  auto solver = std::make_unique<BandedSolver>(mesh->mass());
-  return StruckBeam(scene, std::move(mesh), std::move(sections), std::move(solver));
+  return struck_beam_of(scene, std::move(mesh), std::move(sections));
 }
 
 /// A smooth random motion: the beam bent to about `bending` yield curvatures, the nose pressed in

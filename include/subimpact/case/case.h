@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "subimpact/model/beam_mesh.h"
 #include "subimpact/model/contact_law.h"

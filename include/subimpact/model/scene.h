@@ -4,6 +4,7 @@
 /// with a round nose. SI units. Nothing here depends on discretisation or time stepping.
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -40,8 +41,8 @@ struct Beam {
   }  ///< 1/m
   double yield_moment() const {
     return yield_stress * width * thickness * thickness / 6.0;
-  }                                   ///< N m
-  double radius_of_gyration() const;  ///< r, m
+  }                                                                                  ///< N m
+  double radius_of_gyration() const { return std::sqrt(second_moment() / area()); }  ///< r, m
   /// Whether nothing holds the beam, so that it conserves momentum.
   bool is_free() const { return ends[0] == EndSupport::free && ends[1] == EndSupport::free; }
   /// J = rho I (kg m), or zero in Euler-Bernoulli theory.

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "subimpact/io/read_results.h"
 #include "subimpact/report/figures.h"

@@ -2,7 +2,6 @@
 
 /// Sub-impacts, assembled from events.
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 

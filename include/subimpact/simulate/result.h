@@ -176,6 +176,9 @@ struct Result {
   /// Whether the whole result passed every check. If not, the part up to
   /// outcome.first_failure->from did.
   bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
+  /// The end of a sub-impact, s: that of the run for one that was still open.
+  double end_of(const SubImpact& s) const { return s.end.value_or(outcome.time); }
+
   /// One line: outcome, sub-impacts, error of the energy, steps and time.
   std::string brief_report() const;
   /// The brief report, warnings, and the settings given beside the settings used. For tables of

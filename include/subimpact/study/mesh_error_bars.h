@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/error_bars.h"

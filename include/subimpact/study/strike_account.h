@@ -19,8 +19,6 @@ struct StrikePart {
   double end = 0.0;            ///< s
   double elastic_start = 0.0;  ///< U_e, J
   double elastic_end = 0.0;    ///< J
-  double striker_start = 0.0;  ///< U_m, J
-  double striker_end = 0.0;    ///< J
 
   double length() const { return end - start; }
   double elastic_change() const { return elastic_end - elastic_start; }

@@ -31,15 +31,51 @@ constexpr double largest_change_of_gamma = 1e-12;
 
 using Part = MechanicalSystem::Part;
 
-struct DirkOptions : ArkOptions {};
-struct ImexOptions : ArkOptions {};
-
 class ArkSolver : private SolverFrame {
  public:
-  ArkSolver(MechanicalSystem& system, const DirkOptions& options, SUNContext context)
-      : ArkSolver(system, options, Part::all, {load_dirk_table(options.table), nullptr}, context) {}
-  ArkSolver(MechanicalSystem& system, const ImexOptions& options, SUNContext context)
-      : ArkSolver(system, options, Part::stiff, load_imex_tables(options.table), context) {}
+  ArkSolver(MechanicalSystem& system, const IntegratorOptions& options, SUNContext context,
+            Part implicit_part)
+      : SolverFrame(system, options.relative_tolerance, context),
+        system_(system),
+        implicit_part_(implicit_part),
+        y_(make_vector(2 * n_positions_, context, options.vector_operations)),
+        matrices_(system, implicit_part, y_.get(), context) {
+    N_VConst(0.0, y_.get());
+    const ButcherTablePair tables = implicit_part == Part::all
+                                        ? ButcherTablePair{load_dirk_table(options.table), nullptr}
+                                        : load_imex_tables(options.table);
+    const ARKRhsFn explicit_rate = implicit_part == Part::all ? nullptr : rate_of_rest;
+    memory_.reset(ARKStepCreate(explicit_rate, implicit_rate, 0.0, y_.get(), context));
+    void* memory = memory_.get();
+    if (!memory) throw IntegrationFailure(0.0, "ARKStepCreate", "no memory", "");
+    check(ARKStepSetUserData(memory, user_data()), "ARKStepSetUserData");
+#if SUNDIALS_VERSION_MAJOR < 7
+    check(ARKStepSetErrHandlerFn(memory, keep_message, user_data()), "ARKStepSetErrHandlerFn");
+#endif
+    check(ARKStepWFtolerances(memory, error_weights), "ARKStepWFtolerances");
+    check(ARKStepSetTables(memory, tables.implicit->q, tables.implicit->p, tables.implicit.get(),
+                           tables.explicit_part.get()),
+          "ARKStepSetTables");
+    check(ARKStepSetMassLinearSolver(memory, matrices_.mass_solver(), matrices_.mass_matrix(),
+                                     SUNFALSE),
+          "ARKStepSetMassLinearSolver");
+    check(ARKStepSetMassFn(memory, mass), "ARKStepSetMassFn");
+    check(ARKStepSetLinearSolver(memory, matrices_.newton_solver(), matrices_.newton_matrix()),
+          "ARKStepSetLinearSolver");
+    check(ARKStepSetLinSysFn(memory, newton_matrix), "ARKStepSetLinSysFn");
+    // Dense output is not used, and Lagrange interpolation costs no evaluation.
+    check(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
+    check(ARKStepSetMaxNumSteps(memory, -1), "ARKStepSetMaxNumSteps");
+    check(ARKStepSetLSetupFrequency(memory, steps_per_matrix), "ARKStepSetLSetupFrequency");
+    check(ARKStepSetJacEvalFrequency(memory, steps_per_matrix), "ARKStepSetJacEvalFrequency");
+    check(ARKStepSetDeltaGammaMax(memory, largest_change_of_gamma), "ARKStepSetDeltaGammaMax");
+    check(ARKStepSetMaxNonlinIters(memory, max_iterations), "ARKStepSetMaxNonlinIters");
+    check(ARKStepSetNonlinCRDown(memory, fastest_fall_of_rate), "ARKStepSetNonlinCRDown");
+    if (options.max_step) {
+      check(ARKStepSetMaxStep(memory, *options.max_step), "ARKStepSetMaxStep");
+    }
+    if (options.fixed_step) set_fixed_step(*options.fixed_step);
+  }
 
   void set_fixed_step(double step) {
     check(ARKStepSetFixedStep(memory_.get(), step), "ARKStepSetFixedStep");
@@ -79,47 +115,6 @@ class ArkSolver : private SolverFrame {
   struct FreeMemory {
     void operator()(void* memory) const { ARKStepFree(&memory); }
   };
-
-  ArkSolver(MechanicalSystem& system, const ArkOptions& options, Part implicit_part,
-            const ButcherTablePair& tables, SUNContext context)
-      : SolverFrame(system, options.relative_tolerance, context),
-        system_(system),
-        implicit_part_(implicit_part),
-        y_(make_vector(2 * n_positions_, context, options.vector_operations)),
-        matrices_(system, implicit_part, y_.get(), context) {
-    N_VConst(0.0, y_.get());
-    const ARKRhsFn explicit_rate = implicit_part == Part::all ? nullptr : rate_of_rest;
-    memory_.reset(ARKStepCreate(explicit_rate, implicit_rate, 0.0, y_.get(), context));
-    void* memory = memory_.get();
-    if (!memory) throw IntegrationFailure(0.0, "ARKStepCreate", "no memory", "");
-    check(ARKStepSetUserData(memory, user_data()), "ARKStepSetUserData");
-#if SUNDIALS_VERSION_MAJOR < 7
-    check(ARKStepSetErrHandlerFn(memory, keep_message, user_data()), "ARKStepSetErrHandlerFn");
-#endif
-    check(ARKStepWFtolerances(memory, error_weights), "ARKStepWFtolerances");
-    check(ARKStepSetTables(memory, tables.implicit->q, tables.implicit->p, tables.implicit.get(),
-                           tables.explicit_part.get()),
-          "ARKStepSetTables");
-    check(ARKStepSetMassLinearSolver(memory, matrices_.mass_solver(), matrices_.mass_matrix(),
-                                     SUNFALSE),
-          "ARKStepSetMassLinearSolver");
-    check(ARKStepSetMassFn(memory, mass), "ARKStepSetMassFn");
-    check(ARKStepSetLinearSolver(memory, matrices_.newton_solver(), matrices_.newton_matrix()),
-          "ARKStepSetLinearSolver");
-    check(ARKStepSetLinSysFn(memory, newton_matrix), "ARKStepSetLinSysFn");
-    // Dense output is not used, and Lagrange interpolation costs no evaluation.
-    check(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
-    check(ARKStepSetMaxNumSteps(memory, -1), "ARKStepSetMaxNumSteps");
-    check(ARKStepSetLSetupFrequency(memory, steps_per_matrix), "ARKStepSetLSetupFrequency");
-    check(ARKStepSetJacEvalFrequency(memory, steps_per_matrix), "ARKStepSetJacEvalFrequency");
-    check(ARKStepSetDeltaGammaMax(memory, largest_change_of_gamma), "ARKStepSetDeltaGammaMax");
-    check(ARKStepSetMaxNonlinIters(memory, max_iterations), "ARKStepSetMaxNonlinIters");
-    check(ARKStepSetNonlinCRDown(memory, fastest_fall_of_rate), "ARKStepSetNonlinCRDown");
-    if (options.max_step) {
-      check(ARKStepSetMaxStep(memory, *options.max_step), "ARKStepSetMaxStep");
-    }
-    if (options.fixed_step) set_fixed_step(*options.fixed_step);
-  }
 
   static int implicit_rate(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
     auto& self = static_cast<ArkSolver&>(of(frame));
@@ -172,12 +167,14 @@ class ArkSolver : private SolverFrame {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system, const ArkOptions& options) {
-  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, DirkOptions{options});
+std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system,
+                                             const IntegratorOptions& options) {
+  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, options, Part::all);
 }
 
-std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system, const ArkOptions& options) {
-  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, ImexOptions{options});
+std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system,
+                                             const IntegratorOptions& options) {
+  return std::make_unique<OneStepIntegrator<ArkSolver>>(system, options, Part::stiff);
 }
 
 }  // namespace subimpact

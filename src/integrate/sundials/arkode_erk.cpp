@@ -14,11 +14,11 @@ namespace {
 
 class ErkSolver : private SolverFrame {
  public:
-  ErkSolver(SecondOrderOde& ode, const ErkOptions& options, SUNContext context)
-      : SolverFrame(ode, options.relative_tolerance, context), ode_(ode) {
+  ErkSolver(SecondOrderOde& ode, const IntegratorOptions& options, SUNContext context)
+      : SolverFrame(ode, options.relative_tolerance, context) {
     y_ = make_vector(2 * n_positions_, context, options.vector_operations);
     N_VConst(0.0, y_.get());
-    memory_.reset(ERKStepCreate(right_hand_side, 0.0, y_.get(), context));
+    memory_.reset(ERKStepCreate(rate, 0.0, y_.get(), context));
     if (!memory_) throw IntegrationFailure(0.0, "ERKStepCreate", "no memory", "");
     check(ERKStepSetUserData(memory_.get(), user_data()), "ERKStepSetUserData");
 #if SUNDIALS_VERSION_MAJOR < 7
@@ -68,30 +68,17 @@ class ErkSolver : private SolverFrame {
     void operator()(void* memory) const { ERKStepFree(&memory); }
   };
 
-  static int right_hand_side(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
-    auto& self = static_cast<ErkSolver&>(of(frame));
-    const std::size_t n = self.n_positions_;
-    const auto in = entries(y);
-    const auto out = entries(rate);
-    ++self.right_hand_sides_;
-    return self.guarded([&] {
-      std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
-      self.ode_.acceleration(in.first(n), out.subspan(n));
-    });
-  }
-
   void check(int flag, const char* function) {
     SolverFrame::check(flag, function, ERKStepGetReturnFlagName);
   }
 
-  SecondOrderOde& ode_;
   VectorPointer y_;
   std::unique_ptr<void, FreeMemory> memory_;
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_arkode_erk(SecondOrderOde& ode, const ErkOptions& options) {
+std::unique_ptr<Integrator> make_arkode_erk(SecondOrderOde& ode, const IntegratorOptions& options) {
   return std::make_unique<OneStepIntegrator<ErkSolver>>(ode, options);
 }
 

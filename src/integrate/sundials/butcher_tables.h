@@ -14,11 +14,11 @@ struct FreeButcherTable {
 };
 using ButcherTablePointer = std::unique_ptr<ARKodeButcherTableMem, FreeButcherTable>;
 
-/// The named table, its last stage the next step's first. Throws std::invalid_argument for a name
-/// that is not among explicit_tables().
+/// The named table, its last stage the next step's first; the first of explicit_tables() for an
+/// empty name. Throws std::invalid_argument for a name that is not among them.
 ButcherTablePointer load_explicit_table(const std::string& name);
 
-/// The named table of dirk_tables(). Throws std::invalid_argument for any other name.
+/// The named table of dirk_tables(), likewise. Throws std::invalid_argument for any other name.
 ButcherTablePointer load_dirk_table(const std::string& name);
 
 struct ButcherTablePair {
@@ -26,7 +26,7 @@ struct ButcherTablePair {
   ButcherTablePointer explicit_part;  // none for methods that are implicit throughout
 };
 
-/// The named pair of imex_tables(). Throws std::invalid_argument for any other name.
+/// The named pair of imex_tables(), likewise. Throws std::invalid_argument for any other name.
 ButcherTablePair load_imex_tables(const std::string& name);
 
 }  // namespace subimpact

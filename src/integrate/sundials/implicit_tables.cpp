@@ -1,5 +1,4 @@
 #include <stdexcept>
-#include <utility>
 
 #include "integrate/arkode_ark.h"
 #include "integrate/sundials/butcher_tables.h"
@@ -39,7 +38,8 @@ const Entry entries[] = {
 
 const Entry& find(const std::string& name, bool pair) {
   for (const Entry& entry : entries) {
-    if (entry.name == name && (!pair || entry.explicit_part != ARKODE_ERK_NONE)) return entry;
+    if (pair && entry.explicit_part == ARKODE_ERK_NONE) continue;
+    if (name.empty() || entry.name == name) return entry;
   }
   throw std::invalid_argument(
       (pair ? "unknown pair of Runge-Kutta tables '" : "unknown implicit Runge-Kutta table '") +

@@ -44,7 +44,6 @@ class KluMassSolver final : public MassSolver {
   void solve(std::span<double> x) const override {
     klu_solve(symbolic_, numeric_, size_, 1, x.data(), &common_);
   }
-  std::string name() const override { return "klu"; }
 
  private:
   void release() {

@@ -13,23 +13,21 @@ namespace subimpact {
 /// part of the last step, from its start, with a single step of the required length. So a state
 /// inside a step has the method's own order.
 ///
-/// Solver(arguments..., context) is made twice, the second time with `as_partial` options; it
-/// offers reset(t, y), step(y) -> time reached, set_fixed_step(h), time() and
+/// Solver(ode, options, context, more...) is made twice, the second time with `as_partial` options;
+/// it offers reset(t, y), step(y) -> time reached, set_fixed_step(h), time() and
 /// add_counts(WorkCounts&).
 template <class Solver>
 class OneStepIntegrator final : public Integrator {
  public:
-  template <class Ode, class Options>
-  OneStepIntegrator(Ode& ode, const Options& options)
+  template <class Ode, class... More>
+  OneStepIntegrator(Ode& ode, const IntegratorOptions& options, const More&... more)
       : context_(make_context()),
-        main_(ode, options, context_.get()),
-        partial_(ode, as_partial(options), context_.get()) {}
+        main_(ode, options, context_.get(), more...),
+        partial_(ode, as_partial(options), context_.get(), more...) {}
 
   void restart(double t, const State& y) override {
     main_.reset(t, y);
-    t0_ = t1_ = t;
-    y0_ = y;
-    y1_ = y;
+    stand_at(t, y);
   }
 
   void step() override {
@@ -71,8 +69,7 @@ class OneStepIntegrator final : public Integrator {
   }
 
  private:
-  template <class Options>
-  static Options as_partial(Options options) {
+  static IntegratorOptions as_partial(IntegratorOptions options) {
     options.fixed_step = options.fixed_step.value_or(1.0);  // set anew before every use
     options.max_step.reset();
     return options;

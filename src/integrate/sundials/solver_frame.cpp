@@ -20,12 +20,25 @@ void keep_context_message(int, const char*, const char*, const char* text, SUNEr
 
 SolverFrame::SolverFrame(SecondOrderOde& ode, double relative_tolerance,
                          [[maybe_unused]] SUNContext context)
-    : n_positions_(ode.n_positions()),
+    : ode_(ode),
+      n_positions_(ode.n_positions()),
       position_weight_(1.0 / (relative_tolerance * ode.scales().position)),
       velocity_weight_(1.0 / (relative_tolerance * ode.scales().velocity)) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   SUNContext_PushErrHandler(context, keep_context_message, &message_);
 #endif
+}
+
+int SolverFrame::rate(double, N_Vector y, N_Vector rate, void* frame) {
+  SolverFrame& self = of(frame);
+  const std::size_t n = self.n_positions_;
+  const auto in = entries(y);
+  const auto out = entries(rate);
+  ++self.right_hand_sides_;
+  return self.guarded([&] {
+    std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
+    self.ode_.acceleration(in.first(n), out.subspan(n));
+  });
 }
 
 int SolverFrame::error_weights(N_Vector, N_Vector weights, void* frame) {

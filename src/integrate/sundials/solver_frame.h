@@ -23,6 +23,8 @@ class SolverFrame {
   SolverFrame(const SolverFrame&) = delete;
   SolverFrame& operator=(const SolverFrame&) = delete;
 
+  /// y' = [v, a(q)] of y = [q, v].
+  static int rate(double t, N_Vector y, N_Vector rate, void* frame);
   /// Error weights 1/(rtol * scale) of positions and velocities: evaluated at every step, but
   /// constant.
   static int error_weights(N_Vector y, N_Vector weights, void* frame);
@@ -31,8 +33,6 @@ class SolverFrame {
   static void keep_message(int code, const char* module, const char* function, char* message,
                            void* frame);
 #endif
-
-  long right_hand_sides() const { return right_hand_sides_; }
 
  protected:
   ~SolverFrame() = default;
@@ -55,6 +55,7 @@ class SolverFrame {
   /// is the library's.
   void check(int flag, const char* function, char* (*flag_name)(long int));
 
+  SecondOrderOde& ode_;
   std::size_t n_positions_;
   double time_ = 0.0;  // s, up to which the solution is good
   long right_hand_sides_ = 0;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "integrate/arkode_erk.h"
+#include "integrate/options.h"
 
 namespace subimpact {
 

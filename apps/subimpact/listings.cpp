@@ -24,4 +24,24 @@ void add_keys(CLI::App& program, int& status) {
   });
 }
 
+void add_methods(CLI::App& program, int& status) {
+  CLI::App* command =
+      program.add_subcommand("methods", "List the time integration methods and Butcher tables");
+  command->footer("Example:\n  subimpact methods");
+  command->callback([&status] {
+    fmt::print("{}", method_listing());
+    status = done;
+  });
+}
+
+void add_columns(CLI::App& program, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "columns", "List the columns of the CSV tables that a run writes: units, meanings");
+  command->footer("Example:\n  subimpact columns");
+  command->callback([&status] {
+    fmt::print("{}", column_listing());
+    status = done;
+  });
+}
+
 }  // namespace subimpact::app

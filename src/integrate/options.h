@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace subimpact {
+
+/// Which vector operations SUNDIALS runs on. Debian's library is compiled without optimisation, so
+/// the project brings its own; the library's stay selectable for the comparison.
+enum class VectorOperations { project, library };
+
+/// Settings of an integrator. A method leaves out those that it does not have.
+struct IntegratorOptions {
+  double relative_tolerance = 1e-8;
+  std::optional<double> fixed_step = {};  ///< s; adaptive if empty
+  std::optional<double> max_step = {};    ///< s
+  std::string table = {};                 ///< of Runge-Kutta methods; empty: the method's first
+  int max_order = 0;                      ///< of multistep methods, from 1 to the method's limit
+  VectorOperations vector_operations = VectorOperations::project;  ///< of methods of SUNDIALS
+};
+
+}  // namespace subimpact
