@@ -75,7 +75,9 @@ std::vector<std::string> others(std::vector<std::string> warnings,
 
 ResolvedRun resolve_loaded(const LoadedCase& loaded) {
   try {
-    return resolve(loaded.value);
+    ResolvedRun run = resolve(loaded.value);
+    check_memory(run.settings());
+    return run;
   } catch (const InvalidCase& error) {
     throw CaseFileError(loaded.message(error));
   }

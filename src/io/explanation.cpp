@@ -9,6 +9,7 @@
 #include "case/sections.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
 #include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
@@ -159,6 +160,11 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   } else {
     line("steps", "not predicted for this method and mesh");
   }
+  line("memory", fmt::format("about {:.2g} MB", 1e-6 * used.memory));
+  line("files", input.output.interval > 0.0
+                    ? fmt::format("about {:.2g} MB, {} history rows", 1e-6 * foreseen_bytes(input),
+                                  count_text(input.end_time / input.output.interval))
+                    : "small: no history rows");
   return fmt::to_string(text);
 }
 

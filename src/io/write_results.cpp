@@ -62,9 +62,36 @@ class ResultWriter::RowFile {
   off_t n_written_ = 0;
 };
 
+namespace {
+
+// Of the paper's example.
+constexpr double bytes_per_history_row = 345.0;
+constexpr double bytes_per_section_row = 97.0;
+
+void check_space(const OutputDirectory& directory, const Case& input) {
+  std::error_code error;
+  const auto available = static_cast<double>(fs::space(directory.path(), error).available);
+  const double foreseen = foreseen_bytes(input);
+  if (error || foreseen <= available) return;
+  throw OutputError(
+      fmt::format("{}: the rows of this run take some {:.2g} GB, and the disk has {:.2g} GB free; "
+                  "use a longer output.interval, or choose another directory with --out",
+                  directory.path().string(), 1e-9 * foreseen, 1e-9 * available));
+}
+
+}  // namespace
+
+double foreseen_bytes(const Case& input) {
+  if (!(input.output.interval > 0.0)) return 0.0;
+  const double n_sections = static_cast<double>(input.output.sections.size());
+  return input.end_time / input.output.interval *
+         (bytes_per_history_row + n_sections * bytes_per_section_row);
+}
+
 ResultWriter::ResultWriter(const fs::path& directory, const Case& input)
     : directory_(directory, "run"),
       history_(std::make_unique<RowFile>("history.csv", csv_heading(history_columns()))) {
+  check_space(directory_, input);
   if (input.output.sections.empty()) return;
   sections_ = std::make_unique<RowFile>("sections.csv", csv_heading(sections_columns()));
 }

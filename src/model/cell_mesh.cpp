@@ -202,10 +202,12 @@ double CellMesh::highest_frequency(double bending_stiffness) const {
   return inverse * std::sqrt(bending_stiffness / (mass_per_length_ + rotary_inertia_ * inverse));
 }
 
+bool CellMesh::has_closed_modes() const {
+  return ends_[0] == EndSupport::free && ends_[1] == EndSupport::free;
+}
+
 NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
-  if (ends_[0] != EndSupport::free || ends_[1] != EndSupport::free) {
-    return dense_natural_modes(*this, bending_stiffness);
-  }
+  if (!has_closed_modes()) return dense_natural_modes(*this, bending_stiffness);
   const std::size_t n = n_unknowns();
   NaturalModes modes = free_cell_modes(
       {n_cells_, spacing_, mass_per_length_, rotary_inertia_, bending_stiffness}, symmetric(), n);

@@ -43,6 +43,7 @@ class CellMesh final : public BeamMesh {
   double highest_frequency(double bending_stiffness) const override;
   /// In closed form if both ends are free (see free_cell_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;
+  bool has_closed_modes() const override;
   std::string description() const override;
 
  private:

@@ -438,8 +438,12 @@ bool HermiteMesh::is_chain() const {
   return hinges_.empty() && *longest / *shortest - 1.0 < 1e-14;
 }
 
+bool HermiteMesh::has_closed_modes() const {
+  return is_chain() && subimpact::has_closed_modes(ends_);
+}
+
 bool HermiteMesh::prefers_modes() const {
-  return is_chain() && has_closed_modes(ends_) && n_unknowns() <= most_in_modes;
+  return has_closed_modes() && n_unknowns() <= most_in_modes;
 }
 
 NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {

@@ -63,6 +63,7 @@ class HermiteMesh final : public BeamMesh {
   /// In closed form if all elements are equal, none beside a hinge, and not one end is free, the
   /// other clamped (see hermite_chain_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;
+  bool has_closed_modes() const override;
   /// If they have the closed form, of up to 2000 unknowns.
   bool prefers_modes() const override;
   std::string description() const override;

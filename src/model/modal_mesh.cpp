@@ -108,8 +108,6 @@ BeamMesh::SectionStencil ModalMesh::section_stencil(std::size_t) const {
   throw std::logic_error("modal mesh: a section's curvature depends on all unknowns");
 }
 
-std::string ModalMesh::description() const {
-  return physical_->description() + ", in natural modes";
-}
+std::string ModalMesh::description() const { return physical_->description() + modal_description; }
 
 }  // namespace subimpact

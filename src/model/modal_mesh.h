@@ -7,6 +7,9 @@
 
 namespace subimpact {
 
+/// What the description of a mesh says of it in modes.
+inline constexpr const char* modal_description = ", in natural modes";
+
 /// Another mesh in the coordinates of its elastic natural modes: unknowns z with q = sum z_k phi_k.
 /// The same beam, only its unknowns are other ones. While it is elastic mass and stiffness are
 /// diagonal; what is banded on the other mesh is dense here, so all curvatures of a state cost n^2

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <new>
 
+#include "simulate/memory.h"
 #include "simulate/recorder.h"
 #include "simulate/run_parts.h"
 #include "subimpact/model/contact_law_check.h"
@@ -193,9 +194,23 @@ Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& opti
   return result;
 }
 
+void check_memory(const ResolvedSettings& settings) {
+  const double available = available_memory();
+  if (settings.memory <= available) return;
+  throw InvalidCase(
+      "solver.method",
+      fmt::format(
+          "takes some {:.2g} GB of memory on this mesh of {} unknowns, and the machine has "
+          "{:.2g} GB free; use a coarser mesh, or a method that needs no natural modes, such "
+          "as nystrom",
+          1e-9 * settings.memory, settings.n_unknowns, 1e-9 * available));
+}
+
 Result simulate(ResolvedRun run, const Progress& progress, Observer* observer, RowSink* rows) {
   RunParts& parts = run.parts();
   const auto start = std::chrono::steady_clock::now();
+  check_memory(parts.settings);
+  parts.complete();
   Result result;
   if (const auto broken = rule_broken_by_law(parts)) {
     result.outcome = {OutcomeKind::inaccurate, 0.0, *broken, Interval{0.0, 0.0}};

@@ -27,9 +27,14 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
 struct RunParts {
   RunParts(const Problem& problem, const Options& options, StruckBeam struck_beam);
 
+  /// Before the run: puts the beam into natural modes, if there are so many that resolve() left
+  /// them out, so that settings are known at once whatever a run will take.
+  void complete();
+
   /// The integrator of the options as they stand now.
   std::unique_ptr<Integrator> make_integrator();
 
+  Problem problem;
   Options given;
   bool check_contact_law;
   StruckBeam beam;

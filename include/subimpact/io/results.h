@@ -24,6 +24,9 @@ constexpr int summary_layout = 4;
 /// OutputDirectory). Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
+/// Bytes that the files of a run take, roughly: those of its rows.
+double foreseen_bytes(const Case& input);
+
 /// The same for a run that is still to come: the directory is locked and known to be writable
 /// before the run, and rows go to their files as they are made.
 ///
@@ -32,7 +35,7 @@ void write_results(const std::filesystem::path& directory, const Case& input, co
 ///     files.finish(input, result);
 class ResultWriter final : public RowSink {
  public:
-  /// Throws OutputError.
+  /// Throws OutputError, also if the disk has less room than foreseen_bytes(input).
   ResultWriter(const std::filesystem::path& directory, const Case& input);
   ~ResultWriter() override;
 

@@ -109,6 +109,10 @@ class BeamMesh {
   virtual NaturalModes natural_modes(double bending_stiffness) const {
     return dense_natural_modes(*this, bending_stiffness);
   }
+  /// Whether natural_modes() decomposes no matrix, so that it takes n^2 operations and numbers, not
+  /// n^3 and six times as many.
+  virtual bool has_closed_modes() const { return false; }
+
   /// Whether the modes are cheap enough, and the band wide enough, for an elastic beam to be
   /// integrated in modes by any explicit method: the motion is the same.
   virtual bool prefers_modes() const { return false; }

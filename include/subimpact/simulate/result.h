@@ -115,6 +115,7 @@ struct ResolvedSettings {
   double first_period = 0.0;        ///< T1 of the beam in bending, s
   double initial_energy = 0.0;      ///< J
   double energy_tolerance = 0.0;    ///< relative to the initial energy
+  double memory = 0.0;              ///< bytes that a run takes, roughly
 };
 
 /// The cost of a run: of the integration (including mass solves and right-hand sides of the beam)

@@ -53,6 +53,10 @@ class ResolvedRun {
 /// parts that are missing.
 ResolvedRun resolve(const Problem& problem, const Options& options);
 
+/// Throws InvalidCase if a run with these settings takes more memory than the machine has free.
+/// simulate() does so before it begins.
+void check_memory(const ResolvedSettings& settings);
+
 /// Runs what was resolved, from the first touch at t = 0. Any failure is reported in the outcome,
 /// with all results up to it. `progress`, if any, can end the run; `observer`, if any, is shown
 /// every accepted step and event; `rows`, if any, takes the rows in place of the result.
