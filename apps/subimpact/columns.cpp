@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/report.h"
 
 namespace subimpact::app {
@@ -10,7 +9,7 @@ void add_columns(CLI::App& program, int& status) {
       "columns", "List the columns of the CSV tables that a run writes: units, meanings");
   command->footer("Example:\n  subimpact columns");
   command->callback([&status] {
-    fmt::print("{}", column_listing());
+    print("{}", column_listing());
     status = done;
   });
 }

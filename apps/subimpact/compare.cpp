@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/compare.h"
@@ -36,10 +37,10 @@ int run_comparison(const CompareOptions& options) {
   }
   if (shown) fmt::print(stderr, "\r\033[K");
   if (!options.directory.empty()) write_comparison(options.directory, comparison);
-  fmt::print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-             comparison_table(comparison));
+  print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+        comparison_table(comparison));
   if (!options.directory.empty()) {
-    fmt::print("\ncomparison.csv and matches.csv in {}\n", options.directory);
+    print("\ncomparison.csv and matches.csv in {}\n", options.directory);
   }
   for (const ComparedRun& run : comparison.runs) {
     if (!run.result.outcome.completed()) return failed;

@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/report.h"
 
 namespace subimpact::app {
@@ -10,7 +9,7 @@ void add_methods(CLI::App& program, int& status) {
       program.add_subcommand("methods", "List the time integration methods and Butcher tables");
   command->footer("Example:\n  subimpact methods");
   command->callback([&status] {
-    fmt::print("{}", method_listing());
+    print("{}", method_listing());
     status = done;
   });
 }

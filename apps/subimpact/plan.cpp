@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "print.h"
 #include "status_line.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/results.h"
@@ -57,14 +58,14 @@ int run_plan(const PlanCommand& command) {
     throw CaseFileError(loaded.message(error));
   }
   status.clear();
-  fmt::print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-             mesh_limit_table(result.limit), "\n" + plan_table(result));
+  print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+        mesh_limit_table(result.limit), "\n" + plan_table(result));
   if (!command.directory.empty()) {
     write_plan(command.directory, result);
-    fmt::print("meshes.csv, mesh_limit.csv and plan.csv in {}\n", command.directory);
+    print("meshes.csv, mesh_limit.csv and plan.csv in {}\n", command.directory);
   }
   if (!result.interrupted) return done;
-  fmt::print(stderr, "subimpact: interrupted; the combinations above are those that were tried\n");
+  print_error("subimpact: interrupted; the combinations above are those that were tried\n");
   return interrupted;
 }
 

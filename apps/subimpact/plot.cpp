@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"
@@ -23,11 +24,12 @@ int plot(const PlotOptions& options) {
   prepare_output_directory(directory);
   const DrawnFigures figures = draw_figures(directory, run.input, run.result);
   for (const DrawnFigure& figure : figures.drawn) {
-    fmt::print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
+    print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
   }
-  fmt::print("\nfigures in {}\n", directory);
+  print("\nfigures in {}\n", directory);
   std::fflush(stdout);
   print_figure_notes(run);
+  throw_if_failed(figures);
   return done;
 }
 
@@ -49,7 +51,7 @@ void add_plot(CLI::App& program, int& status) {
       "  subimpact plot out/first\n"
       "  subimpact plot out/first --out figures\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
-      "missing.");
+      "missing; 3 a figure could not be drawn, the others are.");
   command->callback([options, &status] { status = plot(*options); });
 }
 

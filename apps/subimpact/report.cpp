@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/html_report.h"
 
@@ -20,7 +21,7 @@ int report(const ReportOptions& options) {
   const FinishedRun run = read_results(options.run);
   const std::string& directory = options.directory.empty() ? options.run : options.directory;
   prepare_output_directory(directory);
-  fmt::print("{}\n", write_html_report(directory, run).string());
+  print("{}\n", write_html_report(directory, run).string());
   std::fflush(stdout);
   print_figure_notes(run);
   return done;
@@ -42,7 +43,7 @@ void add_report(CLI::App& program, int& status) {
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
       "  subimpact report out/first\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
-      "missing.");
+      "missing; 3 a figure could not be drawn, the page is written without it.");
   command->callback([options, &status] { status = report(*options); });
 }
 

@@ -5,30 +5,51 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "case/counted.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
+namespace {
+
+// The most rows that a run may keep take some 2e9 bytes.
+constexpr std::uintmax_t largest_file = 4'000'000'000;
+constexpr std::size_t longest_quotation = 80;
+
+}  // namespace
 
 std::string read_whole_file(const std::filesystem::path& path) {
+  const auto fail = [&](const char* cause) {
+    throw ResultsError(
+        fmt::format("{}: cannot be read ({}); give the output directory of `subimpact run`",
+                    path.string(), cause));
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    fail("it is no regular file");  // a pipe or a device may never end
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
-    throw ResultsError(
-        fmt::format("{}: cannot be read ({}); give the output directory of "
-                    "`subimpact run`",
-                    path.string(), errno != 0 ? std::strerror(errno) : "it is empty"));
-  }
-  return std::move(text).str();
+  if (!file) fail(std::strerror(errno));
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) fail(error.message().c_str());
+  if (size == 0) fail("it is empty");
+  if (size > largest_file) fail("it is larger than any table of a run");
+  std::string text(size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  if (!file) fail("it became shorter meanwhile");
+  return text;
 }
 
 CsvTable::CsvTable(const std::filesystem::path& path)
-    : path_(path.string()), content_(read_whole_file(path)) {
+    : CsvTable(path.string(), read_whole_file(path)) {}
+
+CsvTable::CsvTable(std::string name, std::string content)
+    : path_(std::move(name)), content_(std::move(content)) {
   std::size_t line_start = 0;
   for (bool in_header = true; line_start < content_.size(); in_header = false) {
     std::size_t line_end = content_.find('\n', line_start);
@@ -73,7 +94,8 @@ std::string_view CsvTable::text(std::size_t row, std::size_t column) const {
 
 void CsvTable::refuse(std::size_t row, std::size_t column, const char* allowed) const {
   throw ResultsError(fmt::format("{}:{}: {} is \"{}\"; allowed: {}; run the case again", path_,
-                                 row + 2, header_[column], text(row, column), allowed));
+                                 row + 2, header_[column],
+                                 text(row, column).substr(0, longest_quotation), allowed));
 }
 
 }  // namespace subimpact

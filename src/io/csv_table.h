@@ -15,6 +15,8 @@ class CsvTable {
  public:
   /// Throws ResultsError if the file cannot be read or a row has another number of cells.
   explicit CsvTable(const std::filesystem::path& path);
+  /// The same for a text; `name` stands for the file in messages.
+  CsvTable(std::string name, std::string content);
 
   std::size_t n_rows() const { return starts_.size(); }
   bool has(std::string_view column) const;
@@ -33,11 +35,10 @@ class CsvTable {
   std::vector<std::size_t> bounds_;  // cell k of a row: from bounds_[k] to bounds_[k + 1] - 1
 };
 
-/// The rows of a file. Throws ResultsError if the file lacks a column that is not optional or a
+/// The rows of a table. Throws ResultsError if the file lacks a column that is not optional or a
 /// cell holds another kind of value than its column.
 template <class Row>
-std::vector<Row> read_rows(const std::filesystem::path& path, const Columns<Row>& columns) {
-  const CsvTable csv(path);
+std::vector<Row> rows_of(const CsvTable& csv, const Columns<Row>& columns) {
   std::vector<Row> rows(csv.n_rows());
   for (const Column<Row>& column : columns) {
     if (!column.read || (column.optional && !csv.has(column.name))) continue;
@@ -47,6 +48,10 @@ std::vector<Row> read_rows(const std::filesystem::path& path, const Columns<Row>
     }
   }
   return rows;
+}
+template <class Row>
+std::vector<Row> read_rows(const std::filesystem::path& path, const Columns<Row>& columns) {
+  return rows_of(CsvTable(path), columns);
 }
 
 /// The whole of a file. Throws ResultsError.

@@ -1,6 +1,7 @@
 #include "subimpact/report/figures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -58,8 +59,14 @@ DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& in
   const std::string caveat = outcome_caveat(result);
   const auto draw = [&](FigureScript figure) {
     mark_clauses(figure, caveat);
-    draw_figure(directory, figure.name(), figure.text(), figure.size());
-    figures.drawn.push_back({figure.name(), figure.caption()});
+    try {
+      draw_figure(directory, figure.name(), figure.text(), figure.size());
+      figures.drawn.push_back({figure.name(), figure.caption()});
+    } catch (const GnuplotMissing&) {
+      throw;
+    } catch (const FigureError& error) {
+      figures.failed.push_back(error.what());
+    }
   };
   if (!result.history.empty()) {
     draw(response_figure(input, result));
@@ -70,6 +77,11 @@ DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& in
   draw(timeline_figure(input, result));
   if (!result.section_history.empty()) draw(bending_figure(input, result));
   return figures;
+}
+
+void throw_if_failed(const DrawnFigures& figures) {
+  if (figures.failed.empty()) return;
+  throw FigureError(fmt::format("{}", fmt::join(figures.failed, "\n")));
 }
 
 }  // namespace subimpact

@@ -192,6 +192,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"paragraphs", list_of("paragraph", strike_words(run.input, result))},
        {"figures", figure_list(figures, figure_directory)},
        {"left_out", list_of("reason", figures.left_out)},
+       {"failed", list_of("failure", figures.failed)},
        {"sub_impacts", sub_impact_list(result)},
        {"keys", key_list(run.input)},
        {"without_errors", if_given(!result.error_estimate)},
@@ -207,6 +208,7 @@ std::filesystem::path write_html_report(const std::filesystem::path& directory,
   const DrawnFigures figures = draw_figures(directory, run.input, run.result);
   const std::filesystem::path path = directory / "report.html";
   write_file(path, html_report(run, figures, directory));
+  throw_if_failed(figures);
   return path;
 }
 

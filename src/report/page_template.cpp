@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "io/printable.h"
+
 namespace subimpact {
 namespace {
 
@@ -56,7 +58,7 @@ std::string filled(std::string_view page, const Fields& fields) {
 
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : printable(text)) {  // XML allows no control characters
     switch (c) {
       case '&':
         result += "&amp;";
