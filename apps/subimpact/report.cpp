@@ -21,9 +21,11 @@ int report(const ReportOptions& options) {
   const FinishedRun run = read_results(options.run);
   const std::string& directory = options.directory.empty() ? options.run : options.directory;
   prepare_output_directory(directory);
-  print("{}\n", write_html_report(directory, run).string());
+  const WrittenReport written = write_html_report(directory, run);
+  print("{}\n", written.page.string());
   std::fflush(stdout);
   print_figure_notes(run);
+  throw_if_failed(written.figures);
   return done;
 }
 

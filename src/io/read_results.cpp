@@ -8,6 +8,7 @@
 
 #include "case/case_choices.h"
 #include "case/other_names.h"
+#include "io/check_results.h"
 #include "io/csv_table.h"
 #include "io/run_tables.h"
 #include "subimpact/case/case_keys.h"
@@ -18,6 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int deepest_summary = 16;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::optional<double> optional_number(const Json& json) {
@@ -190,11 +192,18 @@ std::optional<ErrorEstimate> error_estimate_from(const Json& json) {
   return estimate;
 }
 
+// Copies of deeply nested values exhaust the stack.
+bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
+  if (depth <= deepest_summary) return true;
+  throw ResultsError(
+      fmt::format("summary.json: is nested deeper than {}; run the case again", deepest_summary));
+}
+
 // Returns the layout of the summary.
 int read_summary(const std::filesystem::path& path, FinishedRun& run) {
   const std::string text = read_whole_file(path);
   try {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(text, refuse_deep_nesting);
     const int layout = json.value("layout", 1);
     if (layout > summary_layout) {
       throw ResultsError(
@@ -236,6 +245,9 @@ int read_summary(const std::filesystem::path& path, FinishedRun& run) {
   } catch (const InvalidCase& error) {
     throw ResultsError(fmt::format("{}: the case in this file is not valid: {} {}", path.string(),
                                    error.key, error.what()));
+  } catch (const std::logic_error& error) {  // of a name or number in a text
+    throw ResultsError(fmt::format("{}: is not the summary of a run ({}); run the case again",
+                                   path.string(), error.what()));
   }
 }
 
@@ -260,6 +272,7 @@ FinishedRun read_results(const std::filesystem::path& directory) {
       for (SectionRow& row : run.result.section_history) row.moment = -row.moment;
     }
   }
+  check_results(directory, run);
   return run;
 }
 

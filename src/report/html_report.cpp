@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "case/counted.h"
 #include "io/csv_table.h"
 #include "io/write_file.h"
@@ -203,13 +205,11 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   return filled(embedded_file("pages/report.html"), page);
 }
 
-std::filesystem::path write_html_report(const std::filesystem::path& directory,
-                                        const FinishedRun& run) {
-  const DrawnFigures figures = draw_figures(directory, run.input, run.result);
+WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run) {
+  DrawnFigures figures = draw_figures(directory, run.input, run.result);
   const std::filesystem::path path = directory / "report.html";
   write_file(path, html_report(run, figures, directory));
-  throw_if_failed(figures);
-  return path;
+  return {path, std::move(figures)};
 }
 
 }  // namespace subimpact

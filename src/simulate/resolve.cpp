@@ -207,6 +207,12 @@ double first_period(const Problem& problem) {
 void check(const Problem& problem, const Options& options) {
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   const auto refuse = [](const char* key, const char* why) { throw InvalidCase(key, why); };
+  const Beam& beam = problem.beam;
+  const double sizes[] = {beam.length, beam.mass(), beam.bending_stiffness(),
+                          beam.bending_stiffness() / std::pow(beam.length, 4)};
+  if (!std::ranges::all_of(sizes, positive)) {
+    refuse("beam", "has no mass or stiffness that is positive and finite; check its numbers");
+  }
   if (!problem.mesh) refuse("model.mesh", "is missing; give Problem::mesh a mesh");
   if (!problem.contact_law) refuse("contact.law", "is missing; give Problem::contact_law a law");
   if (!positive(options.end_time)) refuse("time.end", "is not a time; allowed: above 0 s");
