@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "case/problem.h"
 
 namespace subimpact {
 namespace {
@@ -127,6 +130,12 @@ void check_summary(const std::string& file, const FinishedRun& run) {
   require_finite("maxima.indentation_m", result.max_indentation);
   require_finite("final.striker_velocity_m_per_s", result.striker_velocity);
   require_finite("final.beam_mean_velocity_m_per_s", result.beam_mean_velocity);
+  try {
+    contact_law_of(run.input);  // of which figures draw branches
+  } catch (const std::invalid_argument& error) {
+    throw ResultsError(
+        fmt::format("{}: the case in this file is not valid: {}", file, error.what()));
+  }
   require_finite("used.first_period_s", result.used.first_period);
   require_finite("used.initial_energy_J", result.used.initial_energy);
 }

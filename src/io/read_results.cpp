@@ -10,6 +10,7 @@
 #include "case/other_names.h"
 #include "io/check_results.h"
 #include "io/csv_table.h"
+#include "io/read_summary.h"
 #include "io/run_tables.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
@@ -199,9 +200,9 @@ bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
       fmt::format("summary.json: is nested deeper than {}; run the case again", deepest_summary));
 }
 
-// Returns the layout of the summary.
-int read_summary(const std::filesystem::path& path, FinishedRun& run) {
-  const std::string text = read_whole_file(path);
+}  // namespace
+
+int read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run) {
   try {
     const Json json = Json::parse(text, refuse_deep_nesting);
     const int layout = json.value("layout", 1);
@@ -251,8 +252,6 @@ int read_summary(const std::filesystem::path& path, FinishedRun& run) {
   }
 }
 
-}  // namespace
-
 FinishedRun read_results(const std::filesystem::path& directory) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(directory, ignored)) {
@@ -262,7 +261,8 @@ FinishedRun read_results(const std::filesystem::path& directory) {
                     directory.string()));
   }
   FinishedRun run;
-  const int layout = read_summary(directory / "summary.json", run);
+  const int layout =
+      read_summary(directory / "summary.json", read_whole_file(directory / "summary.json"), run);
   run.result.sub_impacts = read_rows(directory / "events.csv", events_columns());
   run.result.transitions = read_rows(directory / "transitions.csv", transitions_columns());
   run.result.history = read_rows(directory / "history.csv", history_columns());
