@@ -28,8 +28,8 @@ std::string figure_script(const std::string& name, const std::string& settings =
 ///     gnuplot -e "set terminal svg; set output 'name.svg'" name.gp
 ///
 /// A figure appears whole or not at all. Throws GnuplotMissing if gnuplot cannot be started;
-/// FigureError if it does not take the script, with what it printed; OutputError if a file cannot be
-/// written.
+/// FigureError if it does not take the script, with what it printed; OutputError if a file cannot
+/// be written.
 void draw_figure(const std::filesystem::path& directory, const std::string& name,
                  const std::string& script, FigureSize size = {});
 
