@@ -17,7 +17,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // difference of two velocities, each a sum over the stages of a step.
 constexpr double velocity_rounding = 1e-12;
 // Section events cut a step a few times at most, where the tolerance can be met at all.
-constexpr int most_cuts = 1000;
+constexpr int most_cuts = 100;
 
 // Roots are found to rounding.
 RootOptions to_rounding(double time) {
