@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "print.h"
 #include "subimpact/io/report.h"
 #include "subimpact/report/figures.h"
 
@@ -32,18 +33,18 @@ std::string CaseOptions::directory_with(const std::string& ending) const {
 }
 
 void print_notes(const LoadedCase& loaded) {
-  for (const std::string& note : loaded.notes()) fmt::print(stderr, "subimpact: note: {}\n", note);
+  for (const std::string& note : loaded.notes()) print_error("subimpact: note: {}\n", note);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    fmt::print(stderr, "subimpact: warning: {}\n", warning);
+    print_error("subimpact: warning: {}\n", warning);
   }
 }
 
 void print_figure_notes(const FinishedRun& run) {
   for (const std::string& reason : figures_left_out(run.input, run.result)) {
-    fmt::print(stderr, "subimpact: note: not drawn: {}\n", reason);
+    print_error("subimpact: note: not drawn: {}\n", reason);
   }
   const std::string caveat = outcome_caveat(run.result);
   if (!caveat.empty()) print_warnings({caveat});

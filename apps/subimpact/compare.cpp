@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "print.h"
 #include "status_line.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -36,10 +37,10 @@ int run_comparison(const CompareOptions& options) {
     directory->commit();
     print_warnings(directory->notes());
   }
-  fmt::print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-             comparison_table(comparison));
+  print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+        comparison_table(comparison));
   if (!options.directory.empty()) {
-    fmt::print("\ncomparison.csv and matches.csv in {}\n", options.directory);
+    print("\ncomparison.csv and matches.csv in {}\n", options.directory);
   }
   for (const ComparedRun& run : comparison.runs) {
     if (!run.result.outcome.completed()) return failed;

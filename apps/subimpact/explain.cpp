@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 
@@ -23,7 +22,7 @@ void add_explain(CLI::App& program, int& status) {
       ResolvedRun run = resolve(loaded.value);
       print_notes(loaded);
       print_warnings(doubtful_units(loaded.value));
-      fmt::print("{}", explanation(loaded.value, run.settings(), estimate_cost(run)));
+      print("{}", explanation(loaded.value, run.settings(), estimate_cost(run)));
     });
     status = done;
   });

@@ -1,8 +1,7 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/case_schema.h"
 #include "subimpact/io/report.h"
 
@@ -19,7 +18,7 @@ void add_keys(CLI::App& program, int& status) {
       "A case file that begins with `#:schema ./subimpact.schema.json` is then completed and\n"
       "checked by editors that use Taplo (in VS Code: the extension Even Better TOML).");
   command->callback([&status, as_schema] {
-    fmt::print("{}", *as_schema ? case_schema() : key_listing());
+    print("{}", *as_schema ? case_schema() : key_listing());
     status = done;
   });
 }
@@ -29,7 +28,7 @@ void add_methods(CLI::App& program, int& status) {
       program.add_subcommand("methods", "List the time integration methods and Butcher tables");
   command->footer("Example:\n  subimpact methods");
   command->callback([&status] {
-    fmt::print("{}", method_listing());
+    print("{}", method_listing());
     status = done;
   });
 }
@@ -39,7 +38,7 @@ void add_columns(CLI::App& program, int& status) {
       "columns", "List the columns of the CSV tables that a run writes: units, meanings");
   command->footer("Example:\n  subimpact columns");
   command->callback([&status] {
-    fmt::print("{}", column_listing());
+    print("{}", column_listing());
     status = done;
   });
 }

@@ -2,17 +2,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/versions.h"
+#include "subimpact/report/figures.h"
 
 namespace {
 
@@ -44,7 +50,22 @@ std::optional<std::string> unknown_command(const CLI::App& program, int argc, ch
 std::string usage_error(const CLI::App* program, const CLI::Error& error) {
   std::string command = "subimpact";
   for (const CLI::App* used : program->get_subcommands()) command += " " + used->get_name();
-  return fmt::format("{}: {}; see {} --help\n", command, error.what(), command);
+  return subimpact::printable(
+      fmt::format("{}: {}; see {} --help\n", command, error.what(), command));
+}
+
+// Output that was lost is a failure of the command.
+int checked_output(int status) {
+  using namespace subimpact;
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  const int cause = errno;
+  if (flushed && std::cout.flush()) return status;
+  app::print_error(
+      "subimpact: standard output cannot be written ({}); free the disk or write the output "
+      "elsewhere\n",
+      cause != 0 ? std::strerror(cause) : "only part of it was");
+  return status == app::done ? app::failed : status;
 }
 
 }  // namespace
@@ -80,25 +101,31 @@ int main(int argc, char** argv) {
   app::add_columns(program, status);
 
   if (const auto message = unknown_command(program, argc, argv)) {
-    fmt::print(stderr, "subimpact: {}\n", *message);
+    app::print_error("subimpact: {}\n", *message);
     return app::refused;
   }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? app::done : app::refused;
+    return checked_output(program.exit(error) == 0 ? app::done : app::refused);
   } catch (const CaseFileError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    app::print_error("{}\n", error.what());
     return app::refused;
   } catch (const ResultsError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    app::print_error("{}\n", error.what());
     return app::refused;
+  } catch (const GnuplotMissing& error) {
+    app::print_error("subimpact: {}\n", error.what());
+    return app::refused;
+  } catch (const FigureError& error) {
+    app::print_error("subimpact: {}\n", error.what());
+    return app::failed;
   } catch (const OutputError& error) {
-    fmt::print(stderr, "subimpact: {}\n", error.what());
+    app::print_error("subimpact: {}\n", error.what());
     return app::refused;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "subimpact: {}\n", error.what());
+    app::print_error("subimpact: {}\n", error.what());
     return app::failed;
   }
-  return status;
+  return checked_output(status);
 }

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
+#include "print.h"
 #include "status_line.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/results.h"
@@ -54,16 +55,16 @@ int run_plan(const PlanCommand& command) {
         [&](double) { return !listener.interrupted(); });
   });
   status.clear();
-  fmt::print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-             mesh_limit_table(result.limit), "\n" + plan_table(result));
+  print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+        mesh_limit_table(result.limit), "\n" + plan_table(result));
   if (directory) {
     write_plan(directory->staging(), result);
     directory->commit();
     print_warnings(directory->notes());
-    fmt::print("meshes.csv, mesh_limit.csv and plan.csv in {}\n", command.directory);
+    print("meshes.csv, mesh_limit.csv and plan.csv in {}\n", command.directory);
   }
   if (!result.interrupted) return done;
-  fmt::print(stderr, "subimpact: interrupted; the combinations above are those that were tried\n");
+  print_error("subimpact: interrupted; the combinations above are those that were tried\n");
   return listener.exit_status();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"
@@ -24,12 +25,13 @@ int plot(const PlotOptions& options) {
   const DrawnFigures figures = draw_figures(directory.staging(), run.input, run.result);
   directory.commit();
   for (const DrawnFigure& figure : figures.drawn) {
-    fmt::print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
+    print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
   }
-  fmt::print("\nfigures in {}\n", directory.path().string());
+  print("\nfigures in {}\n", directory.path().string());
   std::fflush(stdout);
   print_warnings(directory.notes());
   print_figure_notes(run);
+  throw_if_failed(figures);
   return done;
 }
 
@@ -51,7 +53,7 @@ void add_plot(CLI::App& program, int& status) {
       "  subimpact plot out/first\n"
       "  subimpact plot out/first --out figures\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
-      "missing.");
+      "missing; 3 a figure could not be drawn, the others are.");
   command->callback([options, &status] { status = plot(*options); });
 }
 

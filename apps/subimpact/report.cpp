@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.h"
+#include "print.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/html_report.h"
 
@@ -20,12 +21,13 @@ int report(const ReportOptions& options) {
   const FinishedRun run = read_results(options.run);
   OutputDirectory directory(options.directory.empty() ? options.run : options.directory, "figures",
                             run.identity);
-  const std::filesystem::path page = write_html_report(directory.staging(), run);
+  const WrittenReport written = write_html_report(directory.staging(), run);
   directory.commit();
-  fmt::print("{}\n", (directory.path() / page.filename()).string());
+  print("{}\n", (directory.path() / written.page.filename()).string());
   std::fflush(stdout);
   print_warnings(directory.notes());
   print_figure_notes(run);
+  throw_if_failed(written.figures);
   return done;
 }
 
@@ -45,7 +47,7 @@ void add_report(CLI::App& program, int& status) {
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
       "  subimpact report out/first\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
-      "missing.");
+      "missing; 3 a figure could not be drawn, the page is written without it.");
   command->callback([options, &status] { status = report(*options); });
 }
 

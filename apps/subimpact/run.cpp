@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "print.h"
 #include "progress.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
@@ -108,16 +109,16 @@ int run(const RunOptions& options) {
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, loaded.value, result);
   if (!options.quiet || !unwritten.empty()) {
-    fmt::print("{}\n{}", run_summary(loaded.value, result), sub_impact_table(result));
-    if (unwritten.empty()) fmt::print("\nfiles in {}\n", files.directory().path().string());
+    print("{}\n{}", run_summary(loaded.value, result), sub_impact_table(result));
+    if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
   }
   print_warnings(files.directory().notes());
   print_warnings(others(result.warnings, doubts));
   if (!result.outcome.completed()) {
-    fmt::print(stderr, "subimpact: {}\n", failure_message(loaded.value, result));
+    print_error("subimpact: {}\n", failure_message(loaded.value, result));
   }
-  if (!unwritten.empty()) fmt::print(stderr, "subimpact: {}\n", unwritten);
+  if (!unwritten.empty()) print_error("subimpact: {}\n", unwritten);
   if (!unwritten.empty() || files.directory().is_relocated()) return failed;
   return result.outcome.kind == OutcomeKind::stopped ? listener.exit_status()
                                                      : exit_status(result.outcome.kind);

@@ -1,4 +1,5 @@
 #include "subimpact/report/stability.h"
+#include "print.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -57,21 +58,37 @@ class Session {
       if (!asked_for(command_.parts, part.name)) continue;
       if (listener_.interrupted()) break;
       status_.show(part.name);
-      part.run();
+      run(part);
       directory_->commit();
     }
     print_warnings(directory_->notes());
-    fmt::print("CSV files and figures in {}\n", command_.directory);
-    if (!listener_.interrupted()) return done;
-    fmt::print(stderr, "subimpact: interrupted; the parts that were finished are in {}\n",
-               command_.directory);
+    app::print("CSV files and figures in {}\n", command_.directory);
+    if (!listener_.interrupted()) return all_done_ ? done : failed;
+    app::print_error("subimpact: interrupted; the parts that were finished are in {}\n",
+                     command_.directory);
     return listener_.exit_status();
   }
 
  private:
+  void complain(const Part& part, const std::string& message) {
+    status_.clear();
+    app::print_error("subimpact: {}: {}\n", part.name, message);
+    all_done_ = false;
+  }
+  // A part that fails leaves the others as they are.
+  void run(const Part& part) {
+    try {
+      part.run();
+      return;
+    } catch (const InvalidCase& error) {
+      complain(part, error.key + " " + error.what());
+    } catch (const std::exception& error) {
+      complain(part, error.what());
+    }
+  }
   void print(std::size_t part, const std::string& table) {
     status_.clear();
-    fmt::print("{}\n\n{}\n", parts_[part].title, table);
+    app::print("{}\n\n{}\n", parts_[part].title, table);
     std::fflush(stdout);
   }
   Count counter(const char* what) {
@@ -121,9 +138,18 @@ class Session {
   const StabilityCommand& command_;
   std::optional<OutputDirectory> directory_;
   std::vector<Part> parts_;
+  bool all_done_ = true;
   InterruptListener listener_;
   StatusLine status_;
 };
+
+// All parts but the map let the beam vibrate.
+void check_beam(const Case& input, const std::vector<std::string>& parts) {
+  if (input.model.mesh != MeshKind::rigid || parts == std::vector<std::string>{"map"}) return;
+  throw InvalidCase("model.mesh",
+                    "is \"rigid\", but a rigid beam has no vibrations to study; use another mesh, "
+                    "or --parts map");
+}
 
 int run_stability(StabilityCommand command) {
   const LoadedCase loaded = command.input.load();
@@ -137,6 +163,7 @@ int run_stability(StabilityCommand command) {
       throw CaseFileError(
           fmt::format("--parts {}: unknown part; allowed: {}", part, fmt::join(names, ", ")));
     }
+    check_beam(loaded.value, command.parts);
     return session.run();
   });
 }
@@ -177,7 +204,9 @@ void add_stability(CLI::App& program, int& status) {
       "  subimpact stability case.toml --out out/stability\n"
       "  subimpact stability case.toml --parts critical --methods central-difference,erk\n"
       "  subimpact stability case.toml --parts map --set time.end=2e-3\n"
-      "Exit status: 0 done; 2 bad command line or case file; 3 a figure could not be drawn; 130 "
+      "Exit status: 0 done; 2 bad command line or case file; 3 a part failed or its figure could "
+      "not be drawn, "
+      "the other parts are complete; 130 "
       "stopped by Ctrl-C.");
   command->callback([options, &status] { status = run_stability(*options); });
 }

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "io/printable.h"
+
 namespace subimpact::app {
 
 /// What is running, on one line of stderr, if that is a terminal.
@@ -18,7 +20,7 @@ class StatusLine {
 
   void show(const std::string& text) {
     if (!shown_) return;
-    fmt::print(stderr, "\r\033[K{} ...", text);
+    fmt::print(stderr, "\r\033[K{} ...", printable(text));
     std::fflush(stderr);
   }
   void clear() {

@@ -1,4 +1,5 @@
 #include "subimpact/io/work_precision.h"
+#include "print.h"
 #include "subimpact/report/work_precision_chart.h"
 
 #include <fmt/format.h>
@@ -60,8 +61,8 @@ class Session {
         directory_(command.directory, "work-precision", fmt::to_string(fmt::join(ids(cases), "-"))),
         log_(directory_, ids(cases)) {
     if (log_.n_known() > 0) {
-      fmt::print("{} of an earlier study in {} {} kept\n\n", counted(log_.n_known(), "point"),
-                 command.directory, log_.n_known() == 1 ? "is" : "are");
+      print("{} of an earlier study in {} {} kept\n\n", counted(log_.n_known(), "point"),
+            command.directory, log_.n_known() == 1 ? "is" : "are");
     }
   }
 
@@ -70,24 +71,24 @@ class Session {
     for (const LabelledCase& entry : cases_) {
       studies.push_back(study(entry));
       status_.clear();
-      fmt::print("{}: {}\n{}\n", entry.input.title.empty() ? "untitled case" : entry.input.title,
-                 entry.label, work_precision_table(studies.back()));
-      fmt::print("cheapest setting whose event times are all within\n{}\n",
-                 recommendation_text(recommendations_from(studies.back().points)));
+      print("{}: {}\n{}\n", entry.input.title.empty() ? "untitled case" : entry.input.title,
+            entry.label, work_precision_table(studies.back()));
+      print("cheapest setting whose event times are all within\n{}\n",
+            recommendation_text(recommendations_from(studies.back().points)));
       std::fflush(stdout);
       if (studies.back().interrupted) break;
     }
     draw_work_precision(directory_.staging(), studies);
     directory_.commit();
     print_warnings(directory_.notes());
-    fmt::print(
+    print(
         "work_precision.csv, work_precision.svg and .png, work_precision_evaluations.svg "
         "and .png in {}\n",
         command_.directory);
     if (!studies.back().interrupted) return done;
-    fmt::print(stderr,
-               "subimpact: interrupted; finished points are kept, and the same command "
-               "continues from there\n");
+    print_error(
+        "subimpact: interrupted; finished points are kept, and the same command "
+        "continues from there\n");
     return listener_.exit_status();
   }
 

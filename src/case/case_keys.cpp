@@ -12,6 +12,7 @@
 #include "case/case_choices.h"
 #include "case/contact_checks.h"
 #include "case/meshes.h"
+#include "case/scale_checks.h"
 #include "simulate/methods.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/simulate/method_tables.h"
@@ -352,6 +353,7 @@ void check(const Case& input) {
     if (!value) continue;
     if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
   }
+  check_scales(input);
   check_contact(input);
   if (!input.parts.mesh) descriptor_of(input.model.mesh).check(input);
   check_history_size(input);

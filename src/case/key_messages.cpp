@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "case/other_names.h"
 #include "subimpact/case/case_keys.h"
@@ -252,16 +251,18 @@ std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& valu
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   std::string best;
-  std::size_t best_distance = std::numeric_limits<std::size_t>::max();
+  // Further away than a third of its letters it is another word, not a slip.
+  const std::size_t furthest = std::max<std::size_t>(1, name.size() / 3);
+  std::size_t best_distance = furthest + 1;
   for (const std::string& candidate : candidates) {
+    if (name.size() > candidate.size() + furthest) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;
     }
   }
-  // Further away than a third of its letters it is another word, not a slip.
-  return best_distance <= std::max<std::size_t>(1, name.size() / 3) ? best : std::string();
+  return best;
 }
 
 }  // namespace subimpact

@@ -13,6 +13,7 @@
 
 #include "case/meshes.h"
 #include "case/other_names.h"
+#include "io/toml_depth.h"
 #include "io/toml_value.h"
 #include "subimpact/case/case_keys.h"
 
@@ -74,6 +75,10 @@ std::string unknown_table(const std::string& name) {
                      near.empty() ? "correct or remove it" : "did you mean [" + near + "]?");
 }
 
+constexpr std::size_t largest_case = 1'000'000;   // bytes
+constexpr std::size_t most_problems = 100;        // reported at once
+constexpr std::size_t longest_number_line = 200;  // a line on which a decimal comma is looked for
+
 /// Gathers the values of a case and everything that is wrong with them.
 class Reader {
  public:
@@ -94,7 +99,7 @@ class Reader {
     return fmt::format("{}:{}:{}", name_, at.line, at.column);
   }
   void complain(const std::string& where, const std::string& message) {
-    problems_.push_back(where + ": " + message);
+    if (problems_.size() < most_problems) problems_.push_back(where + ": " + message);
   }
   void read_table(const std::string& table, const toml::table& content);
   void read_value(const CaseKey& key, const toml::node& node, const std::string& where);
@@ -170,7 +175,9 @@ std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& tex
     return KeyValue(std::move(names));
   }
   try {
-    const toml::table parsed = toml::parse("value = " + (wants_numbers ? '[' + text + ']' : text));
+    const std::string line = "value = " + (wants_numbers ? '[' + text + ']' : text);
+    if (too_deep_at(line)) return std::nullopt;
+    const toml::table parsed = toml::parse(line);
     if (parsed.size() != 1) return std::nullopt;
     return to_key_value(*parsed.get("value"));
   } catch (const toml::parse_error&) {
@@ -296,6 +303,7 @@ LoadedCase Reader::finish() {
   return loaded;
 }
 
+// No more than can be a case: a path may lead to a device that never ends.
 std::string read_text(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::error_code ignored;
@@ -308,10 +316,11 @@ std::string read_text(const std::filesystem::path& path) {
     throw CaseFileError(fmt::format("{}: cannot be read ({}); give the path of a case file (TOML)",
                                     name, std::strerror(errno)));
   }
-  std::ostringstream text;
-  text << file.rdbuf();
+  std::string text(largest_case + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
   if (file.bad()) throw CaseFileError(name + ": reading it failed; check the file and its disk");
-  return std::move(text).str();
+  return text;
 }
 
 }  // namespace
@@ -355,7 +364,9 @@ std::string malformed(const std::string& text, const std::string& name,
                       const toml::parse_error& error) {
   const toml::source_position at = error.source().begin;
   const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
-  const std::string number = decimal_comma_in(line_of(text, at.line));
+  // std::regex calls itself for every character.
+  const std::string number =
+      decimal_comma_in(line_of(text, at.line).substr(0, longest_number_line));
   if (!number.empty()) {
     return fmt::format("{}{} has a decimal comma{}", place, number, decimal_comma_hint(number));
   }
@@ -376,6 +387,18 @@ std::string LoadedCase::message(const InvalidCase& error) const {
 
 LoadedCase read_case_text(const std::string& text, const std::string& name,
                           const std::vector<Override>& overrides) {
+  if (text.size() > largest_case) {
+    throw CaseFileError(
+        fmt::format("{}: is larger than {} bytes; allowed: a case file (TOML), which has some "
+                    "1000; give the path of one",
+                    name, largest_case));
+  }
+  if (const auto line = too_deep_at(text)) {
+    throw CaseFileError(fmt::format(
+        "{}:{}: keys, tables or lists are nested deeper than {}; allowed: tables of keys, such as "
+        "[beam] with length = 1; correct this line",
+        name, *line, deepest_nesting));
+  }
   Reader reader(name);
   try {
     reader.read(toml::parse(text));

@@ -10,6 +10,10 @@
 
 namespace subimpact {
 
+namespace {
+constexpr std::size_t longest_quotation = 80;
+}
+
 CsvReader::CsvReader(std::istream& file, std::string name) : file_(file), name_(std::move(name)) {
   if (!read_line()) {
     throw ResultsError(fmt::format("{}: has no heading; run the case again", name_));
@@ -52,7 +56,8 @@ void CsvReader::refuse_lack_of(std::string_view column) const {
 
 void CsvReader::refuse_cell(std::size_t column, const char* allowed) const {
   throw ResultsError(fmt::format("{}:{}: {} is \"{}\"; allowed: {}; run the case again", name_,
-                                 n_lines_, heading_[column], cells_[column], allowed));
+                                 n_lines_, heading_[column],
+                                 cells_[column].substr(0, longest_quotation), allowed));
 }
 
 }  // namespace subimpact

@@ -8,7 +8,9 @@
 
 #include "case/case_choices.h"
 #include "case/other_names.h"
+#include "io/check_results.h"
 #include "io/csv_reader.h"
+#include "io/read_summary.h"
 #include "io/row_thinning.h"
 #include "io/run_tables.h"
 #include "io/sealed_files.h"
@@ -23,6 +25,7 @@ using Json = nlohmann::ordered_json;
 constexpr int first_sealed_layout = 4;
 constexpr int most_attempts = 10;
 
+constexpr int deepest_summary = 16;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::optional<double> optional_number(const Json& json) {
@@ -195,10 +198,18 @@ std::optional<ErrorEstimate> error_estimate_from(const Json& json) {
   return estimate;
 }
 
-// Returns the layout of the summary.
+// Copies of deeply nested values exhaust the stack.
+bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
+  if (depth <= deepest_summary) return true;
+  throw ResultsError(
+      fmt::format("summary.json: is nested deeper than {}; run the case again", deepest_summary));
+}
+
+}  // namespace
+
 int read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run) {
   try {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(text, refuse_deep_nesting);
     const int layout = json.value("layout", 1);
     if (layout > summary_layout) {
       throw ResultsError(
@@ -241,14 +252,32 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
   } catch (const InvalidCase& error) {
     throw ResultsError(fmt::format("{}: the case in this file is not valid: {} {}", path.string(),
                                    error.key, error.what()));
+  } catch (const std::logic_error& error) {  // of a name or number in a text
+    throw ResultsError(fmt::format("{}: is not the summary of a run ({}); run the case again",
+                                   path.string(), error.what()));
   }
+}
+
+namespace {
+
+template <class Row>
+std::vector<Row> read_checked(std::istream& file, const std::string& name,
+                              const Columns<Row>& columns) {
+  std::vector<Row> rows = read_rows(file, name, columns);
+  RowChecks checks(name);
+  for (const Row& row : rows) checks.check(row);
+  return rows;
 }
 
 template <class Row>
 std::vector<Row> read_thinned(std::istream& file, const std::string& name,
                               const Columns<Row>& columns, RowThinning<Row> rows) {
   CsvReader csv(file, name);
-  for_each_row(csv, columns, [&](const Row& row) { rows.add(row); });
+  RowChecks checks(name);
+  for_each_row(csv, columns, [&](const Row& row) {
+    checks.check(row);
+    rows.add(row);
+  });
   return rows.take();
 }
 
@@ -266,7 +295,9 @@ RowThinning<SectionRow> section_thinning(std::size_t n_instants, std::size_t n_s
 FinishedRun read_once(const std::filesystem::path& directory) {
   const SealedFiles files(directory);
   FinishedRun run;
-  const int layout = read_summary(directory / "summary.json", files.text("summary.json"), run);
+  const std::filesystem::path summary = directory / "summary.json";
+  const int layout = read_summary(summary, files.text("summary.json"), run);
+  check_summary(summary.string(), run);
   const bool is_sealed = files.manifest() && files.manifest()->kind == "run";
   if (is_sealed) run.identity = files.manifest()->identity;
   if (!is_sealed && layout >= first_sealed_layout) {
@@ -287,10 +318,10 @@ FinishedRun read_once(const std::filesystem::path& directory) {
   };
   Result& result = run.result;
   result.sub_impacts = read("events.csv", [](std::istream& file, const std::string& name) {
-    return read_rows(file, name, events_columns());
+    return read_checked(file, name, events_columns());
   });
   result.transitions = read("transitions.csv", [](std::istream& file, const std::string& name) {
-    return read_rows(file, name, transitions_columns());
+    return read_checked(file, name, transitions_columns());
   });
   result.history = read("history.csv", [&](std::istream& file, const std::string& name) {
     return read_thinned(file, name, history_columns(), history_thinning(result.n_history_rows));

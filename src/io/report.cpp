@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "case/counted.h"
+#include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/results.h"
@@ -143,7 +144,7 @@ std::string run_summary(const Case& input, const Result& result) {
     fmt::format_to(std::back_inserter(text), "  {:<19} {}\n", label, value);
   };
   fmt::format_to(std::back_inserter(text), "{}\n",
-                 input.title.empty() ? "untitled case" : input.title);
+                 input.title.empty() ? "untitled case" : printable(input.title));
   line("outcome", fmt::format("{} at {} of {}", to_string(result.outcome.kind),
                               duration_text(result.outcome.time), duration_text(input.end_time)));
   if (result.outcome.first_failure) line("checks", first_failure_text(result.outcome));

@@ -13,24 +13,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse_to_read(const fs::path& path) {
+[[noreturn]] void refuse_to_read(const fs::path& path, const char* cause) {
   throw ResultsError(
       fmt::format("{}: cannot be read ({}); give the output directory of "
                   "`subimpact run`",
-                  path.string(), errno != 0 ? std::strerror(errno) : "it is empty"));
+                  path.string(), cause));
 }
 
 std::ifstream open_file(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    refuse_to_read(path, "it is no regular file");  // a pipe or a device may never end
+  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) refuse_to_read(path);
+  if (!file) refuse_to_read(path, std::strerror(errno));
   return file;
 }
 
 std::string text_of(std::istream& file, const fs::path& path) {
   std::ostringstream text;
   errno = 0;
-  if (!(text << file.rdbuf())) refuse_to_read(path);
+  if (!(text << file.rdbuf())) {
+    refuse_to_read(path, errno != 0 ? std::strerror(errno) : "it is empty");
+  }
   return std::move(text).str();
 }
 

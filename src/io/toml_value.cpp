@@ -7,8 +7,13 @@ namespace {
 std::optional<std::vector<double>> numbers_in(const toml::array& list) {
   std::vector<double> numbers;
   for (const toml::node& item : list) {
-    if (!item.is_number()) return std::nullopt;
-    numbers.push_back(*item.value<double>());
+    if (const auto* whole = item.as_integer()) {  // value<double>() has none for large ones
+      numbers.push_back(static_cast<double>(whole->get()));
+    } else if (const auto* number = item.as_floating_point()) {
+      numbers.push_back(number->get());
+    } else {
+      return std::nullopt;
+    }
   }
   return numbers;
 }

@@ -125,7 +125,9 @@ std::string FigureScript::text() const {
 }
 
 FigureScript& FigureScript::set(const std::string& variable, double value) {
-  settings_ += fmt::format("{} = {:#.7g}\n", variable, value);  // "8.000000": never an integer
+  // "8.000000": never an integer; gnuplot has a NaN, but no infinity.
+  settings_ += std::isfinite(value) ? fmt::format("{} = {:#.7g}\n", variable, value)
+                                    : fmt::format("{} = NaN\n", variable);
   return *this;
 }
 

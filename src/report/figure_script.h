@@ -96,6 +96,8 @@ FigureScript indentation_figure(const Case& input, const Result& result);
 FigureScript energies_figure(const Case& input, const Result& result);
 FigureScript timeline_figure(const Case& input, const Result& result);
 FigureScript bending_figure(const Case& input, const Result& result);
+/// Those for which the run has data, marked if the run did not complete.
+std::vector<FigureScript> figure_scripts(const Case& input, const Result& result);
 
 /// Sections that `bending` has room for: the first ones of output.sections.
 inline constexpr std::size_t most_bending_panels = 24;

@@ -1,6 +1,7 @@
 #include "subimpact/report/figures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -51,25 +52,41 @@ std::vector<std::string> figures_left_out(const Case& input, const Result& resul
   return reasons;
 }
 
+std::vector<FigureScript> figure_scripts(const Case& input, const Result& result) {
+  std::vector<FigureScript> figures;
+  if (!result.history.empty()) {
+    figures.push_back(response_figure(input, result));
+    figures.push_back(first_sub_impact_figure(input, result));
+    figures.push_back(indentation_figure(input, result));
+    figures.push_back(energies_figure(input, result));
+  }
+  figures.push_back(timeline_figure(input, result));
+  if (!result.section_history.empty()) figures.push_back(bending_figure(input, result));
+  const std::string caveat = outcome_caveat(result);
+  for (FigureScript& figure : figures) mark_clauses(figure, caveat);
+  return figures;
+}
+
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
                           const Result& result) {
   DrawnFigures figures;
   figures.left_out = figures_left_out(input, result);
-  const std::string caveat = outcome_caveat(result);
-  const auto draw = [&](FigureScript figure) {
-    mark_clauses(figure, caveat);
-    draw_figure(directory, figure.name(), figure.text(), figure.size());
-    figures.drawn.push_back({figure.name(), figure.caption()});
-  };
-  if (!result.history.empty()) {
-    draw(response_figure(input, result));
-    draw(first_sub_impact_figure(input, result));
-    draw(indentation_figure(input, result));
-    draw(energies_figure(input, result));
+  for (const FigureScript& figure : figure_scripts(input, result)) {
+    try {
+      draw_figure(directory, figure.name(), figure.text(), figure.size());
+      figures.drawn.push_back({figure.name(), figure.caption()});
+    } catch (const GnuplotMissing&) {
+      throw;
+    } catch (const FigureError& error) {
+      figures.failed.push_back(error.what());
+    }
   }
-  draw(timeline_figure(input, result));
-  if (!result.section_history.empty()) draw(bending_figure(input, result));
   return figures;
+}
+
+void throw_if_failed(const DrawnFigures& figures) {
+  if (figures.failed.empty()) return;
+  throw FigureError(fmt::format("{}", fmt::join(figures.failed, "\n")));
 }
 
 }  // namespace subimpact

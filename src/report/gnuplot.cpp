@@ -1,11 +1,17 @@
 #include "report/gnuplot.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
-#include <cstdio>
-#include <memory>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <vector>
 
 #include "io/write_file.h"
 #include "report/files.h"
@@ -14,57 +20,110 @@
 namespace subimpact {
 namespace {
 
-constexpr int exit_status_not_found = 127;  // of a shell
+namespace fs = std::filesystem;
 
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      result += "'\\''";
-    } else {
-      result += c;
+/// A pipe whose ends are closed at the latest with this object.
+class Pipe {
+ public:
+  Pipe() {
+    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
+      throw std::system_error(errno, std::generic_category(), "a pipe to gnuplot");
     }
   }
-  return result + "'";
-}
+  ~Pipe() {
+    close_writing_end();
+    ::close(ends_[0]);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 
-struct Finished {
-  int status;
-  std::string said;
+  int reading_end() const { return ends_[0]; }
+  int writing_end() const { return ends_[1]; }
+  void close_writing_end() {
+    if (ends_[1] >= 0) ::close(ends_[1]);
+    ends_[1] = -1;
+  }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
 };
 
-Finished run_shell(const std::string& command) {
-  std::fflush(nullptr);
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return {exit_status_not_found, {}};
-  std::string said;
-  std::array<char, 512> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-    said.append(buffer.data(), n);
+struct Finished {
+  int start_error;  ///< errno if gnuplot could not be started, else 0
+  int status;       ///< of its exit; minus the signal's number if one ended it
+  std::string output, errors;
+};
+
+// Both at once, because a full pipe would stop the process that writes into it.
+void read_all(Pipe& output, Pipe& errors, Finished& finished) {
+  std::array<pollfd, 2> streams{pollfd{output.reading_end(), POLLIN, 0},
+                                pollfd{errors.reading_end(), POLLIN, 0}};
+  const std::array<std::string*, 2> texts{&finished.output, &finished.errors};
+  std::array<char, 1 << 14> buffer;
+  while (streams[0].fd >= 0 || streams[1].fd >= 0) {
+    if (::poll(streams.data(), streams.size(), -1) < 0 && errno != EINTR) return;
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      if (streams[i].fd < 0 || streams[i].revents == 0) continue;
+      const ssize_t n = ::read(streams[i].fd, buffer.data(), buffer.size());
+      if (n > 0) texts[i]->append(buffer.data(), static_cast<std::size_t>(n));
+      if (n == 0 || (n < 0 && errno != EINTR)) streams[i].fd = -1;  // which poll() skips
+    }
   }
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, said};
 }
 
-void draw(const std::filesystem::path& directory, const std::string& name,
-          const std::string& ending, const std::string& terminal) {
-  const std::string output = name + "." + ending;
-  const std::string settings =
-      fmt::format("set terminal {}; set output \"{}\"; set encoding utf8", terminal, output);
-  const Finished gnuplot =
-      run_shell(fmt::format("cd {} && exec gnuplot -e {} {} 2>&1 </dev/null",
-                            quoted(directory.string()), quoted(settings), quoted(name + ".gp")));
-  if (gnuplot.status == 0) return;
-  if (gnuplot.status == exit_status_not_found) {
-    throw OutputError(
+// Runs gnuplot in a directory. No shell comes between, so that any name of a directory is only a
+// name.
+Finished run_gnuplot(const fs::path& directory, std::vector<std::string> arguments) {
+  Pipe output, errors;
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, output.writing_end(), STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, errors.writing_end(), STDERR_FILENO);
+  ::posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
+  arguments.insert(arguments.begin(), "gnuplot");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  Finished finished{};
+  finished.start_error =
+      ::posix_spawnp(&child, argv.front(), &actions, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (finished.start_error != 0) return finished;
+  output.close_writing_end();
+  errors.close_writing_end();
+  read_all(output, errors, finished);
+  int state = 0;
+  while (::waitpid(child, &state, 0) < 0 && errno == EINTR) {
+  }
+  finished.status = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
+  return finished;
+}
+
+// gnuplot draws into a pipe, and the figure is written when it is complete.
+void draw(const fs::path& directory, const std::string& name, const std::string& ending,
+          const std::string& terminal) {
+  const fs::path figure = directory / (name + "." + ending);
+  const Finished gnuplot = run_gnuplot(
+      directory, {"-e", fmt::format("set terminal {}; set encoding utf8", terminal), name + ".gp"});
+  if (gnuplot.start_error == ENOENT) {
+    throw GnuplotMissing(
         fmt::format("{}: cannot be drawn, because gnuplot is not installed; install it (Debian: "
                     "apt-get install gnuplot-nox) and repeat the command; the other files are "
                     "complete",
-                    (directory / output).string()));
+                    figure.string()));
   }
-  throw OutputError(fmt::format("{}: gnuplot failed with status {} on {}: {}",
-                                (directory / output).string(), gnuplot.status,
-                                (directory / (name + ".gp")).string(), gnuplot.said));
+  if (gnuplot.start_error != 0) {
+    throw GnuplotMissing(fmt::format("{}: cannot be drawn, because gnuplot cannot be started ({})",
+                                     figure.string(), std::strerror(gnuplot.start_error)));
+  }
+  if (gnuplot.status != 0) {
+    throw FigureError(fmt::format("{}: gnuplot failed with status {} on {}: {}", figure.string(),
+                                  gnuplot.status, (directory / (name + ".gp")).string(),
+                                  gnuplot.errors));
+  }
+  write_file(figure, gnuplot.output);
 }
 
 }  // namespace
@@ -78,6 +137,10 @@ std::string figure_script(const std::string& name, const std::string& settings) 
 
 void draw_figure(const std::filesystem::path& directory, const std::string& name,
                  const std::string& script, FigureSize size) {
+  for (const char* ending : {".svg", ".png"}) {  // of an earlier drawing
+    std::error_code ignored;
+    fs::remove(directory / (name + ending), ignored);
+  }
   write_file(directory / (name + ".gp"), script);
   draw(directory, name, "svg",
        fmt::format("svg size {},{} dynamic enhanced font 'Helvetica,Arial,sans-serif,14' "

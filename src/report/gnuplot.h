@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "subimpact/report/figures.h"
+
 namespace subimpact {
 
 /// Size of a figure on the screen, in pixels of the PNG at a scale of 1.
@@ -25,8 +27,9 @@ std::string figure_script(const std::string& name, const std::string& settings =
 ///
 ///     gnuplot -e "set terminal svg; set output 'name.svg'" name.gp
 ///
-/// Throws OutputError if gnuplot is missing or does not take the script; what it said is in the
-/// message.
+/// A figure appears whole or not at all. Throws GnuplotMissing if gnuplot cannot be started;
+/// FigureError if it does not take the script, with what it printed; OutputError if a file cannot
+/// be written.
 void draw_figure(const std::filesystem::path& directory, const std::string& name,
                  const std::string& script, FigureSize size = {});
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "case/counted.h"
 #include "io/sealed_files.h"
 #include "io/write_file.h"
@@ -192,6 +194,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"paragraphs", list_of("paragraph", strike_words(run.input, result))},
        {"figures", figure_list(figures, figure_directory)},
        {"left_out", list_of("reason", figures.left_out)},
+       {"failed", list_of("failure", figures.failed)},
        {"sub_impacts", sub_impact_list(result)},
        {"keys", key_list(run.input)},
        {"without_errors", if_given(!result.error_estimate)},
@@ -202,12 +205,11 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   return filled(embedded_file("pages/report.html"), page);
 }
 
-std::filesystem::path write_html_report(const std::filesystem::path& directory,
-                                        const FinishedRun& run) {
-  const DrawnFigures figures = draw_figures(directory, run.input, run.result);
+WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run) {
+  DrawnFigures figures = draw_figures(directory, run.input, run.result);
   const std::filesystem::path path = directory / "report.html";
   write_file(path, html_report(run, figures, directory));
-  return path;
+  return {path, std::move(figures)};
 }
 
 }  // namespace subimpact

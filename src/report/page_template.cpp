@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "io/printable.h"
+
 namespace subimpact {
 namespace {
 
@@ -58,7 +60,7 @@ std::string escaped(std::string_view text) {
   static const std::map<char, std::string> entities = {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string result;
-  for (const char c : text) {
+  for (const char c : printable(text)) {  // XML allows no control characters
     const auto entity = entities.find(c);
     result += entity != entities.end() ? entity->second : std::string(1, c);
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "numerics/trajectory_root.h"
+#include "simulate/audit.h"
 
 namespace subimpact {
 namespace {
@@ -15,6 +16,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // Rounding of the velocity at which the contact closes, as part of the striker's: it is the
 // difference of two velocities, each a sum over the stages of a step.
 constexpr double velocity_rounding = 1e-12;
+// Section events cut a step a few times at most, where the tolerance can be met at all.
+constexpr int most_cuts = 100;
 
 // Roots are found to rounding.
 RootOptions to_rounding(double time) {
@@ -58,7 +61,7 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
   const double t0 = whole.t0;
   t1 = whole.t1;
   y1 = &whole.y1;
-  for (;;) {
+  for (int n_cuts = 0; n_cuts < most_cuts; ++n_cuts) {
     std::optional<EventFunction> event;
     dealt_with_.clear();
     while (auto crossing = find_crossing_in({t0, t1, y0, *y1, whole.event_free})) {
@@ -80,6 +83,8 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
     integrator_.state_at(t1, end_);
     y1 = &end_;
   }
+  throw RunStopped(OutcomeKind::solver_failed,
+                   "section events cut one step over and over, without an end");
 }
 
 bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {

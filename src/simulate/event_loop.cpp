@@ -95,6 +95,7 @@ bool EventLoop::energy_keeps_growing() {
   audit_ = &without_limits;
   observer_ = &nobody;
   const State y = *state_;
+  beam_.commit(y);  // a check at an event may have failed before
   try {
     integrator_.restart(time_, y);
     for (long n = 0; n < most_steps_ahead && !finished(); ++n) {

@@ -231,6 +231,12 @@ double first_period(const Problem& problem) {
 void check(const Problem& problem, const Options& options) {
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
   const auto refuse = [](const char* key, const char* why) { throw InvalidCase(key, why); };
+  const Beam& beam = problem.beam;
+  const double sizes[] = {beam.length, beam.mass(), beam.bending_stiffness(),
+                          beam.bending_stiffness() / std::pow(beam.length, 4)};
+  if (!std::ranges::all_of(sizes, positive)) {
+    refuse("beam", "has no mass or stiffness that is positive and finite; check its numbers");
+  }
   if (!problem.mesh) refuse("model.mesh", "is missing; give Problem::mesh a mesh");
   if (!problem.contact_law) refuse("contact.law", "is missing; give Problem::contact_law a law");
   if (!positive(options.end_time)) refuse("time.end", "is not a time; allowed: above 0 s");
@@ -323,6 +329,23 @@ RunOptions run_options(const Problem& problem, const Options& options, const Res
   return run;
 }
 
+// The rotary inertia of a beam that is much thicker than long outweighs its mass by more than
+// numbers of 16 digits can hold.
+std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Options& options,
+                                             const BeamMesh& mesh) {
+  try {
+    if (options.study.mass_solver == MassSolverKind::klu) return make_klu_mass_solver(mesh.mass());
+    return std::make_unique<BandedSolver>(mesh.mass());
+  } catch (const std::exception&) {
+    throw InvalidCase(
+        "beam.thickness",
+        fmt::format("is {:g} m, with which the mass matrix of a beam of {:g} m is not positive "
+                    "definite; allowed: beams that are longer than thick; check the units, or use "
+                    "a coarser mesh",
+                    problem.beam.thickness, problem.beam.length));
+  }
+}
+
 }  // namespace
 
 StruckBeam make_struck_beam(const Problem& problem, const Options& options,
@@ -332,12 +355,7 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
   if (coordinates == Coordinates::chosen && !sections.can_yield() && in_modes(options, *mesh)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
   }
-  std::unique_ptr<MassSolver> solver;
-  if (options.study.mass_solver == MassSolverKind::klu) {
-    solver = make_klu_mass_solver(mesh->mass());
-  } else {
-    solver = std::make_unique<BandedSolver>(mesh->mass());
-  }
+  std::unique_ptr<MassSolver> solver = make_mass_solver(problem, options, *mesh);
   return StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), problem.contact_law,
                                     problem.striker.mass, problem.striker.velocity,
                                     outer_stiffness(problem), std::move(solver)});

@@ -14,9 +14,13 @@ namespace subimpact {
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
                         const std::filesystem::path& figure_directory);
 
-/// Draws the figures of a run into the directory and writes report.html beside them; returns its
-/// path. Throws OutputError.
-std::filesystem::path write_html_report(const std::filesystem::path& directory,
-                                        const FinishedRun& run);
+struct WrittenReport {
+  std::filesystem::path page;
+  DrawnFigures figures;
+};
+
+/// Draws the figures of a run into the directory and writes report.html beside them, without those
+/// that failed. Throws GnuplotMissing, OutputError.
+WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run);
 
 }  // namespace subimpact

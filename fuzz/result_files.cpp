@@ -1,0 +1,53 @@
+#include <sstream>
+#include <string>
+
+#include "io/check_results.h"
+#include "io/csv_reader.h"
+#include "io/read_summary.h"
+#include "io/run_tables.h"
+#include "subimpact/io/read_results.h"
+#include "subimpact/io/report.h"
+#include "targets.h"
+
+namespace subimpact::fuzz {
+namespace {
+
+template <class Row>
+void read_table(const std::string& text, const Columns<Row>& columns) {
+  std::istringstream file(text);
+  CsvReader csv(file, "table.csv");
+  RowChecks checks("table.csv");
+  for_each_row(csv, columns, [&](const Row& row) { checks.check(row); });
+}
+
+void read(std::uint8_t kind, const std::string& text) {
+  switch (kind % 5) {
+    case 0: {
+      FinishedRun run;
+      read_summary("summary.json", text, run);
+      check_summary("summary.json", run);
+      run_summary(run.input, run.result);
+      break;
+    }
+    case 1:
+      return read_table(text, events_columns());
+    case 2:
+      return read_table(text, transitions_columns());
+    case 3:
+      return read_table(text, history_columns());
+    default:
+      return read_table(text, sections_columns());
+  }
+}
+
+}  // namespace
+
+void result_files(Bytes bytes) {
+  if (bytes.empty()) return;
+  try {
+    read(bytes[0], std::string(bytes.begin() + 1, bytes.end()));
+  } catch (const ResultsError&) {
+  }
+}
+
+}  // namespace subimpact::fuzz

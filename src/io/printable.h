@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace subimpact {
+
+/// The text without what a terminal obeys: control characters other than tabs and ends of lines
+/// (C0, DEL and C1), and bytes that are no UTF-8, are shown as "\x1b". Text from files, paths and
+/// command lines passes through here before it is printed.
+std::string printable(std::string_view text);
+
+}  // namespace subimpact

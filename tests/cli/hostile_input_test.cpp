@@ -1,0 +1,318 @@
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "process.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+
+void expect_in(const std::string& text, const std::string& piece) {
+  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// Sets a variable of the environment for a while.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Environment() {
+    if (before_.empty()) {
+      ::unsetenv(name_);
+    } else {
+      ::setenv(name_, before_.c_str(), 1);
+    }
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::string before_;
+};
+
+// Into `name` below the directory.
+void make_run(const TemporaryDirectory& directory, const std::string& name) {
+  const Finished finished =
+      run_program({"run", SUBIMPACT_PAPER_CASE, "--out", name, "--quiet", "--set", "time.end=1e-4",
+                   "--set", "model.segments=51", "--set", "output.sections=0.5"},
+                  directory.path);
+  ASSERT_EQ(finished.status, 0) << finished.errors;
+}
+
+// The exit status of a line for the shell, in which `subimpact` stands for the program.
+int shell(const std::string& line, const fs::path& directory) {
+  const std::string whole = "cd '" + directory.string() + "' && subimpact() { '" +
+                            SUBIMPACT_PROGRAM + "' \"$@\"; } && " + line;
+  return WEXITSTATUS(std::system(whole.c_str()));
+}
+
+// A gnuplot that fails on the figure of that name and writes nothing for the others.
+void make_failing_gnuplot(const TemporaryDirectory& directory, const std::string& figure) {
+  directory.write("gnuplot", "#!/bin/sh\ncase \"$3\" in " + figure +
+                                 ".gp) echo broken >&2; exit 1;; esac\necho '<svg></svg>'\n");
+  fs::permissions(directory.path / "gnuplot", fs::perms::owner_all);
+}
+
+std::string with_gnuplot_of(const TemporaryDirectory& directory) {
+  return directory.path.string() + ":" + std::getenv("PATH");
+}
+
+// --- gnuplot ------------------------------------------------------------------------------------
+
+TEST(Figures, AreDrawnInDirectoriesOfAnyName) {
+  const TemporaryDirectory directory;
+  const Environment search("CDPATH", "/:/tmp");
+  make_run(directory, "run");
+  for (const std::string name : {"-", "-rf", "it's \"here\"", "a\nb", "$HOME `id` ;", "%s\\"}) {
+    fs::create_directory(directory.path / name);
+    const Finished finished = run_program({"plot", "run", "--out=" + name}, directory.path);
+    EXPECT_EQ(finished.status, 0) << name << finished.errors;
+    EXPECT_TRUE(fs::exists(directory.path / name / "timeline.svg")) << name;
+  }
+}
+
+TEST(AFigureThatFails, IsNamedAndTheOthersAreDrawn) {
+  const TemporaryDirectory directory;
+  make_run(directory, "run");
+  make_failing_gnuplot(directory, "energies");
+  const Environment path("PATH", with_gnuplot_of(directory));
+  for (const char* command : {"plot", "report"}) {
+    const Finished finished = run_program({command, "run"}, directory.path);
+    EXPECT_EQ(finished.status, 3) << command;
+    expect_in(finished.errors, "energies.svg: gnuplot failed with status 1");
+    expect_in(finished.errors, "broken");
+    EXPECT_TRUE(fs::exists(directory.path / "run" / "timeline.svg")) << command;
+    EXPECT_FALSE(fs::exists(directory.path / "run" / "energies.svg")) << command;
+  }
+  expect_in(read_file(directory.path / "run" / "report.html"), "energies.svg: gnuplot failed");
+}
+
+TEST(AFigureThatFails, LeavesTheOtherPartsOfAStudy) {
+  const TemporaryDirectory directory;
+  make_failing_gnuplot(directory, "critical_steps");
+  const Environment path("PATH", with_gnuplot_of(directory));
+  const Finished finished =
+      run_program({"stability", SUBIMPACT_PAPER_CASE, "--parts", "critical,contact", "--methods",
+                   "central-difference", "--set", "model.segments=21", "--out", "study"},
+                  directory.path);
+  EXPECT_EQ(finished.status, 3);
+  expect_in(finished.errors, "subimpact: critical: ");
+  for (const char* file : {"critical_steps.csv", "stiff_contact.csv", "stiff_contact.svg"}) {
+    EXPECT_TRUE(fs::exists(directory.path / "study" / file)) << file;
+  }
+}
+
+TEST(StabilityOfARigidBeam, IsRefusedBeforeAnythingIsComputed) {
+  const TemporaryDirectory directory;
+  const Finished finished = run_program({"stability", SUBIMPACT_PAPER_CASE, "--parts", "critical",
+                                         "--set", "model.mesh=rigid", "--out", "study"},
+                                        directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "a rigid beam has no vibrations to study");
+  EXPECT_FALSE(fs::exists(directory.path / "study"));
+}
+
+// --- text ---------------------------------------------------------------------------------------
+
+TEST(ATerminal, GetsNoControlCharactersOfTitlesKeysAndPaths) {
+  const TemporaryDirectory directory;
+  const std::string escape = "\x1b[2J\x07\xc2\x9b\x9b\x7f";
+  const std::string text = read_file(SUBIMPACT_PAPER_CASE);
+  directory.write("title.toml", replaced(text, "title = \"",
+                                         "title = \"\\u001b[2J\\u0007\\u009b\\u007f h\u00e4rter "));
+  directory.write("key.toml", "\"a\\u001b[2Jb\" = 1\n");
+  directory.write(escape + ".toml", "nonsense\n");
+  make_run(directory, "results");
+  directory.write("results/events.csv", "a" + escape + ",b\n1,2\n");
+  const std::vector<std::vector<std::string>> commands = {
+      {"explain", "title.toml"},
+      {"explain", "key.toml"},
+      {"explain", escape + ".toml"},
+      {"explain", escape},
+      {"explain", "title.toml", "--set", "a" + escape + "=1"},
+      {"compare", "title.toml", "--methods", escape},
+      {escape},
+      {"report", escape},
+      {"report", "results"},
+      {"--" + escape}};
+  for (const std::vector<std::string>& command : commands) {
+    const Finished finished = run_program(command, directory.path);
+    const std::string shown = finished.output + finished.errors;
+    for (const char* control : {"\x1b", "\x07", "\x9b", "\x7f"}) {
+      EXPECT_EQ(shown.find(control), std::string::npos) << shown;
+    }
+  }
+  expect_in(run_program({"explain", "title.toml"}, directory.path).output,
+            "\\x1b[2J\\x07\\xc2\\x9b\\x7f h\u00e4rter ");
+}
+
+TEST(ATitle, IsOnlyTextOnThePageOfARun) {
+  const TemporaryDirectory directory;
+  const std::string text = read_file(SUBIMPACT_PAPER_CASE);
+  directory.write("case.toml",
+                  replaced(text, "title = \"",
+                           "title = \"<script>`touch pwned`</script> $(touch pwned) @{/=99 x} "
+                           "\\\"a' & \\u001b[2J"));
+  ASSERT_EQ(run_program({"run", "case.toml", "--out", "run", "--quiet", "--set", "time.end=1e-5",
+                         "--set", "model.segments=21"},
+                        directory.path)
+                .status,
+            0);
+  ASSERT_EQ(run_program({"report", "run"}, directory.path).status, 0);
+  const std::string page = read_file(directory.path / "run" / "report.html");
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find('\x1b'), std::string::npos);
+  expect_in(page,
+            "&lt;script&gt;`touch pwned`&lt;/script&gt; $(touch pwned) @{/=99 x} &quot;a' "
+            "&amp; \\x1b[2J");
+  EXPECT_FALSE(fs::exists(directory.path / "pwned") || fs::exists(directory.path / "run/pwned"));
+}
+
+// --- sizes --------------------------------------------------------------------------------------
+
+TEST(ACaseFile, NestedTooDeeplyOrTooLargeIsRefused) {
+  std::string key = "a";
+  for (int i = 0; i < 40000; ++i) key += ".a";
+  const std::string many(100000, '[');
+  std::string tables;
+  for (int i = 0; i < 50000; ++i) tables += "{a=";
+  const TemporaryDirectory directory;
+  for (const std::string& text : {key + " = 1\n", "\n[" + key + "]\n", "a = " + many,
+                                  "a = " + tables, "\"\"\"\n\\\"\"\"\"\"." + key + "=1"}) {
+    directory.write("deep.toml", text);
+    const Finished finished = run_program({"explain", "deep.toml"}, directory.path);
+    EXPECT_EQ(finished.status, 2) << text.substr(0, 10);
+    expect_in(finished.errors, "deep.toml:");
+    expect_in(finished.errors, "nested deeper than 32");
+  }
+  directory.write("large.toml", std::string(1'000'001, '#'));
+  const Finished large = run_program({"explain", "large.toml"}, directory.path);
+  EXPECT_EQ(large.status, 2);
+  expect_in(large.errors, "large.toml: is larger than 1000000 bytes");
+  EXPECT_EQ(run_program({"explain", "/dev/zero"}).status, 2);
+}
+
+TEST(ASetting, NestedTooDeeplyIsRefused) {
+  std::string value = "1\na";
+  for (int i = 0; i < 30000; ++i) value += ".a";
+  const Finished finished =
+      run_program({"explain", SUBIMPACT_PAPER_CASE, "--set", "beam.length=" + value + "=1"});
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "beam.length is ");
+}
+
+TEST(ACaseFile, OfManyUnknownKeysIsRefusedAtOnce) {
+  std::string text;
+  for (int i = 0; i < 100000; ++i) text.append("k").append(std::to_string(i)).append("=1\n");
+  const TemporaryDirectory directory;
+  directory.write("keys.toml", text + std::string(100000, 'k') + "=1\n");
+  const Finished finished = run_program({"explain", "keys.toml"}, directory.path);
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_LT(finished.errors.size(), 100000u);
+}
+
+// --- results ------------------------------------------------------------------------------------
+
+TEST(ImpossibleResults, AreRefusedWithFileLineAndValue) {
+  const TemporaryDirectory directory;
+  make_run(directory, "run");
+  struct Change {
+    const char* file;
+    std::string from, to, message;
+  };
+  std::string deep = "{\"a\": ";
+  deep.append(1'000'000, '[');
+  const std::string whole = read_file(directory.path / "run/summary.json");
+  const Change changes[] = {
+      {"events.csv", "\n1,1,1,", "\n1,0,1,", "events.csv:2: zone is 0; allowed: 1 or above"},
+      {"events.csv", "\n1,1,1,", "\n1,-7,1,", "events.csv:2: zone is -7; allowed: "},
+      {"events.csv", "\n1,1,1,", "\n1,1,2147483647,", "events.csv:2: subzone is 2147483647; "},
+      {"events.csv", "\n1,1,1,0,", "\n1,1,1,nan,", "events.csv:2: start_s is nan; allowed: "},
+      {"events.csv", "\n1,1,1,0,,", "\n1,1,1,2,1,", "events.csv:2: end_s is 1; "},
+      {"history.csv", "\n0,", "\n5,", "history.csv:3: time_s is 0; allowed: the time of the row"},
+      {"history.csv", "\n0,", "\n-1,", "history.csv:2: time_s is -1; allowed: "},
+      {"sections.csv", "\n0,", "\n0,inf,1,1,1\n0,", "sections.csv:2: position_m is inf; "},
+      {"transitions.csv", "\n0,", "\ninf,", "transitions.csv:2: time_s is inf; "},
+      {"transitions.csv", "\n0,contact_begins,,", "\n0,contact_begins,-1,",
+       "transitions.csv:2: section is \"-1\"; "},
+      {"summary.json", "\"force_N\": ", "\"force_N\": null, \"x\": ", "maxima.force_N is inf"},
+      {"summary.json", whole, deep, "is nested deeper than 16"},
+      {"summary.json", "N_per_m1.5", "N_per_mx", "summary.json: is not the summary of a run"},
+  };
+  for (const Change& change : changes) {
+    const fs::path file = directory.path / "run" / change.file;
+    const std::string before = read_file(file);
+    directory.write(std::string("run/") + change.file, replaced(before, change.from, change.to));
+    for (const char* command : {"plot", "report"}) {
+      const Finished finished = run_program({command, "run"}, directory.path);
+      EXPECT_EQ(finished.status, 2) << change.message << finished.errors;
+      expect_in(finished.errors, change.message);
+    }
+    directory.write(std::string("run/") + change.file, before);
+  }
+}
+
+// --- numbers ------------------------------------------------------------------------------------
+
+TEST(Numbers, ThatOverflowTogetherAreRefusedByKeyInsteadOfHanging) {
+  for (const char* key : {"beam.length", "beam.width", "beam.thickness", "beam.density",
+                          "beam.youngs_modulus", "beam.yield_stress", "striker.mass",
+                          "striker.nose_radius", "striker.velocity", "time.end"}) {
+    for (const char* value : {"1e-308", "4.9e-324", "1e-200", "1e-61", "1e61", "1e308"}) {
+      const Finished finished =
+          run_program({"explain", SUBIMPACT_PAPER_CASE, "--set", std::string(key) + "=" + value});
+      EXPECT_EQ(finished.status, 2) << key << value << finished.output;
+      expect_in(finished.errors, std::string(key) + " is ");
+      expect_in(finished.errors, "allowed: ");
+    }
+  }
+  const Finished together =
+      run_program({"explain", SUBIMPACT_PAPER_CASE, "--set", "beam.length=1e-25"});
+  EXPECT_EQ(together.status, 2);
+  expect_in(together.errors, "moment of inertia of the beam is some 1e-");
+}
+
+// --- streams ------------------------------------------------------------------------------------
+
+TEST(StandardOutput, ThatCannotBeWrittenEndsEveryCommandWithStatus3) {
+  const TemporaryDirectory directory;
+  directory.write("case.toml", read_file(SUBIMPACT_PAPER_CASE));
+  make_run(directory, "run");
+  for (const std::string command :
+       {"--help", "--version", "keys", "keys --schema", "methods", "columns", "explain case.toml",
+        "run case.toml --set time.end=1e-5 --set model.segments=21 --out other", "plot run",
+        "report run"}) {
+    EXPECT_EQ(shell("subimpact " + command + " > /dev/full 2> errors", directory.path), 3)
+        << command;
+    const std::string errors = read_file(directory.path / "errors");
+    expect_in(errors, "standard output cannot be written");
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+  }
+  EXPECT_TRUE(fs::exists(directory.path / "other" / "summary.json"));
+  EXPECT_EQ(shell("subimpact keys >&- 2> errors", directory.path), 3);
+}
+
+TEST(AReaderOfStandardOutput, MayLeaveEarly) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(shell("subimpact keys 2> errors | head -c 1 > first", directory.path), 0);
+  EXPECT_EQ(read_file(directory.path / "errors"), "");
+}
+
+}  // namespace
+}  // namespace subimpact

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "targets.h"
+
+namespace subimpact::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Target {
+  const char* name;
+  void (*run)(Bytes);
+};
+
+void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
+
+std::vector<std::uint8_t> bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class TheCorpus : public testing::TestWithParam<Target> {};
+
+TEST_P(TheCorpus, IsReadOrRefusedWithoutACrash) {
+  int n = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(SUBIMPACT_CORPUS) / GetParam().name)) {
+    SCOPED_TRACE(entry.path().filename().string());
+    const std::vector<std::uint8_t> bytes = bytes_of(entry.path());
+    EXPECT_NO_THROW(GetParam().run(bytes));
+    // Half an input is another one.
+    EXPECT_NO_THROW(GetParam().run(Bytes(bytes).first(bytes.size() / 2)));
+    ++n;
+  }
+  EXPECT_GT(n, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, TheCorpus,
+                         testing::Values(Target{"case_text", case_text},
+                                         Target{"result_files", result_files},
+                                         Target{"structured_case", structured_case},
+                                         Target{"result_directory", result_directory}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// Bytes of a congruential generator, the same everywhere.
+TEST(StructuredCases, OfAnyBytesAreRefusedOrRunSoundly) {
+  std::uint32_t state = 1;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(8 + i % 40));
+    for (std::uint8_t& byte : bytes) {
+      state = 1664525U * state + 1013904223U;
+      byte = static_cast<std::uint8_t>(state >> 24);
+    }
+    EXPECT_NO_THROW(structured_case(bytes)) << i;
+  }
+}
+
+TEST(ChangedResultDirectories, AreReadOrRefused) {
+  std::uint32_t state = 2;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(6 + i % 20));
+    for (std::uint8_t& byte : bytes) {
+      state = 1664525U * state + 1013904223U;
+      byte = static_cast<std::uint8_t>(state >> 24);
+    }
+    EXPECT_NO_THROW(result_directory(bytes)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace subimpact::fuzz
