@@ -12,6 +12,7 @@
 #include "lumped_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
+#include "struck_beam_of.h"
 
 namespace subimpact {
 namespace {
@@ -30,8 +31,7 @@ class OneMass {
 
   StruckBeam beam() const {
     auto mesh = std::make_unique<LumpedMesh>(mass());
-    auto solver = std::make_unique<BandedSolver>(mesh->mass());
-    StruckBeam beam(paper_scene(), std::move(mesh), SectionField(1, law_), std::move(solver));
+    StruckBeam beam = struck_beam_of(paper_scene(), std::move(mesh), SectionField(1, law_));
     beam.set_section_evaluation(Evaluation::smooth);
     return beam;
   }
