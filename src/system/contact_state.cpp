@@ -34,7 +34,7 @@ EventValue ContactState::event_function(EventKind kind, double indentation, doub
     case EventKind::section_reverses:
       break;
   }
-  assert(!"an event of sections has no function of the indentation");
+  assert(false && "an event of sections has no function of the indentation");
   return {};
 }
 
@@ -58,7 +58,7 @@ void ContactState::pass(EventKind event, double indentation) {
       branch_ = ContactBranch::separated;
       break;
     case EventKind::section_reverses:
-      assert(!"sections pass their events in SectionField");
+      assert(false && "sections pass their events in SectionField");
       break;
   }
 }

@@ -31,7 +31,7 @@ State state_after(double step, double correction_tolerance) {
   while (!beginning.finished()) beginning.advance();
   EXPECT_EQ(beam.sections().n_yielded(), 0u);
 
-  run.parts().given.solver.step = step;
+  run.parts().settings.step = step;
   const auto fixed = run.parts().make_integrator();
   LoopOptions options = run.parts().run.loop;
   options.end_time = 52e-6;
