@@ -68,9 +68,7 @@ int checked_output(int status) {
   return status == app::done ? app::failed : status;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   using namespace subimpact;
   std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit fails then, like writing to a full disk
   int status = app::done;
@@ -128,4 +126,15 @@ int main(int argc, char** argv) {
     return app::failed;
   }
   return checked_output(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_command_line(argc, argv);
+  } catch (...) {  // while a message was made
+    std::fputs("subimpact: no memory is left for a message\n", stderr);
+    return subimpact::app::failed;
+  }
 }

@@ -107,7 +107,7 @@ int write_all(int file, std::string_view content) {
   return 0;
 }
 
-OutputDirectory::OutputDirectory(fs::path directory, std::string kind, std::string identity)
+OutputDirectory::OutputDirectory(const fs::path& directory, std::string kind, std::string identity)
     : kind_(std::move(kind)), identity_(std::move(identity)) {
   open(directory);
 }

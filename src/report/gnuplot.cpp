@@ -83,6 +83,7 @@ Finished run_gnuplot(const fs::path& directory, std::vector<std::string> argumen
   ::posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
   arguments.insert(arguments.begin(), "gnuplot");
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   pid_t child = 0;

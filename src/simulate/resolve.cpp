@@ -216,7 +216,7 @@ double outer_stiffness(const Problem& problem) {
 
 std::string section_name(const Problem& problem, const StruckBeam& beam) {
   if (beam.mesh().highest_frequency(beam.sections().stiffness()) == 0.0) return "rigid";
-  const std::string name = problem.section ? problem.section->name() : Fibres::continuous().name();
+  std::string name = problem.section ? problem.section->name() : Fibres::continuous().name();
   if (beam.sections().can_yield()) return name;
   return problem.section ? name + ", elastic" : "elastic";
 }

@@ -37,7 +37,7 @@ class OutputDirectory {
   /// what a killed writer has left undone. `kind` names what the directory holds: "run", "compare"
   /// ...; `identity` the one it is of. Throws OutputError, also if another process writes into the
   /// directory or if it holds files of another kind ("figures" go with the run of that identity).
-  OutputDirectory(std::filesystem::path directory, std::string kind,
+  OutputDirectory(const std::filesystem::path& directory, std::string kind,
                   std::string identity = new_identity());
   /// Removes what was not committed.
   ~OutputDirectory();
