@@ -64,7 +64,7 @@ int checked_output(int status) {
   app::print_error(
       "subimpact: standard output cannot be written ({}); free the disk or write the output "
       "elsewhere\n",
-      cause != 0 ? std::strerror(cause) : "only part of it was");
+      cause != 0 ? std::strerror(cause) : "only a part could be written");
   return status == app::done ? app::failed : status;
 }
 

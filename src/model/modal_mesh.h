@@ -7,7 +7,7 @@
 
 namespace subimpact {
 
-/// What the description of a mesh says of it in modes.
+/// The end of the description of a mesh in modes.
 inline constexpr const char* modal_description = ", in natural modes";
 
 /// Another mesh in the coordinates of its elastic natural modes: unknowns z with q = sum z_k phi_k.
