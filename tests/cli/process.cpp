@@ -45,8 +45,10 @@ Finished run_program(const std::vector<std::string>& arguments, const fs::path& 
     ::kill(child, signal);
   }
   int state = 0;
-  ::waitpid(child, &state, 0);
+  rusage usage{};
+  ::wait4(child, &state, 0, &usage);
   Finished finished;
+  finished.megabytes = 1e-3 * static_cast<double>(usage.ru_maxrss);
   finished.status = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
   finished.output = read_file(output);
   finished.errors = read_file(errors);

@@ -11,9 +11,10 @@ namespace subimpact {
 
 /// What a process left behind.
 struct Finished {
-  int status = -1;     ///< exit status; minus the signal's number if one ended it
-  std::string output;  ///< stdout
-  std::string errors;  ///< stderr
+  int status = -1;         ///< exit status; minus the signal's number if one ended it
+  std::string output;      ///< stdout
+  std::string errors;      ///< stderr
+  double megabytes = 0.0;  ///< resident memory at its largest
 };
 
 /// Runs the program with these arguments, its streams captured, in the given working directory.

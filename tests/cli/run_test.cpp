@@ -189,6 +189,32 @@ TEST(Run, BesideAnotherRunIntoTheSameDirectoryIsRefused) {
   expect_in(finished.errors, "is writing into this directory; wait until it has ended");
 }
 
+// Rows held in memory would take 144 bytes each, and their text 345: 200 MB.
+TEST(Memory, OfARunDoesNotGrowWithItsRows) {
+  const TemporaryDirectory directory;
+  const Finished finished =
+      run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--quiet", "--set",
+                   "model.segments=41", "--set", "model.section=elastic", "--set", "time.end=1e-3",
+                   "--set", "output.interval=2.5e-9"},
+                  directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  EXPECT_LT(finished.megabytes, 100.0);
+  const Finished drawn = run_program({"plot", "here"}, directory.path);
+  EXPECT_EQ(drawn.status, 0) << drawn.errors;
+  EXPECT_LT(drawn.megabytes, 200.0);
+  printf("run %.0f MB, plot %.0f MB for 400,000 rows\n", finished.megabytes, drawn.megabytes);
+}
+
+TEST(Memory, OfExplainIsSmallAndThatOfTheRunIsForetold) {
+  const Finished finished =
+      run_program({"explain", SUBIMPACT_PAPER_CASE, "--method", "exponential", "--set",
+                   "model.section=elastic", "--set", "model.segments=20001"});
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  expect_in(finished.output, "memory                about 8.5e+02 MB");
+  EXPECT_LT(finished.megabytes, 100.0);
+  printf("explain of 20,001 cells in modes: %.0f MB\n", finished.megabytes);
+}
+
 TEST(Run, ThatIsToldToEndKeepsWhatItHasComputed) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryDirectory directory;
