@@ -108,7 +108,7 @@ int write_all(int file, std::string_view content) {
 }
 
 OutputDirectory::OutputDirectory(const fs::path& directory, std::string kind, std::string identity)
-    : kind_(std::move(kind)), identity_(std::move(identity)) {
+    : kind_(std::move(kind)), identity_(identity.empty() ? new_identity() : std::move(identity)) {
   open(directory);
 }
 
@@ -176,11 +176,11 @@ void OutputDirectory::commit() {
     synchronise(path_);
     settle();
     begin_staging();
-  } catch (const std::system_error& failure) {
+  } catch (const std::exception& failure) {
     notes_.push_back(fmt::format(
         "{}: some files are still in {} ({}); the next command that writes into this directory "
         "will move them",
-        path_.string(), sealed.filename().string(), failure.code().message()));
+        path_.string(), sealed.filename().string(), failure.what()));
   }
 }
 

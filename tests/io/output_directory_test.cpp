@@ -133,6 +133,17 @@ TEST(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
   EXPECT_FALSE(fs::exists(directory.path / "response.svg"));
 }
 
+TEST(AnOutputDirectory, DoesNotMixTheFiguresOfTwoRunsWithoutIdentity) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory figures(directory.path, "figures", "");
+    commit(figures, "bending.svg", "of one run");
+  }
+  OutputDirectory figures(directory.path, "figures", "");
+  commit(figures, "response.svg", "of another run");
+  EXPECT_FALSE(fs::exists(directory.path / "bending.svg"));
+}
+
 TEST(AnOutputDirectory, HoldsFilesOfOneKind) {
   const TemporaryDirectory directory;
   {
