@@ -1,6 +1,7 @@
 #include "subimpact/model/natural_modes.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,34 @@ void normalise(NaturalModes& modes, const BandedMatrix& mass) {
     for (double& entry : shape) entry *= scale;
   }
 }
+
+namespace {
+
+// The decomposition leaves in every mode a share of the rigid translation that rounding makes, some
+// 1e-10 on fine meshes, and with it momentum. The first rigid mode becomes the translation itself,
+// the second, if there is one, the rotation that is left of both.
+void free_of_translation(NaturalModes& modes, const BeamMesh& mesh) {
+  const std::span<const double> translation = mesh.translation();
+  if (translation.empty() || modes.frequencies.front() != 0.0) return;
+  const std::size_t n = modes.size();
+  std::vector<double> momentum(n);  // of a velocity in each unknown
+  mesh.mass().multiply(translation, momentum);
+  const double mass = mesh.mass().quadratic_form(translation);
+  const auto shape = [&](std::size_t k) { return std::span(modes.shapes.data() + k * n, n); };
+  for (std::size_t k = 0; k < n; ++k) {
+    double share = 0.0;
+    for (std::size_t i = 0; i < n; ++i) share += momentum[i] * shape(k)[i];
+    for (std::size_t i = 0; i < n; ++i) shape(k)[i] -= share / mass * translation[i];
+  }
+  const bool rotates = n > 1 && modes.frequencies[1] == 0.0;
+  if (rotates && mesh.mass().quadratic_form(shape(0)) > mesh.mass().quadratic_form(shape(1))) {
+    std::ranges::copy(shape(0), shape(1).begin());
+  }
+  std::ranges::copy(translation, shape(0).begin());
+  normalise(modes, mesh.mass());
+}
+
+}  // namespace
 
 NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness) {
   const auto n = static_cast<Eigen::Index>(mesh.n_unknowns());
@@ -54,6 +83,7 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
     const double frequency = std::sqrt(twice_energy);
     modes.frequencies[k] = frequency > 1e-7 * highest ? frequency : 0.0;
   }
+  free_of_translation(modes, mesh);
   return modes;
 }
 

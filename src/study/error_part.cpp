@@ -67,9 +67,11 @@ ErrorEstimate::Part judge(const std::vector<SubImpact>& all, const ErrorPart& pa
   return estimate;
 }
 
-std::optional<double>& member_of(SubImpact& s, const std::string& part) {
-  if (part == "mesh") return s.error_mesh;
-  return part == "layers" ? s.error_layers : s.error_time;
+// Nothing for a part that stands for several.
+std::optional<double>* member_of(SubImpact& s, const std::string& part) {
+  if (part == "mesh") return &s.error_mesh;
+  if (part == "layers") return &s.error_layers;
+  return part == "time" ? &s.error_time : nullptr;
 }
 
 }  // namespace
@@ -98,7 +100,7 @@ void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
   total.errors.assign(all.size(), 0.0);
   for (const ErrorPart& part : parts) {
     for (std::size_t i = 0; i < part.errors.size(); ++i) {
-      member_of(all[i], part.name) = part.errors[i];
+      if (auto* member = member_of(all[i], part.name)) *member = part.errors[i];
     }
     total.errors.resize(std::min(total.errors.size(), part.errors.size()));
     for (std::size_t i = 0; i < total.errors.size(); ++i) total.errors[i] += part.errors[i];

@@ -146,6 +146,16 @@ struct ErrorEstimate {
   std::vector<Part> parts;
 };
 
+/// What became of a wish for event times within an error.
+struct WishOutcome {
+  double wished = 0.0;   ///< s
+  bool met = false;      ///< by every event of the run
+  double reached = 0.0;  ///< s, largest stated error of the times before the horizon
+  double horizon = 0.0;  ///< s, up to which event times are within the wish
+  std::string reason;    ///< why it is not met beyond the horizon
+  std::string key;       ///< of the case, that stands in the way
+};
+
 struct Result {
   Outcome outcome;
   Options given;          ///< of the run, as passed by the caller
@@ -172,6 +182,9 @@ struct Result {
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
   std::optional<ErrorEstimate> error_estimate;  ///< with error bars
+  std::optional<WishOutcome> wish;              ///< where an error was wished for
+  /// Why the mesh and the method are what they are, where the program chose them.
+  std::string choice;
   Work work;
 
   /// Whether the whole result passed every check. If not, the part up to

@@ -1,0 +1,72 @@
+#pragma once
+
+/// Event times within a wanted error: mesh, method and tolerance chosen by the program.
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/simulate.h"
+#include "subimpact/study/companion.h"
+
+namespace subimpact {
+
+/// What a case leaves to the program.
+struct OpenChoices {
+  bool mesh = true;       ///< model.mesh
+  bool size = true;       ///< model.segments or model.elements
+  bool method = true;     ///< solver.method
+  bool tolerance = true;  ///< solver.rtol, or solver.step
+
+  bool all() const { return mesh && size && method && tolerance; }
+};
+
+/// What the keys that a user gave leave open. Keys of one mesh or method fix that mesh or method.
+OpenChoices open_choices(const GivenKeys& given);
+
+struct WithinOptions {
+  /// s: wanted bound on the error of every event time. Empty: a tenth of the time scale of the
+  /// shortest contacts (ResolvedSettings::contact_time).
+  std::optional<double> wish;
+  /// Bound on the work of all runs together, in evaluations of the right-hand side times unknowns
+  /// of the beam: some 5 ns each.
+  double work_limit = 2e10;
+  Jobs jobs = 1;
+  /// Called before each run, with its description.
+  std::function<void(const std::string& what)> announce;
+  Progress progress;  ///< of the run in hand; returning false ends all with what there is
+  /// Called before each run whose rows are kept: where they go. Those of the run before are to be
+  /// discarded. Empty: rows stay in the result.
+  std::function<RowSink*()> rows;
+};
+
+/// The work limit of a run that wishes for nothing.
+constexpr double default_work_limit = 2e8;
+
+/// A case with every choice made, and its run.
+struct WithinRun {
+  Case input;  ///< simulate_with_companion(input) repeats the run, bit for bit
+  Result result;
+};
+
+/// Where a beam bends elastically: Hermite elements in natural modes, by the exponential method
+/// (fourth order in the mesh, next to no error in time). Where sections yield: cells by central
+/// differences, the cheapest known at any error above 1e-3 us. What the case fixes stays.
+struct ChosenModel {
+  Case input;
+  std::string reason;  ///< in words
+};
+ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields);
+
+/// Runs a case on finer and finer meshes, each beside its companion, until every event time of
+/// the run is stated within the wish. The next mesh follows from the stated error and the order of
+/// the mesh; from the counted work of the runs so far follows whether it is affordable. Neither
+/// depends on measured time or on the number of jobs.
+///
+/// Result::wish states whether the wish is met and up to where; if not, why, and which key of the
+/// case stands in the way. Throws InvalidCase.
+WithinRun simulate_within(const Case& input, const OpenChoices& open,
+                          const WithinOptions& options = {});
+
+}  // namespace subimpact

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <initializer_list>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/methods.h"
+#include "subimpact/study/within.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double tolerance_of_rigid_bodies = 1e-10;
+
+bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](const char* key) {
+    return given.in_file.contains(key) || given.in_settings.contains(key);
+  });
+}
+
+}  // namespace
+
+OpenChoices open_choices(const GivenKeys& given) {
+  OpenChoices open;
+  open.size = !has_any(given, {"model.segments", "model.elements"});
+  open.mesh = open.size && !has_any(given, {"model.mesh", "model.sections_per_element",
+                                            "model.hinges", "model.strike_refinement",
+                                            "model.refined_length"});
+  open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
+  open.method = open.tolerance && !has_any(given, {"solver.method", "solver.table",
+                                                   "solver.max_order", "solver.events",
+                                                   "solver.reversals"});
+  return open;
+}
+
+ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields) {
+  ChosenModel chosen{input, {}};
+  ModelOptions& model = chosen.input.model;
+  SolverOptions& solver = chosen.input.solver;
+  const bool own_mesh = input.parts.mesh != nullptr;
+  const bool bends = own_mesh || descriptor_of(model.mesh).bends;
+  if (!bends) {
+    if (open.method) solver.method = Method::nystrom;
+    if (open.tolerance) solver.rtol = tolerance_of_rigid_bodies;
+    chosen.reason = "a rigid body has no mesh to refine";
+    return chosen;
+  }
+  const bool central = !open.method && solver.method == Method::central_difference;
+  if (open.mesh && !own_mesh) {
+    model.mesh = yields || central ? MeshKind::cells : MeshKind::hermite;
+  }
+  if (open.method && !yields) solver.method = Method::exponential;
+  if (open.method && yields) {
+    const bool cells = !own_mesh && model.mesh == MeshKind::cells;
+    solver.method = cells ? Method::central_difference : Method::nystrom;
+  }
+  chosen.reason = yields ? "sections yield, so that kinks, not the order of a method, bound the error"
+                         : "the beam bends elastically, so that natural modes are exact in time";
+  return chosen;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,118 @@
+#include "subimpact/study/companion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <future>
+#include <utility>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/methods.h"
+#include "study/error_part.h"
+#include "subimpact/study/mesh_error_bars.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double safety = 2.0;
+constexpr double safety_with_hinges = 4.0;
+constexpr double looser = 10.0;  // rtol
+constexpr double loosest = 1e-1;
+// A default step that grows less than this from mesh to mesh is limited by the contact.
+constexpr double least_step_ratio = 1.4;
+
+// Stated error over difference.
+double error_factor(const Companion& companion, bool yielded) {
+  if (companion.ratio <= 1.0) return safety / (looser - 1.0);
+  Case mesh = companion.input;
+  const bool uneven = yielded && mesh.model.mesh == MeshKind::hermite &&
+                      mesh.model.hinges == HingeUse::automatic;
+  if (!yielded) mesh.model.section = SectionKind::elastic;
+  const int order = *mesh_order(mesh);
+  return (uneven ? safety_with_hinges : safety) / (std::pow(companion.ratio, order) - 1.0);
+}
+
+// Twice the step, or the largest that is stable.
+double doubled_step(const Case& coarser, double step) {
+  const bool bounded = descriptor_of(coarser.solver.method).steps == MethodDescriptor::Steps::fixed;
+  if (!bounded) return 2.0 * step;
+  Case by_default = coarser;
+  by_default.solver.step.reset();
+  const double critical = resolve(by_default).settings().critical_step;
+  return std::max(step, std::min(2.0 * step, default_part_of_critical * critical));
+}
+
+// What the method does in time, coarser; in words where it is not the default of the mesh.
+std::string coarsen_time(const Case& input, Case& coarser) {
+  const std::optional<double> step = resolve(input).settings().step;
+  if (!step) {
+    coarser.solver.rtol = std::min(looser * input.solver.rtol, loosest);
+    return fmt::format("rtol = {:.3g}", coarser.solver.rtol);
+  }
+  if (!input.solver.step) {
+    const std::optional<double> by_default = resolve(coarser).settings().step;
+    if (by_default && *by_default >= least_step_ratio * *step) {
+      return fmt::format("a step of {:.4g} us", 1e6 * *by_default);
+    }
+  }
+  coarser.solver.step = doubled_step(coarser, *step);
+  return fmt::format("a step of {:.4g} us", 1e6 * *coarser.solver.step);
+}
+
+}  // namespace
+
+std::optional<Companion> companion_of(const Case& input) {
+  try {
+    const std::optional<RefinedRun> coarser_mesh = on_other_mesh(input, 0.5);
+    Companion companion;
+    companion.input = coarser_mesh ? coarser_mesh->input : input;
+    companion.input.solver.step = input.solver.step;
+    companion.input.output.keep_no_rows();
+    const std::string in_time = coarsen_time(input, companion.input);
+    if (!coarser_mesh) {
+      companion.name = "time";
+      companion.description = "the same with " + in_time;
+      return companion;
+    }
+    companion.ratio = static_cast<double>(mesh_count(input)) / mesh_count(companion.input);
+    companion.name = "mesh and time";
+    companion.description = coarser_mesh->description + " and " + in_time;
+    resolve(companion.input);
+    return companion;
+  } catch (const InvalidCase&) {  // of the coarser run
+    return std::nullopt;
+  }
+}
+
+void add_companion_errors(Result& result, const Companion& companion, const Result& other) {
+  const bool yielded = result.n_yielded_sections > 0 || other.n_yielded_sections > 0;
+  set_error_bars(result, {compare_events(result, other, companion.name, companion.description,
+                                         error_factor(companion, yielded))});
+}
+
+Result simulate_with_companion(const Case& input, Jobs jobs, const Progress& progress,
+                               RowSink* rows) {
+  resolve(input);  // whatever is wrong with the case itself
+  const std::optional<Companion> companion = companion_of(input);
+  if (!companion) return simulate(input, progress, nullptr, rows);
+  std::atomic<bool> stop = false;
+  const auto run_companion = [&] {
+    return simulate(companion->input, [&stop](double) { return !stop; });
+  };
+  std::future<Result> beside;
+  if (jobs > 1) beside = std::async(std::launch::async, run_companion);
+  Result result = simulate(input, progress, nullptr, rows);
+  stop = result.outcome.kind == OutcomeKind::stopped;
+  if (beside.valid() || !stop) {
+    const Result other = beside.valid() ? beside.get() : run_companion();
+    if (!stop) {
+      add_companion_errors(result, *companion, other);
+    }
+  }
+  return result;
+}
+
+}  // namespace subimpact

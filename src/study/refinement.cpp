@@ -1,0 +1,107 @@
+#include "study/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/methods.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/study/mesh_error_bars.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double parts_per_wave = 8.0;
+constexpr int fewest_parts = 64;
+constexpr int most_parts_at_first = 2000;
+constexpr double first_tolerance = 1e-6;
+constexpr double first_tolerance_in_modes = 1e-8;
+constexpr double tightest_tolerance = 1e-12;
+constexpr double digits_per_doubling = 1.0;
+constexpr double least_step_ratio = 1.4;  // of a step that the mesh limits, per doubling
+
+// Cells over the length that resolve bending waves of the shortest contacts.
+int parts_that_resolve(const Case& input, double contact_time) {
+  const Beam& beam = input.scene.beam;
+  const double density = beam.mass() / beam.length;
+  const double frequency = M_PI / contact_time;
+  const double wave = 2.0 * M_PI / std::sqrt(frequency) *
+                      std::pow(beam.bending_stiffness() / density, 0.25);
+  const double parts = parts_per_wave * beam.length / wave;
+  return static_cast<int>(std::clamp<double>(parts, fewest_parts, most_parts_at_first));
+}
+
+Case with_count(const Case& input, double count) {
+  const std::optional<RefinedRun> sized = on_other_mesh(input, count / mesh_count(input));
+  Case other = input;
+  if (sized) other.model = sized->input.model;
+  return other;
+}
+
+bool is_fixed_step(const Case& input) {
+  return descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+}
+
+double step_by_default(Case input) {
+  input.solver.step.reset();
+  return *resolve(input).settings().step;
+}
+
+}  // namespace
+
+Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(input), open_(open) {
+  order_ = mesh_order(input).value_or(1);
+  const bool elements = input.model.mesh == MeshKind::hermite;
+  if (open_.size && mesh_order(input)) {
+    const double parts = parts_that_resolve(input, resolve(input).settings().contact_time);
+    first_ = with_count(input, elements ? 0.5 * parts : parts);
+  }
+  if (!open_.tolerance) return;
+  if (!is_fixed_step(input)) {
+    const bool modes = input.solver.method == Method::exponential;
+    first_.solver.rtol = modes ? first_tolerance_in_modes : first_tolerance;
+    return;
+  }
+  const double step = step_by_default(first_);
+  if (step < least_step_ratio * step_by_default(with_count(first_, 2.0 * mesh_count(first_)))) {
+    first_step_ = step;
+  }
+}
+
+std::optional<Case> Refinement::finer(const Case& from, double ratio) const {
+  Case next = with_count(from, ratio * mesh_count(from));
+  const int count = mesh_count(next);
+  if (count <= mesh_count(from)) return std::nullopt;
+  const CaseKey& key = *find_case_key(size_key());
+  if (key.limits.maximum && count > *key.limits.maximum) return std::nullopt;
+  const double size = static_cast<double>(count) / mesh_count(first_);
+  if (open_.tolerance && !is_fixed_step(next)) {
+    next.solver.rtol = std::max(
+        tightest_tolerance,
+        first_.solver.rtol * std::pow(10.0, -digits_per_doubling * std::log2(size)));
+  } else if (first_step_) {
+    const double step = *first_step_ / size;
+    next.solver.step.reset();
+    if (step < step_by_default(next)) next.solver.step = step;
+  }
+  return next;
+}
+
+const char* Refinement::size_key() const {
+  const auto& refinement = descriptor_of(first_.model.mesh).refinement;
+  return refinement && !first_.parts.mesh ? refinement->key : "model.mesh";
+}
+
+const char* Refinement::fixed_key() const {
+  if (!open_.size || !mesh_order(first_)) return size_key();
+  return nullptr;
+}
+
+bool Refinement::is_same_setting(const Case& a, const Case& b) {
+  return a.model.mesh == b.model.mesh && mesh_count(a) == mesh_count(b) &&
+         a.solver.method == b.solver.method && a.solver.step == b.solver.step &&
+         std::abs(a.solver.rtol / b.solver.rtol - 1.0) < 1e-3;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "subimpact/study/within.h"
+
+namespace subimpact {
+
+/// A case on finer and finer meshes, with the accuracy in time that goes with each: the default
+/// step of the mesh or, where the contact limits the step, one that shrinks as the mesh does; rtol
+/// divided by ten for every doubling. What is not open stays.
+class Refinement {
+ public:
+  Refinement(const Case& input, const OpenChoices& open);
+
+  /// The coarsest case worth a run: cells, or twice as long elements, that are an eighth of the
+  /// length of bending waves of the shortest contacts.
+  const Case& first() const { return first_; }
+  /// Nothing if the mesh would be finer than allowed.
+  std::optional<Case> finer(const Case& from, double ratio) const;
+
+  double order() const { return order_; }
+  const char* size_key() const;
+  /// The key that keeps the case from being refined, if any.
+  const char* fixed_key() const;
+
+  /// Whether two cases that differ in mesh and accuracy at most are the same run.
+  static bool is_same_setting(const Case& a, const Case& b);
+
+ private:
+  Case first_;
+  OpenChoices open_;
+  double order_ = 1.0;
+  std::optional<double> first_step_;  // s, where the contact limits the step
+};
+
+}  // namespace subimpact

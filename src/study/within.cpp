@@ -1,0 +1,258 @@
+#include "subimpact/study/within.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <future>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/methods.h"
+#include "study/error_part.h"
+#include "study/refinement.h"
+#include "subimpact/study/mesh_error_bars.h"
+
+namespace subimpact {
+namespace {
+
+// Meshes finer by less than this are not worth a run; one step of refinement goes no further than
+// the error of so coarse a mesh can be trusted.
+constexpr double least_refinement = 1.25;
+constexpr double most_refinement = 4.0;
+constexpr double usual_refinement = 2.0;
+constexpr double half_refinement = 1.4142135623730951;
+// Of the refinement that the stated error asks for.
+constexpr double margin = 1.05;
+// Of the time scale of the shortest contacts, where nothing is wished.
+constexpr double default_share_of_contact = 0.1;
+
+double work_of(const Result& result) {
+  return static_cast<double>(result.work.right_hand_sides) *
+         static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1));
+}
+
+struct Level {
+  Case input;
+  Result result;
+};
+
+// How many leading sub-impacts are decided and within an error, and what ends them.
+struct Reach {
+  std::size_t n_within = 0;
+  double error_within = 0.0;  // s, the largest stated one of these
+  double error_decided = 0.0; // s, of all that are decided
+  bool all_decided = false;
+  std::string reason;  // empty if all are within the error
+};
+
+Reach reach_of(const Result& result, double wish) {
+  Reach reach;
+  const auto& all = result.sub_impacts;
+  const std::size_t n_decided = result.error_estimate
+                                    ? result.error_estimate->first_unresolved.value_or(all.size())
+                                    : 0;
+  reach.all_decided = result.error_estimate && n_decided == all.size();
+  bool within = true;
+  for (std::size_t i = 0; i < n_decided; ++i) {
+    const double error =
+        std::max(all[i].start_error.value_or(0.0), all[i].end_error.value_or(0.0));
+    reach.error_decided = std::max(reach.error_decided, error);
+    if (within && error > wish) {
+      within = false;
+      reach.reason = fmt::format("the error of sub-impact {} is {:.2g} us", i + 1, 1e6 * error);
+    }
+    if (!within) continue;
+    reach.n_within = i + 1;
+    reach.error_within = reach.error_decided;
+  }
+  if (within && !reach.all_decided) {
+    reach.reason = result.error_estimate ? result.error_estimate->reason
+                                         : "no coarser run is possible that would show the error";
+  }
+  return reach;
+}
+
+class Ladder {
+ public:
+  Ladder(const Case& input, const OpenChoices& open, const WithinOptions& options)
+      : input_(input), open_(open), options_(options) {}
+
+  WithinRun climb();
+
+ private:
+  void choose(bool yields);
+  bool run(const Case& next);
+  bool try_other_model();
+  std::optional<Case> finer_case();
+  double work_of_next(double ratio) const;
+  void report(WithinRun& run) const;
+  Result simulate_counted(const Case& input, const Progress& progress, RowSink* rows);
+
+  Case input_;
+  OpenChoices open_;
+  WithinOptions options_;
+  double wish_ = 0.0;
+  bool yields_ = false;
+  bool may_change_model_ = true;
+  ChosenModel model_;
+  std::optional<Refinement> refinement_;
+  std::optional<Level> level_, coarser_;
+  Reach reach_;
+  double work_ = 0.0;      // of all runs so far
+  bool last_was_half_ = false;  // doubling, see finer_case()
+  std::string obstacle_;   // why no finer mesh is run
+  std::string key_;        // that stands in the way
+};
+
+void Ladder::choose(bool yields) {
+  yields_ = yields;
+  model_ = choose_model(input_, open_, yields);
+  refinement_.emplace(model_.input, open_);
+  level_.reset();
+  coarser_.reset();
+}
+
+// Runs the case and its companion; false if stopped.
+bool Ladder::run(const Case& next) {
+  const std::optional<Companion> companion = companion_of(next);
+  if (options_.announce) {
+    options_.announce(resolve(next).settings().mesh + ", " +
+                      descriptor_of(next.solver.method).name);
+  }
+  const bool known = companion && level_ && Refinement::is_same_setting(companion->input, level_->input);
+  std::optional<Level> below;
+  if (known) below = std::move(level_);
+  std::atomic<bool> stop = false;
+  const auto run_below = [&] {
+    return simulate(companion->input, [&stop](double) { return !stop; });
+  };
+  std::future<Result> beside;
+  if (companion && !known && options_.jobs > 1) {
+    beside = std::async(std::launch::async, run_below);
+  }
+  Result result =
+      simulate(next, options_.progress, nullptr, options_.rows ? options_.rows() : nullptr);
+  stop = result.outcome.kind == OutcomeKind::stopped;
+  work_ += work_of(result);
+  if (companion && !known && !stop) {
+    below = Level{companion->input, beside.valid() ? beside.get() : run_below()};
+    work_ += work_of(below->result);
+  }
+  if (companion && !stop) add_companion_errors(result, *companion, below->result);
+  level_ = Level{next, std::move(result)};
+  coarser_ = std::move(below);
+  return !stop;
+}
+
+// Whether the beam turned out to bend elastically though it could yield, or the other way round.
+bool Ladder::try_other_model() {
+  if (!may_change_model_ || !open_.mesh || !open_.method || !may_yield(input_)) return false;
+  const bool yielded = level_->result.n_yielded_sections > 0;
+  if (yielded == yields_ || !level_->result.outcome.completed()) return false;
+  may_change_model_ = yields_;  // back at most once
+  choose(yielded);
+  return true;
+}
+
+// As the counted work of the last two runs grows; the companion's is a quarter.
+double Ladder::work_of_next(double ratio) const {
+  double exponent = 2.0;
+  if (coarser_) {
+    const double sizes = static_cast<double>(mesh_count(level_->input)) /
+                         static_cast<double>(mesh_count(coarser_->input));
+    if (sizes > 1.0) {
+      exponent = std::log(work_of(level_->result) / work_of(coarser_->result)) / std::log(sizes);
+    }
+  }
+  exponent = std::clamp(exponent, 1.0, 4.0);
+  const double companion = std::abs(ratio - 2.0) < 0.01 ? 0.0 : std::pow(0.5, exponent);
+  return work_of(level_->result) * std::pow(ratio, exponent) * (1.0 + companion);
+}
+
+std::optional<Case> Ladder::finer_case() {
+  if (const char* key = refinement_->fixed_key()) {
+    key_ = key;
+    obstacle_ = fmt::format("{} is fixed by the case", key);
+    return std::nullopt;
+  }
+  double ratio = usual_refinement;
+  if (reach_.error_decided > wish_) {
+    ratio = margin * std::pow(reach_.error_decided / wish_, 1.0 / refinement_->order());
+    if (!reach_.all_decided) ratio = std::max(ratio, usual_refinement);
+    last_was_half_ = false;
+  } else {
+    // The run may be right, and its companion too coarse to show it.
+    last_was_half_ = !last_was_half_;
+    if (last_was_half_) ratio = half_refinement;
+  }
+  ratio = std::clamp(ratio, least_refinement, most_refinement);
+  while (work_ + work_of_next(ratio) > options_.work_limit && ratio > least_refinement) {
+    ratio = std::max(least_refinement, 0.9 * ratio);
+  }
+  if (work_ + work_of_next(ratio) > options_.work_limit) {
+    key_ = "accuracy.work_limit";
+    obstacle_ = fmt::format("a finer mesh would take the counted work from {:.1e} to {:.1e}, above "
+                            "the limit of {:.1e}",
+                            work_, work_ + work_of_next(ratio), options_.work_limit);
+    return std::nullopt;
+  }
+  const std::optional<Case> finer = refinement_->finer(level_->input, ratio);
+  if (!finer) {
+    key_ = refinement_->size_key();
+    obstacle_ = "the mesh is the finest that is allowed";
+  }
+  return finer;
+}
+
+WithinRun Ladder::climb() {
+  choose(may_yield(input_));
+  wish_ = options_.wish.value_or(default_share_of_contact *
+                                 resolve(model_.input).settings().contact_time);
+  Case next = refinement_->first();
+  while (run(next)) {
+    if (try_other_model()) {
+      next = refinement_->first();
+      continue;
+    }
+    reach_ = reach_of(level_->result, wish_);
+    if (reach_.reason.empty()) break;
+    const std::optional<Case> finer = finer_case();
+    if (!finer) break;
+    next = *finer;
+  }
+  WithinRun run{std::move(level_->input), std::move(level_->result)};
+  report(run);
+  return run;
+}
+
+void Ladder::report(WithinRun& run) const {
+  Result& result = run.result;
+  result.choice = model_.reason;
+  if (!options_.wish) return;
+  WishOutcome outcome;
+  outcome.wished = wish_;
+  outcome.met = result.outcome.completed() && reach_.reason.empty();
+  outcome.reached = reach_.error_within;
+  const auto& all = result.sub_impacts;
+  outcome.horizon =
+      reach_.n_within < all.size() ? all[reach_.n_within].start : result.outcome.time;
+  if (!outcome.met) {
+    outcome.reason = reach_.reason + "; " + obstacle_;
+    outcome.key = key_;
+  }
+  result.wish = outcome;
+}
+
+}  // namespace
+
+WithinRun simulate_within(const Case& input, const OpenChoices& open,
+                          const WithinOptions& options) {
+  return Ladder(input, open, options).climb();
+}
+
+}  // namespace subimpact
