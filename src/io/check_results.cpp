@@ -126,6 +126,10 @@ void check_summary(const std::string& file, const FinishedRun& run) {
     require_finite("outcome.first_failure_s", failure->from);
     require_finite("outcome.first_failure_s", failure->to);
   }
+  if (result.wish) {
+    require_finite("wish.event_times_s", result.wish->wished);
+    require_finite("wish.horizon_s", result.wish->horizon);
+  }
   require_finite("maxima.force_N", result.max_force);
   require_finite("maxima.indentation_m", result.max_indentation);
   require_finite("final.striker_velocity_m_per_s", result.striker_velocity);

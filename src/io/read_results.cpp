@@ -198,6 +198,20 @@ std::optional<ErrorEstimate> error_estimate_from(const Json& json) {
   return estimate;
 }
 
+// Files of older versions have no wish.
+std::optional<WishOutcome> wish_from(const Json& summary) {
+  const Json json = summary.value("wish", Json());
+  if (json.is_null()) return std::nullopt;
+  WishOutcome wish;
+  wish.met = summary.at("wish_met").get<bool>();
+  wish.wished = number(json.at("event_times_s"));
+  wish.reached = number(json.at("reached_error_s"));
+  wish.horizon = number(json.at("horizon_s"));
+  wish.reason = optional_text(json.at("reason")).value_or("");
+  wish.key = optional_text(json.at("key_to_free")).value_or("");
+  return wish;
+}
+
 // Copies of deeply nested values exhaust the stack.
 bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
   if (depth <= deepest_summary) return true;
@@ -244,6 +258,7 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
     result.max_momentum_error = optional_number(conservation.at("max_momentum_error_relative"));
     result.max_impulse_error = number(conservation.value("max_impulse_error_relative", Json(0.0)));
     result.error_estimate = error_estimate_from(json.at("error_bars"));
+    result.wish = wish_from(json);
     result.work = work_from(json.at("work"));
     return layout;
   } catch (const nlohmann::json::exception& error) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "case/counted.h"
@@ -92,6 +94,29 @@ std::string outcome_caveat(const Result& result) {
   return fmt::format("{} at {:.6g} us", kind, outcome.time * us);
 }
 
+std::string wish_words(const WishOutcome& wish, const Result& result) {
+  const std::vector<SubImpact>& all = result.sub_impacts;
+  const auto n_before = std::count_if(
+      all.begin(), all.end(), [&](const SubImpact& s) { return result.end_of(s) <= wish.horizon; });
+  const bool to_the_end = wish.horizon >= result.outcome.time;
+  const std::string range = to_the_end
+                                ? "to the end"
+                                : fmt::format("up to {}, {} of {}", duration_text(wish.horizon),
+                                              n_before, counted(all.size(), "sub-impact"));
+  const bool is_known = std::isfinite(wish.reached);
+  std::string text = fmt::format("event times within {}: ", duration_text(wish.wished));
+  if (wish.met) {
+    text += "met " + range;
+    if (is_known) text += fmt::format(" ({} reached)", duration_text(wish.reached));
+  } else {
+    text += is_known ? fmt::format("not met; {} reached {}", duration_text(wish.reached), range)
+                     : std::string("not met; the error reached is not known");
+  }
+  if (!wish.reason.empty()) text += (wish.met && !to_the_end ? "; beyond: " : "; ") + wish.reason;
+  if (!wish.key.empty()) text += "; free " + wish.key;
+  return text;
+}
+
 std::string sub_impact_table(const Result& result) {
   const bool with_errors = result.error_estimate.has_value();
   fmt::memory_buffer text;
@@ -147,6 +172,7 @@ std::string run_summary(const Case& input, const Result& result) {
                  input.title.empty() ? "untitled case" : printable(input.title));
   line("outcome", fmt::format("{} at {} of {}", to_string(result.outcome.kind),
                               duration_text(result.outcome.time), duration_text(input.end_time)));
+  if (result.wish) line("wish", wish_words(*result.wish, result));
   if (result.outcome.first_failure) line("checks", first_failure_text(result.outcome));
   if (result.no_more_contact) {
     line("no more contact", "proven: striker and beam never touch again");

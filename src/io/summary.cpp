@@ -145,28 +145,36 @@ Json interval(const std::optional<Interval>& times) {
   return {number(times->from), number(times->to)};
 }
 
+Json text_or_null(const std::string& words) { return words.empty() ? Json(nullptr) : Json(words); }
+
+Json wish_or_null(const std::optional<WishOutcome>& wish) {
+  if (!wish) return nullptr;
+  return {
+      {"event_times_s", number(wish->wished)},  {"reached_error_s", number(wish->reached)},
+      {"horizon_s", number(wish->horizon)},     {"reason", text_or_null(wish->reason)},
+      {"key_to_free", text_or_null(wish->key)},
+  };
+}
+
 Json unresolved(const std::optional<std::size_t>& index) {
   return index ? Json(*index + 1) : Json(nullptr);
 }
 
 Json error_estimate_in_times(const std::optional<ErrorEstimate>& estimate) {
   if (!estimate) return nullptr;
-  const auto text = [](const std::string& words) {
-    return words.empty() ? Json(nullptr) : Json(words);
-  };
   Json parts = Json::array();
   for (const ErrorEstimate::Part& part : estimate->parts) {
     parts.push_back({{"name", part.name},
                      {"refined_run", part.refined_run},
                      {"max_error_s", number(part.largest_error)},
                      {"first_unresolved_index", unresolved(part.first_unresolved)},
-                     {"reason", text(part.reason)}});
+                     {"reason", text_or_null(part.reason)}});
   }
   return {
       {"refined_run", estimate->refined_run},
       {"max_time_error_s", number(estimate->largest_error)},
       {"first_unresolved_index", unresolved(estimate->first_unresolved)},
-      {"reason", text(estimate->reason)},
+      {"reason", text_or_null(estimate->reason)},
       {"parts", parts},
   };
 }
@@ -205,6 +213,8 @@ std::string summary_json(const Case& input, const Result& result) {
         {"time_s", number(result.outcome.time)},
         {"message", result.outcome.message},
         {"first_failure_s", interval(result.outcome.first_failure)}}},
+      {"wish_met", result.wish ? Json(result.wish->met) : Json(nullptr)},
+      {"wish", wish_or_null(result.wish)},
       {"warnings", result.warnings},
       {"counts", counts(result, zones)},
       {"zones", zone_list(zones)},

@@ -31,6 +31,13 @@ List list_of(const std::string& name, const Range& texts) {
 // A part of the page that is there or not.
 List if_given(bool given, const Fields& fields = {}) { return given ? List{fields} : List{}; }
 
+List wish_list(const Result& result) {
+  if (!result.wish) return {};
+  return {Fields{
+      {{"wish", wish_words(*result.wish, result)}, {"class", result.wish->met ? "met" : "warning"}},
+      {}}};
+}
+
 List tiles(const Result& result) {
   List list;
   const auto tile = [&](const std::string& value, const std::string& label) {
@@ -188,7 +195,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"outcome", std::string(to_string(result.outcome.kind))},
        {"end", duration_text(result.outcome.time)},
        {"versions", versions}},
-      {{"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
+      {{"wishes", wish_list(result)},
+       {"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
        {"warnings", list_of("warning", result.warnings)},
        {"tiles", tiles(result)},
        {"paragraphs", list_of("paragraph", strike_words(run.input, result))},

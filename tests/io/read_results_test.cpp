@@ -19,6 +19,8 @@
 namespace subimpact {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 std::string refusal_of(const std::filesystem::path& directory) {
   try {
     read_results(directory);
@@ -116,6 +118,42 @@ TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
   EXPECT_EQ(run.result.error_estimate->parts.front().name, "mesh");
   EXPECT_EQ(run.result.error_estimate->parts.front().first_unresolved, 2u);
   EXPECT_FALSE(run.result.sub_impacts.back().end);
+}
+
+TEST(ReadResults, KeepsAWishAndThatNoneWasMade) {
+  const Case input = read_case_text(small_case_text(), "small.toml").value;
+  for (const bool met : {true, false}) {
+    const TemporaryDirectory directory;
+    Result result = sample_result();
+    result.wish = WishOutcome{1e-6, met, met ? 3e-7 : infinity, 8.4e-4, "too coarse", "model.mesh"};
+    write_results(directory.path, input, result);
+    const FinishedRun run = read_results(directory.path);
+    ASSERT_TRUE(run.result.wish);
+    EXPECT_EQ(run.result.wish->met, met);
+    EXPECT_EQ(run.result.wish->wished, 1e-6);
+    EXPECT_EQ(run.result.wish->reached, met ? 3e-7 : infinity);
+    EXPECT_EQ(run.result.wish->horizon, 8.4e-4);
+    EXPECT_EQ(run.result.wish->reason, "too coarse");
+    EXPECT_EQ(run.result.wish->key, "model.mesh");
+    expect_in(summary_json(input, result), met ? "\"wish_met\": true" : "\"wish_met\": false");
+  }
+  const TemporaryDirectory directory;
+  write_results(directory.path, input, sample_result());
+  EXPECT_FALSE(read_results(directory.path).result.wish);
+  expect_in(summary_json(input, sample_result()), "\"wish_met\": null");
+}
+
+TEST(ReadResults, OfFilesWithoutAWishHaveNone) {
+  const Case input = read_case_text(small_case_text(), "small.toml").value;
+  const TemporaryDirectory directory;
+  write_results(directory.path, input, sample_result());
+  std::string text = summary_json(input, sample_result());
+  for (const std::string line : {"  \"wish_met\": null,\n", "  \"wish\": null,\n"}) {
+    ASSERT_NE(text.find(line), std::string::npos);
+    text.erase(text.find(line), line.size());
+  }
+  make_older(directory.path, text, "\"layout\": 3");
+  EXPECT_FALSE(read_results(directory.path).result.wish);
 }
 
 TEST(ReadResults, OfLayout2HaveOtherNamesAndTheOppositeMoment) {

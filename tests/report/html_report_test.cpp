@@ -91,6 +91,16 @@ std::string xml_problem(const std::string& page) {
   return open.empty() ? "" : "left open: " + open.back();
 }
 
+TEST(HtmlReport, ShowsAWishUnderTheTitle) {
+  FinishedRun run = small_run();
+  EXPECT_EQ(html_report(run, {}, ".").find("Wish:"), std::string::npos);
+  run.result.wish = WishOutcome{1e-6, false, 2e-6, 8.4e-4, "cells < 51", "model.segments"};
+  const std::string page = html_report(run, {}, ".");
+  expect_in(page, "Wish: event times within 1 us: not met; 2 us reached up to 840 us");
+  expect_in(page, "cells &lt; 51; free model.segments.");
+  EXPECT_LT(page.find("Wish:"), page.find("<h2>"));
+}
+
 TEST(XmlProblem, IsFoundWhereThereIsOne) {
   EXPECT_EQ(xml_problem("<!DOCTYPE html><a b=\"c\"><d/>&amp;</a>"), "");
   for (const char* spoilt :

@@ -108,6 +108,44 @@ TEST(Warnings, AreShownInTheSummary) {
   expect_in(run_summary(paper_case(), result), "warning             beam.length is 711.2 m\n");
 }
 
+Result result_with_a_wish(const WishOutcome& wish) {
+  Result result = sample_result();  // ends: 0.33, 0.6 and, still open, 8 ms
+  result.wish = wish;
+  return result;
+}
+
+TEST(Wish, MetUpToAHorizonNamesHorizonSubImpactsReasonAndKey) {
+  const Result result =
+      result_with_a_wish({1e-6, true, 0.3e-6, 840e-6, "its mesh is too coarse", "model.segments"});
+  const std::string summary = run_summary(paper_case(), result);
+  expect_in(
+      summary,
+      "wish                event times within 1 us: met up to 840 us, 2 of 3 sub-impacts (0.3 "
+      "us reached); beyond: its mesh is too coarse; free model.segments\n");
+  EXPECT_LT(summary.find("  wish "), summary.find("  model "));
+  EXPECT_GT(summary.find("  wish "), summary.find("  outcome "));
+}
+
+TEST(Wish, MetToTheEndSaysNoMore) {
+  const Result result = result_with_a_wish({1e-7, true, 0.3e-7, 8e-3, "", ""});
+  EXPECT_EQ(wish_words(*result.wish, result),
+            "event times within 0.1 us: met to the end (0.03 us reached)");
+}
+
+TEST(Wish, NotMetNamesTheErrorReachedOrThatItIsNotKnown) {
+  const WishOutcome missed{1e-6, false, 2.5e-6, 8e-3, "model.segments is fixed", "model.segments"};
+  EXPECT_EQ(wish_words(missed, sample_result()),
+            "event times within 1 us: not met; 2.5 us reached to the end; model.segments is fixed; "
+            "free model.segments");
+  const WishOutcome unknown{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, "", ""};
+  EXPECT_EQ(wish_words(unknown, sample_result()),
+            "event times within 1 us: not met; the error reached is not known");
+}
+
+TEST(Wish, IsNotMentionedWhereNoneWasMade) {
+  EXPECT_EQ(run_summary(paper_case(), sample_result()).find("wish"), std::string::npos);
+}
+
 std::string explanation_of(const Case& input) {
   ResolvedRun run = resolve(input);
   return explanation(input, run.settings(), estimate_cost(run));

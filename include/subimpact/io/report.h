@@ -16,6 +16,10 @@ namespace subimpact {
 /// the results passed every check, in one line; empty for a run that completed.
 std::string outcome_caveat(const Result& result);
 
+/// What became of a wished accuracy, in one line: wish, horizon, error reached, reason and the key
+/// to free.
+std::string wish_words(const WishOutcome& wish, const Result& result);
+
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
 /// with outcome_caveat(), if there is one.
 std::string sub_impact_table(const Result& result);

@@ -2,6 +2,7 @@
 
 /// What a simulation returns.
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -146,14 +147,14 @@ struct ErrorEstimate {
   std::vector<Part> parts;
 };
 
-/// What became of a wish for event times within an error.
+/// What became of a wished accuracy of the event times (starts and ends of sub-impacts).
 struct WishOutcome {
-  double wished = 0.0;   ///< s
-  bool met = false;      ///< by every event of the run
-  double reached = 0.0;  ///< s, largest stated error of the times before the horizon
-  double horizon = 0.0;  ///< s, up to which event times are within the wish
-  std::string reason;    ///< why it is not met beyond the horizon
-  std::string key;       ///< of the case, that stands in the way
+  double wished = 0.0;   ///< s, error of event times that was asked for
+  bool met = false;      ///< whether every event time of the run is decided and within the wish
+  double reached = 0.0;  ///< s, largest error of the event times before the horizon; inf: not known
+  double horizon = 0.0;  ///< s, up to which event times are decided and within the wish
+  std::string reason;    ///< why the horizon comes before the end; else empty
+  std::string key;       ///< key of the case that stands in the way and could be freed; or empty
 };
 
 struct Result {
@@ -182,8 +183,8 @@ struct Result {
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
   std::optional<ErrorEstimate> error_estimate;  ///< with error bars
-  std::optional<WishOutcome> wish;              ///< where an error was wished for
-  /// Why the mesh and the method are what they are, where the program chose them.
+  std::optional<WishOutcome> wish;              ///< of runs that were asked for an accuracy
+  /// Why mesh and method are what they are, where the program chose them; else empty.
   std::string choice;
   Work work;
 
@@ -192,6 +193,13 @@ struct Result {
   bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
   /// The end of a sub-impact, s: that of the run for one that was still open.
   double end_of(const SubImpact& s) const { return s.end.value_or(outcome.time); }
+  /// How many leading sub-impacts are decided: certain in count and order. None without an error
+  /// estimate.
+  std::optional<std::size_t> n_decided() const {
+    if (!error_estimate) return std::nullopt;
+    return std::min(error_estimate->first_unresolved.value_or(sub_impacts.size()),
+                    sub_impacts.size());
+  }
 
   /// One line: outcome, sub-impacts, error of the energy, steps and time.
   std::string brief_report() const;
