@@ -4,6 +4,7 @@
 #include "print.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
+#include "subimpact/study/within.h"
 
 namespace subimpact::app {
 
@@ -19,10 +20,15 @@ void add_explain(CLI::App& program, int& status) {
   command->callback([options, &status] {
     const LoadedCase loaded = options->load();
     with_places(loaded, [&] {
-      ResolvedRun run = resolve(loaded.value);
+      const OpenChoices open = open_choices(loaded.given);
+      const bool chooses = open.all() || loaded.value.accuracy.event_times;
+      const ChosenModel chosen =
+          chooses ? first_choice(loaded.value, open) : ChosenModel{loaded.value, {}};
+      ResolvedRun run = resolve(chosen.input);
       print_notes(loaded);
       print_warnings(doubtful_units(loaded.value));
-      print("{}", explanation(loaded.value, run.settings(), estimate_cost(run)));
+      print("{}", explanation(chosen.input, run.settings(), estimate_cost(run)));
+      if (chooses) print("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);
     });
     status = done;
   });

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +10,7 @@
 #include "status_line.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/results.h"
+#include "time_option.h"
 
 namespace subimpact::app {
 namespace {
@@ -21,26 +20,6 @@ struct PlanCommand {
   std::string error;
   std::string directory;
 };
-
-// "1us", "0.5 ms", "2e-7" (seconds).
-std::optional<double> seconds_of(const std::string& text) {
-  char* rest = nullptr;
-  const double value = std::strtod(text.c_str(), &rest);
-  if (rest == text.c_str() || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
-  while (*rest == ' ') ++rest;
-  const std::string unit = rest;
-  if (unit.empty() || unit == "s") return value;
-  if (unit == "ms") return 1e-3 * value;
-  if (unit == "us") return 1e-6 * value;
-  if (unit == "ns") return 1e-9 * value;
-  return std::nullopt;
-}
-
-std::string time_with_unit(const std::string& text) {
-  if (seconds_of(text)) return {};
-  return fmt::format("is \"{}\"; allowed: a time above 0 with its unit, such as 1us, 0.5ms or 20ns",
-                     text);
-}
 
 int run_plan(const PlanCommand& command) {
   const LoadedCase loaded = command.input.load();
@@ -75,11 +54,9 @@ void add_plan(CLI::App& program, int& status) {
       "plan", "Find the cheapest mesh, method and setting for a wanted total error");
   auto options = std::make_shared<PlanCommand>();
   options->input.add_to(*command);
-  command
-      ->add_option("--error", options->error,
-                   "Wanted bound on the error of every event time, from mesh, layers and time "
-                   "together, with its unit: 1us")
-      ->check(time_with_unit)
+  add_time_option(*command, "--within,--error", options->error,
+                  "Wanted bound on the error of every event time, from mesh, layers and time "
+                  "together, with its unit: 1us")
       ->required();
   command->add_option("--out", options->directory,
                       "Directory for meshes.csv, mesh_limit.csv and plan.csv; made if missing. "
@@ -89,8 +66,8 @@ void add_plan(CLI::App& program, int& status) {
       "the case's size; every combination is compared with that limit. Runs are timed one at a "
       "time: leave the machine otherwise idle.\n"
       "Examples:\n"
-      "  subimpact plan case.toml --error 1us\n"
-      "  subimpact plan case.toml --error 0.05us --set model.section=elastic --out out/plan\n"
+      "  subimpact plan case.toml --within 1us\n"
+      "  subimpact plan case.toml --within 0.05us --set model.section=elastic --out out/plan\n"
       "Exit status: 0 done; 2 bad command line or case file; 130 stopped by Ctrl-C.");
   command->callback([options, &status] { status = run_plan(*options); });
 }

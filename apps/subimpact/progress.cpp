@@ -22,13 +22,15 @@ ProgressDisplay::ProgressDisplay(double end_time, bool quiet, const InterruptLis
 
 ProgressDisplay::~ProgressDisplay() { clear_line(); }
 
+void ProgressDisplay::show_run(const std::string& description) { run_ = description + ": "; }
+
 bool ProgressDisplay::operator()(double time) {
   const auto now = std::chrono::steady_clock::now();
   if (shown_ && now - last_ >= shortest_pause) {
     last_ = now;
     line_is_dirty_ = true;
-    fmt::print(stderr, "\r{} of {} ({:.0f} %)   ", duration_text(time), duration_text(end_time_),
-               100.0 * time / end_time_);
+    fmt::print(stderr, "\r\033[K{}{} of {} ({:.0f} %)", run_, duration_text(time),
+               duration_text(end_time_), 100.0 * time / end_time_);
     std::fflush(stderr);
   }
   return !listener_.interrupted();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "interrupt.h"
 
@@ -14,6 +15,9 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
+  /// What is running, shown before the time.
+  void show_run(const std::string& description);
+
   /// Returns false once the program was asked to end.
   bool operator()(double time);
 
@@ -22,6 +26,7 @@ class ProgressDisplay {
 
   const InterruptListener& listener_;
   double end_time_;
+  std::string run_;
   bool shown_;
   bool line_is_dirty_ = false;
   std::chrono::steady_clock::time_point last_;

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -15,8 +17,11 @@
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/study/companion.h"
 #include "subimpact/study/error_bars.h"
 #include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/within.h"
+#include "time_option.h"
 
 namespace subimpact::app {
 namespace {
@@ -24,9 +29,15 @@ namespace {
 struct RunOptions {
   CaseOptions input;
   std::string directory;
-  std::string error_bars;  // empty, "time" or "all"
+  std::string within;      // empty, or a time with its unit
+  std::string error_bars;  // empty: from a companion; "off", "time" or "all"
+  Jobs jobs = 0;           // 0: as many as the machine has processors
   bool quiet = false;
 };
+
+Jobs jobs_of(const RunOptions& options) {
+  return options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+}
 
 std::filesystem::path output_directory(const RunOptions& options) {
   if (!options.directory.empty()) return options.directory;
@@ -49,20 +60,46 @@ int exit_status(OutcomeKind kind) {
   return failed;
 }
 
-Result simulate_with_progress(const LoadedCase& loaded, ResolvedRun run, const RunOptions& options,
-                              const InterruptListener& listener, RowSink& rows) {
-  ProgressDisplay progress(loaded.value.end_time, options.quiet, listener);
-  try {
-    if (options.error_bars == "time") {
-      return simulate_with_error_bars(loaded.value, std::ref(progress), &rows);
-    }
-    if (!options.error_bars.empty()) {
-      return simulate_with_all_error_bars(loaded.value, std::ref(progress), &rows);
-    }
-    return simulate(std::move(run), std::ref(progress), nullptr, &rows);
-  } catch (const InvalidCase& error) {
-    throw CaseFileError(loaded.message(error));
+// What the program chooses of a case that wishes for an accuracy, or neither wishes nor fixes
+// anything; nothing where all is as the case has it.
+std::optional<OpenChoices> choices_left(const LoadedCase& loaded, const RunOptions& options) {
+  const OpenChoices open = open_choices(loaded.given);
+  if (loaded.value.accuracy.event_times) {
+    if (options.error_bars.empty()) return open;
+    throw CaseFileError(fmt::format(
+        "--error-bars={}: cannot go with a wish for event times, whose errors come from companion "
+        "runs; leave out --error-bars, or --within and accuracy.event_times",
+        options.error_bars));
   }
+  if (open.all() && options.error_bars.empty()) return open;
+  return std::nullopt;
+}
+
+WithinRun simulate_as_chosen(const Case& input, const OpenChoices& open, const RunOptions& options,
+                             const InterruptListener& listener, ResultWriter& files) {
+  ProgressDisplay progress(input.end_time, options.quiet, listener);
+  WithinOptions how;
+  how.jobs = jobs_of(options);
+  how.rows = [&files] {
+    files.restart();
+    return &files;
+  };
+  how.announce = [&progress](const std::string& what) { progress.show_run(what); };
+  how.progress = std::ref(progress);
+  return simulate_within(input, open, how);
+}
+
+Result simulate_as_given(const Case& input, ResolvedRun run, const RunOptions& options,
+                         const InterruptListener& listener, RowSink& rows) {
+  ProgressDisplay progress(input.end_time, options.quiet, listener);
+  if (options.error_bars == "off")
+    return simulate(std::move(run), std::ref(progress), nullptr, &rows);
+  if (options.error_bars == "time")
+    return simulate_with_error_bars(input, std::ref(progress), &rows);
+  if (options.error_bars == "all") {
+    return simulate_with_all_error_bars(input, std::ref(progress), &rows);
+  }
+  return simulate_with_companion(input, jobs_of(options), std::ref(progress), &rows);
 }
 
 // Those that are not printed yet.
@@ -75,13 +112,11 @@ std::vector<std::string> others(std::vector<std::string> warnings,
 }
 
 ResolvedRun resolve_loaded(const LoadedCase& loaded) {
-  try {
+  return with_places(loaded, [&] {
     ResolvedRun run = resolve(loaded.value);
     check_memory(run.settings());
     return run;
-  } catch (const InvalidCase& error) {
-    throw CaseFileError(loaded.message(error));
-  }
+  });
 }
 
 // Writes the results; returns why they could not be written.
@@ -95,7 +130,9 @@ std::string write(ResultWriter& files, const Case& input, const Result& result) 
 }
 
 int run(const RunOptions& options) {
-  const LoadedCase loaded = options.input.load();
+  LoadedCase loaded = options.input.load();
+  if (!options.within.empty()) loaded.value.accuracy.event_times = seconds_of(options.within);
+  const std::optional<OpenChoices> open = choices_left(loaded, options);
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = resolve_loaded(loaded);
   ResultWriter files(output_directory(options), loaded.value);
@@ -103,20 +140,25 @@ int run(const RunOptions& options) {
   if (!options.quiet) print_notes(loaded);
   print_warnings(doubts);
   InterruptListener listener;
-  const Result result =
-      simulate_with_progress(loaded, std::move(resolved), options, listener, files);
+  const WithinRun finished = with_places(loaded, [&] {
+    if (open) return simulate_as_chosen(loaded.value, *open, options, listener, files);
+    return WithinRun{loaded.value, simulate_as_given(loaded.value, std::move(resolved), options,
+                                                     listener, files)};
+  });
+  const Case& input = finished.input;
+  const Result& result = finished.result;
   listener.hold_back();
   // Before anything is printed: the reader of a pipe may leave early and end the program.
-  const std::string unwritten = write(files, loaded.value, result);
+  const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {
-    print("{}\n{}", run_summary(loaded.value, result), sub_impact_table(result));
+    print("{}\n{}", run_summary(input, result), sub_impact_table(result));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
   }
   print_warnings(files.directory().notes());
   print_warnings(others(result.warnings, doubts));
   if (!result.outcome.completed()) {
-    print_error("subimpact: {}\n", failure_message(loaded.value, result));
+    print_error("subimpact: {}\n", failure_message(input, result));
   }
   if (!unwritten.empty()) print_error("subimpact: {}\n", unwritten);
   if (!unwritten.empty() || files.directory().is_relocated()) return failed;
@@ -135,17 +177,29 @@ void add_run(CLI::App& program, int& status) {
       "Directory for events.csv, transitions.csv, history.csv and summary.json; made "
       "if missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
+  add_time_option(*command, "--within", options->within,
+                  "Wished bound on the error of every event time, with its unit: 1us. The program "
+                  "chooses what the case leaves open of mesh, method and tolerance. Instead of "
+                  "accuracy.event_times");
   command
       ->add_flag("--error-bars{all}", options->error_bars,
-                 "Estimate the error of every start and end from refined runs: of the integration "
-                 "in time, of the mesh, of layers instead of the exact section; takes some five "
-                 "times as long. --error-bars=time: of time alone, about twice as long")
-      ->check(CLI::IsMember({"all", "time"}));
+                 "By default the error of every start and end is estimated from a companion, a run "
+                 "twice as coarse in mesh and time, for a quarter of the run's time. "
+                 "--error-bars=off: no estimate. --error-bars: from refined runs, one for each of "
+                 "time, mesh and layers; takes some five times as long. --error-bars=time: of the "
+                 "integration in time alone, about twice as long")
+      ->check(CLI::IsMember({"all", "time", "off"}));
+  command
+      ->add_option("--jobs", options->jobs,
+                   "Runs beside one another at most; results do not depend on it. Default: the "
+                   "number of processors")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
   command->footer(
       "Examples:\n"
       "  subimpact run case.toml\n"
       "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"
+      "  subimpact run case.toml --within 1us\n"
       "  subimpact run case.toml --error-bars\n"
       "  subimpact run case.toml --error-bars=time\n"
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"

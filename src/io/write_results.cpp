@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 class ResultWriter::RowFile {
  public:
   RowFile(std::string name, std::string heading)
-      : name_(std::move(name)), pending_(std::move(heading)) {}
+      : name_(std::move(name)), heading_(std::move(heading)), pending_(heading_) {}
   ~RowFile() {
     if (file_ >= 0) close(file_);
   }
@@ -47,6 +47,13 @@ class ResultWriter::RowFile {
     return 0;
   }
 
+  /// Discards all rows; the file is opened again and cut short.
+  void restart() {
+    leave_directory();
+    pending_ = heading_;
+    n_written_ = 0;
+  }
+
   /// The file is opened again, in another directory.
   void leave_directory() {
     if (file_ >= 0) close(file_);
@@ -57,6 +64,7 @@ class ResultWriter::RowFile {
   static constexpr std::size_t most_pending = 1 << 18;
 
   std::string name_;
+  std::string heading_;
   std::string pending_;
   int file_ = -1;
   off_t n_written_ = 0;
@@ -106,6 +114,11 @@ void ResultWriter::add(const HistoryRow& row) {
 void ResultWriter::add(const SectionRow& row) {
   sections_->add(sections_columns(), row);
   if (sections_->is_full()) flush(*sections_);
+}
+
+void ResultWriter::restart() {
+  history_->restart();
+  if (sections_) sections_->restart();
 }
 
 void ResultWriter::flush(RowFile& rows) {

@@ -22,13 +22,13 @@ bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
 OpenChoices open_choices(const GivenKeys& given) {
   OpenChoices open;
   open.size = !has_any(given, {"model.segments", "model.elements"});
-  open.mesh = open.size && !has_any(given, {"model.mesh", "model.sections_per_element",
-                                            "model.hinges", "model.strike_refinement",
-                                            "model.refined_length"});
+  open.mesh =
+      open.size && !has_any(given, {"model.mesh", "model.sections_per_element", "model.hinges",
+                                    "model.strike_refinement", "model.refined_length"});
   open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
-  open.method = open.tolerance && !has_any(given, {"solver.method", "solver.table",
-                                                   "solver.max_order", "solver.events",
-                                                   "solver.reversals"});
+  open.method =
+      open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",
+                                         "solver.events", "solver.reversals"});
   return open;
 }
 
@@ -53,8 +53,9 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
     const bool cells = !own_mesh && model.mesh == MeshKind::cells;
     solver.method = cells ? Method::central_difference : Method::nystrom;
   }
-  chosen.reason = yields ? "sections yield, so that kinks, not the order of a method, bound the error"
-                         : "the beam bends elastically, so that natural modes are exact in time";
+  chosen.reason = yields
+                      ? "sections yield, so that kinks, not the order of a method, bound the error"
+                      : "the beam bends elastically, so that natural modes are exact in time";
   return chosen;
 }
 

@@ -28,8 +28,8 @@ constexpr double least_step_ratio = 1.4;
 double error_factor(const Companion& companion, bool yielded) {
   if (companion.ratio <= 1.0) return safety / (looser - 1.0);
   Case mesh = companion.input;
-  const bool uneven = yielded && mesh.model.mesh == MeshKind::hermite &&
-                      mesh.model.hinges == HingeUse::automatic;
+  const bool uneven =
+      yielded && mesh.model.mesh == MeshKind::hermite && mesh.model.hinges == HingeUse::automatic;
   if (!yielded) mesh.model.section = SectionKind::elastic;
   const int order = *mesh_order(mesh);
   return (uneven ? safety_with_hinges : safety) / (std::pow(companion.ratio, order) - 1.0);

@@ -26,8 +26,8 @@ int parts_that_resolve(const Case& input, double contact_time) {
   const Beam& beam = input.scene.beam;
   const double density = beam.mass() / beam.length;
   const double frequency = M_PI / contact_time;
-  const double wave = 2.0 * M_PI / std::sqrt(frequency) *
-                      std::pow(beam.bending_stiffness() / density, 0.25);
+  const double wave =
+      2.0 * M_PI / std::sqrt(frequency) * std::pow(beam.bending_stiffness() / density, 0.25);
   const double parts = parts_per_wave * beam.length / wave;
   return static_cast<int>(std::clamp<double>(parts, fewest_parts, most_parts_at_first));
 }
@@ -77,9 +77,9 @@ std::optional<Case> Refinement::finer(const Case& from, double ratio) const {
   if (key.limits.maximum && count > *key.limits.maximum) return std::nullopt;
   const double size = static_cast<double>(count) / mesh_count(first_);
   if (open_.tolerance && !is_fixed_step(next)) {
-    next.solver.rtol = std::max(
-        tightest_tolerance,
-        first_.solver.rtol * std::pow(10.0, -digits_per_doubling * std::log2(size)));
+    next.solver.rtol =
+        std::max(tightest_tolerance,
+                 first_.solver.rtol * std::pow(10.0, -digits_per_doubling * std::log2(size)));
   } else if (first_step_) {
     const double step = *first_step_ / size;
     next.solver.step.reset();

@@ -20,16 +20,19 @@
 namespace subimpact {
 namespace {
 
-// Meshes finer by less than this are not worth a run; one step of refinement goes no further than
-// the error of so coarse a mesh can be trusted.
+// Meshes finer by less than this are not worth a run. After a doubling the last run is the
+// companion of the next; a larger step would rely on the stated error of too coarse a mesh.
 constexpr double least_refinement = 1.25;
-constexpr double most_refinement = 4.0;
 constexpr double usual_refinement = 2.0;
 constexpr double half_refinement = 1.4142135623730951;
 // Of the refinement that the stated error asks for.
 constexpr double margin = 1.05;
 // Of the time scale of the shortest contacts, where nothing is wished.
 constexpr double default_share_of_contact = 0.1;
+
+double default_wish(const Case& input) {
+  return default_share_of_contact * resolve(input).settings().contact_time;
+}
 
 double work_of(const Result& result) {
   return static_cast<double>(result.work.right_hand_sides) *
@@ -44,8 +47,8 @@ struct Level {
 // How many leading sub-impacts are decided and within an error, and what ends them.
 struct Reach {
   std::size_t n_within = 0;
-  double error_within = 0.0;  // s, the largest stated one of these
-  double error_decided = 0.0; // s, of all that are decided
+  double error_within = 0.0;   // s, the largest stated one of these
+  double error_decided = 0.0;  // s, of all that are decided
   bool all_decided = false;
   std::string reason;  // empty if all are within the error
 };
@@ -53,14 +56,12 @@ struct Reach {
 Reach reach_of(const Result& result, double wish) {
   Reach reach;
   const auto& all = result.sub_impacts;
-  const std::size_t n_decided = result.error_estimate
-                                    ? result.error_estimate->first_unresolved.value_or(all.size())
-                                    : 0;
+  const std::size_t n_decided =
+      result.error_estimate ? result.error_estimate->first_unresolved.value_or(all.size()) : 0;
   reach.all_decided = result.error_estimate && n_decided == all.size();
   bool within = true;
   for (std::size_t i = 0; i < n_decided; ++i) {
-    const double error =
-        std::max(all[i].start_error.value_or(0.0), all[i].end_error.value_or(0.0));
+    const double error = std::max(all[i].start_error.value_or(0.0), all[i].end_error.value_or(0.0));
     reach.error_decided = std::max(reach.error_decided, error);
     if (within && error > wish) {
       within = false;
@@ -91,30 +92,28 @@ class Ladder {
   std::optional<Case> finer_case();
   double work_of_next(double ratio) const;
   void report(WithinRun& run) const;
-  Result simulate_counted(const Case& input, const Progress& progress, RowSink* rows);
 
   Case input_;
   OpenChoices open_;
   WithinOptions options_;
-  double wish_ = 0.0;
+  double wish_ = 0.0;  // s
+  double work_limit_ = 0.0;
   bool yields_ = false;
   bool may_change_model_ = true;
   ChosenModel model_;
   std::optional<Refinement> refinement_;
   std::optional<Level> level_, coarser_;
   Reach reach_;
-  double work_ = 0.0;      // of all runs so far
+  double work_ = 0.0;           // of all runs so far
   bool last_was_half_ = false;  // doubling, see finer_case()
-  std::string obstacle_;   // why no finer mesh is run
-  std::string key_;        // that stands in the way
+  std::string obstacle_;        // why no finer mesh is run
+  std::string key_;             // that stands in the way
 };
 
 void Ladder::choose(bool yields) {
   yields_ = yields;
   model_ = choose_model(input_, open_, yields);
   refinement_.emplace(model_.input, open_);
-  level_.reset();
-  coarser_.reset();
 }
 
 // Runs the case and its companion; false if stopped.
@@ -124,7 +123,8 @@ bool Ladder::run(const Case& next) {
     options_.announce(resolve(next).settings().mesh + ", " +
                       descriptor_of(next.solver.method).name);
   }
-  const bool known = companion && level_ && Refinement::is_same_setting(companion->input, level_->input);
+  const bool known =
+      companion && level_ && Refinement::is_same_setting(companion->input, level_->input);
   std::optional<Level> below;
   if (known) below = std::move(level_);
   std::atomic<bool> stop = false;
@@ -183,40 +183,59 @@ std::optional<Case> Ladder::finer_case() {
   double ratio = usual_refinement;
   if (reach_.error_decided > wish_) {
     ratio = margin * std::pow(reach_.error_decided / wish_, 1.0 / refinement_->order());
-    if (!reach_.all_decided) ratio = std::max(ratio, usual_refinement);
+    if (!reach_.all_decided) ratio = usual_refinement;
     last_was_half_ = false;
   } else {
     // The run may be right, and its companion too coarse to show it.
     last_was_half_ = !last_was_half_;
     if (last_was_half_) ratio = half_refinement;
   }
-  ratio = std::clamp(ratio, least_refinement, most_refinement);
-  while (work_ + work_of_next(ratio) > options_.work_limit && ratio > least_refinement) {
+  ratio = std::clamp(ratio, least_refinement, usual_refinement);
+  while (work_ + work_of_next(ratio) > work_limit_ && ratio > least_refinement) {
     ratio = std::max(least_refinement, 0.9 * ratio);
   }
-  if (work_ + work_of_next(ratio) > options_.work_limit) {
+  if (work_ + work_of_next(ratio) > work_limit_) {
     key_ = "accuracy.work_limit";
-    obstacle_ = fmt::format("a finer mesh would take the counted work from {:.1e} to {:.1e}, above "
-                            "the limit of {:.1e}",
-                            work_, work_ + work_of_next(ratio), options_.work_limit);
+    obstacle_ = fmt::format(
+        "a finer mesh would take the counted work from {:.1e} to {:.1e}, above "
+        "the limit of {:.1e}",
+        work_, work_ + work_of_next(ratio), work_limit_);
     return std::nullopt;
   }
   const std::optional<Case> finer = refinement_->finer(level_->input, ratio);
   if (!finer) {
     key_ = refinement_->size_key();
     obstacle_ = "the mesh is the finest that is allowed";
+    return std::nullopt;
+  }
+  try {
+    check_memory(resolve(*finer).settings());
+  } catch (const InvalidCase& error) {
+    key_ = error.key;
+    obstacle_ = fmt::format("on a finer mesh {} {}", error.key, error.what());
+    return std::nullopt;
   }
   return finer;
 }
 
 WithinRun Ladder::climb() {
   choose(may_yield(input_));
-  wish_ = options_.wish.value_or(default_share_of_contact *
-                                 resolve(model_.input).settings().contact_time);
+  const std::optional<double>& wish = input_.accuracy.event_times;
+  wish_ = wish.value_or(default_wish(model_.input));
+  work_limit_ = wish ? input_.accuracy.work_limit : default_work_limit;
   Case next = refinement_->first();
+  std::optional<Case> sound;  // the last level that completed
   while (run(next)) {
+    if (!level_->result.outcome.completed() && sound) {
+      obstacle_ =
+          fmt::format("the run on the next mesh failed ({})", level_->result.outcome.message);
+      if (run(*sound)) reach_ = reach_of(level_->result, wish_);
+      break;
+    }
+    if (level_->result.outcome.completed()) sound = level_->input;
     if (try_other_model()) {
       next = refinement_->first();
+      sound.reset();
       continue;
     }
     reach_ = reach_of(level_->result, wish_);
@@ -233,14 +252,13 @@ WithinRun Ladder::climb() {
 void Ladder::report(WithinRun& run) const {
   Result& result = run.result;
   result.choice = model_.reason;
-  if (!options_.wish) return;
+  if (!input_.accuracy.event_times) return;
   WishOutcome outcome;
   outcome.wished = wish_;
   outcome.met = result.outcome.completed() && reach_.reason.empty();
   outcome.reached = reach_.error_within;
   const auto& all = result.sub_impacts;
-  outcome.horizon =
-      reach_.n_within < all.size() ? all[reach_.n_within].start : result.outcome.time;
+  outcome.horizon = reach_.n_within < all.size() ? all[reach_.n_within].start : result.outcome.time;
   if (!outcome.met) {
     outcome.reason = reach_.reason + "; " + obstacle_;
     outcome.key = key_;
@@ -249,6 +267,26 @@ void Ladder::report(WithinRun& run) const {
 }
 
 }  // namespace
+
+ChosenModel first_choice(const Case& input, const OpenChoices& open) {
+  ChosenModel chosen = choose_model(input, open, may_yield(input));
+  const Refinement refinement(chosen.input, open);
+  chosen.input = refinement.first();
+  const std::optional<double>& wish = input.accuracy.event_times;
+  if (const char* key = refinement.fixed_key()) {
+    chosen.reason += fmt::format("; {} is fixed by the case", key);
+    return chosen;
+  }
+  chosen.reason += fmt::format(
+      "; refined until every event time is within {:.3g} us{} of the limit of fine meshes, or the "
+      "counted work reaches {:.1e}",
+      1e6 * wish.value_or(default_wish(chosen.input)), wish ? "" : " (the default)",
+      wish ? input.accuracy.work_limit : default_work_limit);
+  if (may_yield(input) && open.mesh && open.method) {
+    chosen.reason += "; elements in natural modes instead if no section yields";
+  }
+  return chosen;
+}
 
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options) {

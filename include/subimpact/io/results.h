@@ -42,6 +42,9 @@ class ResultWriter final : public RowSink {
   void add(const HistoryRow& row) override;
   void add(const SectionRow& row) override;
 
+  /// Discards the rows so far: another run begins.
+  void restart();
+
   /// Writes the other files and puts all in place. If the directory can no longer be written (a
   /// full disk), all goes to a new directory for temporary files. Throws OutputError if that fails
   /// too.

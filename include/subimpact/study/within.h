@@ -26,12 +26,6 @@ struct OpenChoices {
 OpenChoices open_choices(const GivenKeys& given);
 
 struct WithinOptions {
-  /// s: wanted bound on the error of every event time. Empty: a tenth of the time scale of the
-  /// shortest contacts (ResolvedSettings::contact_time).
-  std::optional<double> wish;
-  /// Bound on the work of all runs together, in evaluations of the right-hand side times unknowns
-  /// of the beam: some 5 ns each.
-  double work_limit = 2e10;
   Jobs jobs = 1;
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
@@ -41,14 +35,10 @@ struct WithinOptions {
   std::function<RowSink*()> rows;
 };
 
-/// The work limit of a run that wishes for nothing.
+/// Where nothing is wished (no accuracy.event_times), the wish is a tenth of the time scale of the
+/// shortest contacts (ResolvedSettings::contact_time), and this is the limit of the work: some
+/// second on one core.
 constexpr double default_work_limit = 2e8;
-
-/// A case with every choice made, and its run.
-struct WithinRun {
-  Case input;  ///< simulate_with_companion(input) repeats the run, bit for bit
-  Result result;
-};
 
 /// Where a beam bends elastically: Hermite elements in natural modes, by the exponential method
 /// (fourth order in the mesh, next to no error in time). Where sections yield: cells by central
@@ -59,13 +49,22 @@ struct ChosenModel {
 };
 ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields);
 
+/// The mesh and method that a case's first run would have, and in words how it goes on from there.
+ChosenModel first_choice(const Case& input, const OpenChoices& open);
+
+/// A case with every choice made, and its run.
+struct WithinRun {
+  Case input;  ///< simulate_with_companion(input) repeats the run, bit for bit
+  Result result;
+};
+
 /// Runs a case on finer and finer meshes, each beside its companion, until every event time of
-/// the run is stated within the wish. The next mesh follows from the stated error and the order of
-/// the mesh; from the counted work of the runs so far follows whether it is affordable. Neither
-/// depends on measured time or on the number of jobs.
+/// the run is stated within accuracy.event_times. The next mesh follows from the stated error and
+/// the order of the mesh; from the counted work of the runs so far follows whether it is
+/// affordable. Neither depends on measured time or on the number of jobs.
 ///
 /// Result::wish states whether the wish is met and up to where; if not, why, and which key of the
-/// case stands in the way. Throws InvalidCase.
+/// case stands in the way. Result::choice gives the reason of the choice. Throws InvalidCase.
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options = {});
 
