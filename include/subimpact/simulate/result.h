@@ -153,8 +153,8 @@ struct Result {
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
   /// In their order in time: of every contact and separation the nearest few whose margin is below
-  /// half of the largest distance there. Those within a step that FreeFlight proves free of events
-  /// are left out.
+  /// half of the largest distance there. Those within a free flight that the exponential method
+  /// passes in one step are left out.
   std::vector<NearMiss> near_misses;
   std::vector<HistoryRow> history;            ///< empty if a RowSink took the rows
   std::vector<SectionRow> section_history;    ///< of output.sections, in that order at each time
