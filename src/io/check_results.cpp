@@ -130,6 +130,12 @@ void check_summary(const std::string& file, const FinishedRun& run) {
     require_finite("wish.event_times_s", result.wish->wished);
     require_finite("wish.horizon_s", result.wish->horizon);
   }
+  for (const NearMiss& here : result.near_misses) {
+    require(std::isfinite(here.time) && here.time >= 0.0, "near_misses.time_s", here.time,
+            "a finite number, 0 or above");
+    require(std::isfinite(here.margin) && here.margin > 0.0, "near_misses.margin_m", here.margin,
+            "a finite number above 0");
+  }
   require_finite("maxima.force_N", result.max_force);
   require_finite("maxima.indentation_m", result.max_indentation);
   require_finite("final.striker_velocity_m_per_s", result.striker_velocity);

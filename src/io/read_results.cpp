@@ -151,6 +151,23 @@ std::optional<Interval> interval_from(const Json& json) {
   return Interval{number(json.at(0)), number(json.at(1))};
 }
 
+NearMissKind near_miss_kind(const std::string& name) {
+  for (const NearMissKind kind : {NearMissKind::opening, NearMissKind::closing}) {
+    if (to_string(kind) == name) return kind;
+  }
+  throw ResultsError(
+      fmt::format("summary.json: unknown near miss \"{}\"; run the case again", name));
+}
+
+std::vector<NearMiss> near_misses_from(const Json& json) {
+  std::vector<NearMiss> near_misses;
+  for (const Json& entry : json) {
+    near_misses.push_back({number(entry.at("time_s")), number(entry.at("margin_m")),
+                           near_miss_kind(entry.at("kind").get<std::string>())});
+  }
+  return near_misses;
+}
+
 Work work_from(const Json& json) {
   Work work;
   work.steps = json.at("steps").get<long>();
@@ -246,6 +263,7 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
     result.warnings = json.value("warnings", std::vector<std::string>());
     result.n_history_rows = json.at("counts").at("history_rows").get<std::size_t>();
     result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();
+    result.near_misses = near_misses_from(json.value("near_misses", Json::array()));
     result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
     result.first_contact_yield = optional_number(json.at("first_yield").at("contact_s"));
     result.no_more_contact = optional_number(json.at("no_more_contact_s"));

@@ -123,6 +123,16 @@ Json zone_list(const std::vector<ZoneSummary>& zones) {
   return json;
 }
 
+Json near_miss_list(const std::vector<NearMiss>& near_misses) {
+  Json json = Json::array();
+  for (const NearMiss& here : near_misses) {
+    json.push_back({{"kind", to_string(here.kind)},
+                    {"time_s", number(here.time)},
+                    {"margin_m", number(here.margin)}});
+  }
+  return json;
+}
+
 Json work_counts(const Work& work) {
   return {
       {"steps", work.steps},
@@ -218,6 +228,7 @@ std::string summary_json(const Case& input, const Result& result) {
       {"warnings", result.warnings},
       {"counts", counts(result, zones)},
       {"zones", zone_list(zones)},
+      {"near_misses", near_miss_list(result.near_misses)},
       {"first_yield",
        {{"section_s", number(result.first_section_yield)},
         {"contact_s", number(result.first_contact_yield)}}},

@@ -63,9 +63,7 @@ void Audit::check(double t, const State& y, const Energies& energies) {
   last_good_ = std::max(last_good_, t);
 }
 
-bool Audit::is_suspicious(double t, const State& y) const {
-  const double indentation = beam_.indentation(y);
-  const double rate = beam_.indentation_rate(y);
+bool Audit::is_suspicious(double t, const State& y, double indentation, double rate) const {
   if (!std::isfinite(indentation) || !std::isfinite(rate)) {
     fail(t, OutcomeKind::unstable, "the motion of the struck point is no longer finite");
   }

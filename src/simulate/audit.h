@@ -39,9 +39,9 @@ class Audit {
   void check(double t, const State& y) { check(t, y, accounts_.energies(y)); }
   /// The same with energies that are already computed.
   void check(double t, const State& y, const Energies& energies);
-  /// A cheap look at the struck point, for every step: throws if its motion is not finite; returns
-  /// whether its speed is suspicious enough for a full check.
-  bool is_suspicious(double t, const State& y) const;
+  /// A cheap look at the struck point, for every step: throws if its indentation (m) or rate (m/s)
+  /// is not finite; returns whether the striker's speed is suspicious enough for a full check.
+  bool is_suspicious(double t, const State& y, double indentation, double rate) const;
   /// Judges the impulse of a sub-impact (N s) that ended at t against the integrated force.
   void check_impulse(double t, double impulse, double force_integral);
   /// Relative to the initial energy.

@@ -60,14 +60,24 @@ void EventLoop::start_from(const State& y) {
   state_ = &end_state_;  // where the run stands if the integrator cannot even begin
   integrator_.restart(0.0, y);
   state_ = &integrator_.state();
+  read_indentation();
+}
+
+void EventLoop::read_indentation() {
+  indentation_.lambda1 = beam_.indentation(*state_);
+  indentation_.rate1 = beam_.indentation_rate(*state_);
 }
 
 void EventLoop::advance() {
   integrator_.step();
   ++n_steps_;
   state_ = &integrator_.start_state();  // until the step's end is found good
-  check_step_end(integrator_.state());
-  const bool suspicious = audit_->is_suspicious(integrator_.time(), integrator_.state());
+  const State& end = integrator_.state();
+  indentation_ = {integrator_.start_time(), integrator_.time(),     indentation_.lambda1,
+                  indentation_.rate1,       beam_.indentation(end), beam_.indentation_rate(end)};
+  check_step_end();
+  const bool suspicious =
+      audit_->is_suspicious(indentation_.t1, end, indentation_.lambda1, indentation_.rate1);
   if (options_.events == EventHandling::located) {
     locate_events();
   } else {
@@ -77,9 +87,9 @@ void EventLoop::advance() {
   observer_->on_accepted(time_, *state_, beam_);
 }
 
-void EventLoop::check_step_end(const State& y) {
-  if (!(beam_.indentation(y) >= options_.largest_indentation)) return;
-  audit_->check(integrator_.time(), y);  // a blow-up is called by its name
+void EventLoop::check_step_end() {
+  if (!(indentation_.lambda1 >= options_.largest_indentation)) return;
+  audit_->check(integrator_.time(), integrator_.state());  // a blow-up is called by its name
   throw RunStopped(OutcomeKind::left_validity,
                    "the indentation reached the beam's thickness, where the contact law ends; "
                    "reduce striker.velocity or striker.mass, or make the contact stiffer");
@@ -120,8 +130,24 @@ StepEnds EventLoop::step_to_end_time() {
           integrator_.is_event_free()};
 }
 
+IndentationStep EventLoop::indentation_of(const StepEnds& piece) const {
+  IndentationStep ends = indentation_;
+  ends.t0 = piece.t0;
+  ends.t1 = piece.t1;
+  if (&piece.y0 != &integrator_.start_state()) {
+    ends.lambda0 = beam_.indentation(piece.y0);
+    ends.rate0 = beam_.indentation_rate(piece.y0);
+  }
+  if (&piece.y1 != &integrator_.state()) {
+    ends.lambda1 = beam_.indentation(piece.y1);
+    ends.rate1 = beam_.indentation_rate(piece.y1);
+  }
+  return ends;
+}
+
 void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
-  observer_->on_step(ObservedStep(piece, integrator_, corrector_, from_end), beam_);
+  observer_->on_step(ObservedStep(piece, indentation_of(piece), integrator_, corrector_, from_end),
+                     beam_);
 }
 
 void EventLoop::locate_events() {
@@ -147,6 +173,7 @@ void EventLoop::locate_events() {
   }
   integrator_.restart(t1, *y1);
   state_ = &integrator_.state();
+  read_indentation();
 }
 
 void EventLoop::report_reversals() {
@@ -222,13 +249,13 @@ void EventLoop::watch_for_chattering(double time) {
 void EventLoop::interpolate_events() {
   const StepEnds step = step_to_end_time();
   const ContactState& contact = beam_.contact();
-  const ContactBranch after = contact.law().branch(contact.history(), beam_.indentation(step.y1));
+  const IndentationStep whole = indentation_of(step);
+  const ContactBranch after = contact.law().branch(contact.history(), whole.lambda1);
   double t0 = step.t0;
   const State* y0 = &step.y0;
   bool from_end = false;
   if (after != contact.branch()) {
-    for (const auto& [kind, time] :
-         subimpact::interpolate_events(contact, indentation_step(beam_, step), after)) {
+    for (const auto& [kind, time] : subimpact::interpolate_events(contact, whole, after)) {
       // Forces act at the ends of steps: before contact begins the motion is that of the step's
       // start, after it ends that of the step's end, both without the contact force.
       from_end = kind == EventKind::contact_ends;
@@ -244,7 +271,7 @@ void EventLoop::interpolate_events() {
       t0 = time;
       y0 = &event_state_;
     }
-    beam_.contact().follow(beam_.indentation(step.y1));
+    beam_.contact().follow(whole.lambda1);
   }
   show_piece({t0, step.t1, *y0, step.y1}, from_end);
   beam_.commit(step.y1);

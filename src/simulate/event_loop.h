@@ -85,7 +85,11 @@ class EventLoop {
   void check_root(const EventFunction& function, double time, const State& y);
   void watch_for_chattering(double time);
   // Of every step's end, before anything is looked for in the step.
-  void check_step_end(const State& y);
+  void check_step_end();
+  // The indentation at the state that the next step starts from.
+  void read_indentation();
+  // The same at the ends of the last step or of a piece of it.
+  IndentationStep indentation_of(const StepEnds& piece) const;
   // Of the state accepted at the step's end, at every audit_interval-th step and where required.
   void check_accepted(bool now);
 
@@ -97,6 +101,7 @@ class EventLoop {
   double time_ = 0.0;
   const State* state_ = nullptr;
   State end_state_, event_state_, piece_start_;
+  IndentationStep indentation_{};  // of the last step as the method took it
   SectionCorrector corrector_;
   EventLocator locator_;
   SectionCorrection correction_;       // of the step being searched

@@ -45,8 +45,7 @@ double ForceQuadrature::halved(const Node& a, const Node& b, double whole, const
 double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
   largest_indentation_ = 0.0;
   if (!(step.length() > 0.0)) return 0.0;  // an event at the very start of a step
-  const Node a = node(step.t0(), step.y0(), beam);
-  const Node b = node(step.t1(), step.y1(), beam);
+  const auto [a, b] = ends_of(step);
   const double h = step.length();
   const double whole = between(a, b, beam);
   double constant = 0.0;
@@ -62,7 +61,8 @@ double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
 }
 
 double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam& beam) const {
-  return between(node(step.t0(), step.y0(), beam), node(step.t1(), step.y1(), beam), beam);
+  const auto [a, b] = ends_of(step);
+  return between(a, b, beam);
 }
 
 }  // namespace subimpact

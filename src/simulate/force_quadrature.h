@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "simulate/observed_step.h"
 
@@ -35,6 +36,10 @@ class ForceQuadrature {
   };
   static Node node(double time, const State& y, const StruckBeam& beam) {
     return {time, beam.indentation(y), beam.indentation_rate(y)};
+  }
+  static std::pair<Node, Node> ends_of(const ObservedStep& step) {
+    const IndentationStep& ends = step.indentation();
+    return {{ends.t0, ends.lambda0, ends.rate0}, {ends.t1, ends.lambda1, ends.rate1}};
   }
   static double between(const Node& a, const Node& b, const StruckBeam& beam);
   double halved(const Node& a, const Node& b, double whole, const ObservedStep& step,

@@ -2,6 +2,7 @@
 
 #include "ode/integrator.h"
 #include "ode/step_ends.h"
+#include "system/contact_events.h"
 #include "system/section_correction.h"
 
 namespace subimpact {
@@ -11,11 +12,15 @@ namespace subimpact {
 /// states within the step can be computed.
 class ObservedStep {
  public:
-  /// `from_end`: whether states within the step are its end followed backwards
-  /// (Integrator::state_before_end). All must outlive this.
-  ObservedStep(const StepEnds& ends, Integrator& integrator, SectionCorrector& corrector,
-               bool from_end = false)
-      : ends_(ends), integrator_(integrator), corrector_(corrector), from_end_(from_end) {}
+  /// `indentation`: at the ends. `from_end`: whether states within the step are its end followed
+  /// backwards (Integrator::state_before_end). All must outlive this.
+  ObservedStep(const StepEnds& ends, const IndentationStep& indentation, Integrator& integrator,
+               SectionCorrector& corrector, bool from_end = false)
+      : ends_(ends),
+        indentation_(indentation),
+        integrator_(integrator),
+        corrector_(corrector),
+        from_end_(from_end) {}
 
   double t0() const { return ends_.t0; }  ///< s
   double t1() const { return ends_.t1; }  ///< s
@@ -23,6 +28,8 @@ class ObservedStep {
   const State& y0() const { return ends_.y0; }
   const State& y1() const { return ends_.y1; }
   const StepEnds& ends() const { return ends_; }
+  /// The indentation and its rate at both ends.
+  const IndentationStep& indentation() const { return indentation_; }
 
   /// The method's state at a time (s) within the step, without the section correction.
   void state_at(double t, State& y) const {
@@ -41,6 +48,7 @@ class ObservedStep {
 
  private:
   const StepEnds& ends_;
+  const IndentationStep& indentation_;
   Integrator& integrator_;
   SectionCorrector& corrector_;
   bool from_end_;

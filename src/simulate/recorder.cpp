@@ -39,9 +39,10 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
   if (in_contact_) {
     ++steps_in_contact_.back();
     integrate_force(step, beam);
-    follow_peak(beam.indentation(step.y1()), beam);
+    follow_peak(step.indentation().lambda1, beam);
     look_for_peak(step, beam);
   }
+  near_misses_.follow(step, beam, events_ == EventHandling::located);
 }
 
 void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
@@ -94,16 +95,14 @@ void Recorder::follow_peak(double indentation, const StruckBeam& beam) {
 void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
   // In the plastic branch the peak is an event; in the elastic one it lies inside some step.
   if (beam.contact().branch() != ContactBranch::elastic) return;
-  const double rate0 = beam.indentation_rate(step.y0());
-  const double rate1 = beam.indentation_rate(step.y1());
+  const auto& [t0, t1, lambda0, rate0, lambda1, rate1] = step.indentation();
   const double h = step.length();
-  const HermiteCubic path(beam.indentation(step.y0()), rate0, beam.indentation(step.y1()), rate1,
-                          h);
+  const HermiteCubic path(lambda0, rate0, lambda1, rate1, h);
   const std::optional<double> peak = path.maximum();
   if (!peak || path(*peak) < result_.sub_impacts.back().max_indentation * (1.0 - 1e-3)) return;
   const double guess = *peak;
   if (events_ == EventHandling::interpolated) {
-    step.state_at(step.t0() + guess * h, state_);
+    step.state_at(t0 + guess * h, state_);
   } else {
     RootOptions options;
     options.tolerance = 1e-2 * h;
@@ -112,9 +111,8 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
           step.state_at(t, state_);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
-        rate0 > 0.0 ? step.t0() : step.t0() + path.first_extremum() * h,
-        rate1 < 0.0 ? step.t1() : step.t0() + path.second_extremum() * h, step.t0() + guess * h,
-        options);
+        rate0 > 0.0 ? t0 : t0 + path.first_extremum() * h,
+        rate1 < 0.0 ? t1 : t0 + path.second_extremum() * h, t0 + guess * h, options);
   }
   follow_peak(beam.indentation(state_), beam);
 }
@@ -129,6 +127,8 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
     result_.sub_impacts.push_back({});
     steps_in_contact_.push_back(0);
     result_.sub_impacts.back().start = event.time;
+    result_.sub_impacts.back().start_rate = beam.indentation_rate(y);
+    begin(NearMissKind::opening, beam);
   } else if (event.kind == EventKind::contact_yields && !result_.first_contact_yield) {
     result_.first_contact_yield = event.time;
   } else if (event.kind == EventKind::contact_unloads) {
@@ -140,6 +140,8 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
   if (event.kind == EventKind::contact_ends) {
     SubImpact& ended = result_.sub_impacts.back();
     ended.end = event.time;
+    ended.end_rate = beam.indentation_rate(y);
+    begin(NearMissKind::closing, beam);
     close_sub_impact(y, beam);
     in_contact_ = false;
     audit_.check_impulse(event.time, ended.impulse, ended.force_integral);
@@ -153,6 +155,11 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
     result_.first_contact_yield = event.time;
   }
   add_event_row(event, y);
+}
+
+void Recorder::begin(NearMissKind kind, const StruckBeam& beam) {
+  near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
+  near_misses_.begin(kind);
 }
 
 void Recorder::add_event_row(const Transition& event, const State& y) {
@@ -177,6 +184,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     add_row(time, y, accounts_);
   }
   if (in_contact_) close_sub_impact(y, beam);
+  near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
     result_.max_force = std::max(result_.max_force, sub_impact.peak_force);
     result_.max_indentation = std::max(result_.max_indentation, sub_impact.max_indentation);

@@ -2,11 +2,12 @@
 
 #include "simulate/event_loop.h"
 #include "simulate/force_quadrature.h"
+#include "simulate/near_miss_search.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
 
-/// Records sub-impacts, transitions and history rows of a run.
+/// Records sub-impacts, near misses, transitions and history rows of a run.
 class Recorder final : public RunObserver {
  public:
   /// `interval` in s between history rows, 0 for none. `audit` checks rows and impulses before they
@@ -37,6 +38,8 @@ class Recorder final : public RunObserver {
   const std::vector<long>& steps_in_contact() const { return steps_in_contact_; }
 
  private:
+  // A contact (opening) or a separation (closing) begins, and what was before it ends.
+  void begin(NearMissKind kind, const StruckBeam& beam);
   void close_sub_impact(const State& y, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   void integrate_force(const ObservedStep& step, const StruckBeam& beam);
@@ -60,6 +63,7 @@ class Recorder final : public RunObserver {
   Accounts accounts_;
   FirstFlow first_flow_;
   ForceQuadrature force_;
+  NearMissSearch near_misses_;
   double striker_mass_;
   long next_row_ = 0;
   double last_row_time_ = -1.0;  // s

@@ -2,6 +2,10 @@
 
 namespace subimpact {
 
+std::string_view to_string(NearMissKind kind) {
+  return kind == NearMissKind::opening ? "opening" : "closing";
+}
+
 void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap) {
   int zone = 0;
   int subzone = 0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "case/counted.h"
+#include "study/near_miss_match.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
@@ -18,6 +19,8 @@ namespace {
 // the share for time is half as large.
 constexpr double unresolved_share = 0.5;
 constexpr double unresolved_share_in_time = 0.25;
+constexpr double us = 1e6;  // per second
+constexpr double um = 1e6;  // per metre
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 // The larger of the differences of start and end; an end is missing where contact lasts to the end.
@@ -42,29 +45,106 @@ std::string unresolved_reason(const std::vector<SubImpact>& all, std::size_t i, 
   return {};
 }
 
-// The error estimate from one refined run, which has `n_refined` sub-impacts.
-ErrorEstimate::Part judge(const std::vector<SubImpact>& all, const ErrorPart& part) {
-  ErrorEstimate::Part estimate{part.name, part.refined_run, std::nullopt, {}, 0.0};
+struct Doubt {
+  std::size_t first_unresolved;
+  std::string reason;
+};
+
+// The first sub-impact that a near miss leaves in doubt.
+std::optional<Doubt> doubt_by_near_miss(const Result& result, const ErrorPart& part) {
+  for (std::size_t i = 0; i < part.gap_errors.size(); ++i) {
+    const NearMiss& here = result.near_misses[i];
+    if (here.margin > part.gap_errors[i]) continue;
+    const bool opens = here.kind == NearMissKind::opening;
+    return Doubt{first_in_doubt(result, here),
+                 fmt::format("at {:.6g} us the {}: the indentation stays {:.2g} um {} the residual "
+                             "one, and its estimated error is {:.1g} um",
+                             us * here.time, opens ? "contact nearly opens" : "gap nearly closes",
+                             um * here.margin, opens ? "above" : "below", um * part.gap_errors[i])};
+  }
+  return std::nullopt;
+}
+
+// The first sub-impact whose times are too uncertain, or that only one of the runs has.
+std::optional<Doubt> doubt_by_times(const std::vector<SubImpact>& all, const ErrorPart& part) {
   const std::size_t n = part.errors.size();
   const double share = part.name == "time" ? unresolved_share_in_time : unresolved_share;
   for (std::size_t i = 0; i < n; ++i) {
-    estimate.reason = unresolved_reason(all, i, part.errors[i], share);
-    if (!estimate.reason.empty()) {
-      estimate.first_unresolved = i;
-      return estimate;
-    }
-    estimate.largest_error = std::max(estimate.largest_error, part.errors[i]);
+    std::string reason = unresolved_reason(all, i, part.errors[i], share);
+    if (!reason.empty()) return Doubt{i, std::move(reason)};
   }
   if (n < all.size() || n < part.n_refined) {
-    estimate.first_unresolved = n;
-    estimate.reason = fmt::format(
-        "the refined run has {} in all, this run {}; from here on they do not correspond",
-        counted(part.n_refined, "sub-impact"), all.size());
-  } else if (!part.failure.empty()) {
-    estimate.first_unresolved = n;
-    estimate.reason = "the refined run did not complete: " + part.failure;
+    return Doubt{n, fmt::format("the refined run has {} in all, this run {}; from here on they do "
+                                "not correspond",
+                                counted(part.n_refined, "sub-impact"), all.size())};
+  }
+  if (!part.failure.empty()) {
+    return Doubt{n, "the refined run did not complete: " + part.failure};
+  }
+  return std::nullopt;
+}
+
+// The error estimate from one refined run, which has `n_refined` sub-impacts.
+ErrorEstimate::Part judge(const Result& result, const ErrorPart& part) {
+  ErrorEstimate::Part estimate{part.name, part.refined_run, std::nullopt, {}, 0.0};
+  std::size_t n_certain = part.errors.size();
+  std::optional<Doubt> doubt = doubt_by_times(result.sub_impacts, part);
+  const std::optional<Doubt> graze = doubt_by_near_miss(result, part);
+  if (graze && !(doubt && doubt->first_unresolved < graze->first_unresolved)) doubt = graze;
+  if (doubt) {
+    estimate.first_unresolved = doubt->first_unresolved;
+    estimate.reason = doubt->reason;
+    n_certain = std::min(n_certain, doubt->first_unresolved);
+  }
+  for (std::size_t i = 0; i < n_certain; ++i) {
+    estimate.largest_error = std::max(estimate.largest_error, part.errors[i]);
   }
   return estimate;
+}
+
+// The error of the gap at the events beside a near miss, m: differences in time, each times the
+// rate of the indentation.
+double gap_error_beside(const Result& here, const Result& there, const NearMiss& near_miss) {
+  const std::size_t doubted = first_in_doubt(here, near_miss);
+  double error = 0.0;
+  const auto consider = [&](double a, double b, double rate) {
+    error = std::max(error, std::abs(rate * (a - b)));
+  };
+  const auto start = [&](std::size_t i) {
+    if (i >= here.sub_impacts.size() || i >= there.sub_impacts.size()) return;
+    const SubImpact& s = here.sub_impacts[i];
+    consider(s.start, there.sub_impacts[i].start, s.start_rate);
+  };
+  const auto end = [&](std::size_t i) {
+    const SubImpact& s = here.sub_impacts[i];
+    const std::optional<double>& other = there.sub_impacts[i].end;
+    if (s.end && other) consider(*s.end, *other, s.end_rate);
+  };
+  start(doubted);
+  if (near_miss.kind == NearMissKind::opening) {
+    end(doubted);
+  } else if (doubted > 0) {
+    end(doubted - 1);
+  }
+  return error;
+}
+
+std::vector<double> gap_errors(const Result& here, const Result& there, std::size_t n_matched,
+                               double factor) {
+  std::vector<double> errors;
+  for (const std::optional<std::size_t>& partner : match_near_misses(here, there, n_matched)) {
+    const NearMiss& near_miss = here.near_misses[errors.size()];
+    errors.push_back(factor * (partner
+                                   ? std::abs(near_miss.margin - there.near_misses[*partner].margin)
+                                   : gap_error_beside(here, there, near_miss)));
+  }
+  return errors;
+}
+
+// Adds what is known of both to `total`.
+void add_leading(const std::vector<double>& errors, std::vector<double>& total) {
+  total.resize(std::min(total.size(), errors.size()));
+  for (std::size_t i = 0; i < total.size(); ++i) total[i] += errors[i];
 }
 
 // Nothing for a part that stands for several.
@@ -80,7 +160,7 @@ ErrorPart compare_events(const Result& result, const Result& refined_run, std::s
                          std::string description, double factor) {
   const std::vector<SubImpact>& here = result.sub_impacts;
   const std::vector<SubImpact>& there = refined_run.sub_impacts;
-  ErrorPart part{std::move(name), std::move(description), {}, there.size(), {}};
+  ErrorPart part{std::move(name), std::move(description), {}, {}, there.size(), {}};
   if (!refined_run.outcome.completed()) part.failure = refined_run.outcome.message;
   const std::size_t n = n_leading_matches(match_sub_impacts(here, there));
   std::vector<double> differences(n);
@@ -90,6 +170,7 @@ ErrorPart compare_events(const Result& result, const Result& refined_run, std::s
     const auto last = differences.begin() + static_cast<std::ptrdiff_t>(std::min(i + 2, n));
     part.errors.push_back(factor * *std::max_element(first, last));
   }
+  part.gap_errors = gap_errors(result, refined_run, n, factor);
   return part;
 }
 
@@ -98,13 +179,14 @@ void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
   ErrorEstimate estimate;
   ErrorPart total;  // only what all refined runs have
   total.errors.assign(all.size(), 0.0);
+  total.gap_errors.assign(result.near_misses.size(), 0.0);
   for (const ErrorPart& part : parts) {
     for (std::size_t i = 0; i < part.errors.size(); ++i) {
       if (auto* member = member_of(all[i], part.name)) *member = part.errors[i];
     }
-    total.errors.resize(std::min(total.errors.size(), part.errors.size()));
-    for (std::size_t i = 0; i < total.errors.size(); ++i) total.errors[i] += part.errors[i];
-    estimate.parts.push_back(judge(all, part));
+    add_leading(part.errors, total.errors);
+    add_leading(part.gap_errors, total.gap_errors);
+    estimate.parts.push_back(judge(result, part));
     estimate.refined_run += (estimate.refined_run.empty() ? "" : "; ") + part.refined_run;
   }
   for (std::size_t i = 0; i < total.errors.size(); ++i) {
@@ -115,7 +197,7 @@ void set_error_bars(Result& result, const std::vector<ErrorPart>& parts) {
   }
   total.n_refined = all.size();
   if (parts.size() == 1) total.name = parts.front().name;
-  const ErrorEstimate::Part together = judge(all, total);
+  const ErrorEstimate::Part together = judge(result, total);
   // A single part takes precedence, because it names the cause.
   const auto first = [](const ErrorEstimate::Part& part) {
     return part.first_unresolved.value_or(std::numeric_limits<std::size_t>::max());

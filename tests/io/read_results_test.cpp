@@ -98,6 +98,19 @@ TEST(ReadResults, KeepsWarningsAndTheFirstFailure) {
   EXPECT_EQ(run.result.outcome.first_failure->to, 2e-3);
 }
 
+TEST(ReadResults, KeepsNearMisses) {
+  const TemporaryDirectory directory;
+  const Result result = sample_result();
+  write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
+  const std::vector<NearMiss> read = read_results(directory.path).result.near_misses;
+  ASSERT_EQ(read.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read[i].time, result.near_misses[i].time);
+    EXPECT_EQ(read[i].margin, result.near_misses[i].margin);
+    EXPECT_EQ(read[i].kind, result.near_misses[i].kind);
+  }
+}
+
 TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
   const TemporaryDirectory directory;
   Result result = sample_result();

@@ -154,6 +154,15 @@ TEST(SummaryJson, TellsOutcomeCountsZonesAndCost) {
   EXPECT_TRUE(json.at("first_yield").at("section_s").is_null());
 }
 
+TEST(SummaryJson, ListsNearMissesInTheirOrderInTime) {
+  const auto json = parsed_summary(sample_case(), sample_result()).at("near_misses");
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0].at("kind"), "opening");
+  EXPECT_EQ(json[0].at("time_s"), 0.1e-3 / 3.0);
+  EXPECT_EQ(json[0].at("margin_m"), 2.1e-8 / 3.0);
+  EXPECT_EQ(json[1].at("kind"), "closing");
+}
+
 TEST(SummaryJson, NamesTheVersionOfEveryLibrary) {
   const auto json = parsed_summary(sample_case(), sample_result());
   for (const char* library : {"SUNDIALS", "KLU", "Eigen", "fmt", "nlohmann-json", "toml++"}) {

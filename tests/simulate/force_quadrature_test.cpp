@@ -25,12 +25,15 @@ TEST(TheForceIntegral, OfAStepWithoutLengthIsZero) {
   const double impulse = beam.contact_force(y) * 1e-6;
   EXPECT_GT(impulse, 0.0);
   for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(force.over(ObservedStep(empty, *integrator, corrector), beam), 0.0);
+    EXPECT_EQ(force.over(ObservedStep(empty, indentation_step(beam, empty), *integrator, corrector),
+                         beam),
+              0.0);
   }
   force.forget_neighbour();
   integrator->step();
-  EXPECT_NEAR(force.over(ObservedStep(whole, *integrator, corrector), beam), impulse,
-              0.1 * impulse);
+  EXPECT_NEAR(
+      force.over(ObservedStep(whole, indentation_step(beam, whole), *integrator, corrector), beam),
+      impulse, 0.1 * impulse);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "integrate/arkode_erk.h"
+#include "integrate/central_difference.h"
 #include "integrate/exponential.h"
 #include "integrate/nystrom.h"
 #include "lumped_mesh.h"
@@ -51,7 +52,7 @@ struct TwoBodies {
 
 /// How a two-body problem is integrated.
 struct Way {
-  std::string table = "dop853";  ///< of erk or nystrom, or "exponential"
+  std::string table = "dop853";  ///< of erk or nystrom, or "exponential", "central-difference"
   double rtol = 1e-10;
   std::optional<double> fixed_step;
   EventHandling events = EventHandling::located;
@@ -62,6 +63,9 @@ struct Way {
     if (in_modes()) {
       return std::make_unique<Exponential>(std::make_unique<ModalBeam>(beam),
                                            IntegratorOptions{rtol, fixed_step});
+    }
+    if (table == "central-difference") {
+      return std::make_unique<CentralDifference>(beam, fixed_step.value());
     }
     if (table.rfind("dprkn", 0) == 0) {
       return std::make_unique<Nystrom>(beam, IntegratorOptions{rtol, fixed_step, {}, table});

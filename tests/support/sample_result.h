@@ -31,6 +31,8 @@ inline Result sample_result() {
   result.transitions = {{0.0, EventKind::contact_begins, std::nullopt, 0.0},
                         {1e-6 / 3.0, EventKind::contact_yields, std::nullopt, 1.5e-5},
                         {2e-6 / 3.0, EventKind::section_reverses, 17, -0.7}};
+  result.near_misses = {{0.1e-3 / 3.0, 2.1e-8 / 3.0, NearMissKind::opening},
+                        {0.4e-3, 1e-7, NearMissKind::closing}};
   HistoryRow row{};
   row.time = 1e-6 / 3.0;
   row.force = 1822.9000000000001;

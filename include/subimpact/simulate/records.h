@@ -1,8 +1,9 @@
 #pragma once
 
-/// Sub-impacts, assembled from events.
+/// Sub-impacts, assembled from events, and what was nearly one.
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "subimpact/system/events.h"
@@ -19,6 +20,8 @@ struct SubImpact {
   double max_indentation = 0.0;        ///< m, largest within this sub-impact
   double residual_indentation = 0.0;   ///< m, after it
   double striker_velocity = 0.0;       ///< m/s, at its end
+  double start_rate = 0.0;             ///< m/s, rate of the indentation at the start
+  double end_rate = 0.0;               ///< m/s, the same at the end
   int zone = 0;                        ///< numbered from 1
   int subzone = 0;                     ///< numbered from 1 within the zone
   std::optional<double> start_error;   ///< s, error estimate of start: sum of its parts
@@ -29,6 +32,24 @@ struct SubImpact {
   /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
   /// meshes converges at the expected order.
   std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
+};
+
+/// What nearly happened where the indentation came close to the residual one and turned back.
+enum class NearMissKind {
+  opening,  ///< within a contact: a local minimum of the indentation
+  closing   ///< within a separation: a local minimum of the gap
+};
+
+/// "opening", "closing".
+std::string_view to_string(NearMissKind kind);
+
+/// A local minimum of the distance between the indentation and the residual one. A contact that
+/// nearly opens may open in truth, and be two sub-impacts; a separation that nearly closes may hold
+/// a further one.
+struct NearMiss {
+  double time = 0.0;    ///< s
+  double margin = 0.0;  ///< m, above 0: |indentation - residual indentation|
+  NearMissKind kind = NearMissKind::opening;
 };
 
 /// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before

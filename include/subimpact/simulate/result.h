@@ -163,6 +163,10 @@ struct Result {
   ResolvedSettings used;  ///< the same after resolve()
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
+  /// In their order in time: of every contact and separation the nearest few whose margin is below
+  /// half of the largest distance there. Those within a free flight that the exponential method
+  /// passes in one step are left out.
+  std::vector<NearMiss> near_misses;
   std::vector<HistoryRow> history;            ///< empty if a RowSink took the rows
   std::vector<SectionRow> section_history;    ///< of output.sections, in that order at each time
   std::size_t n_history_rows = 0;             ///< wherever they went

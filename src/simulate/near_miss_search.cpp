@@ -1,0 +1,86 @@
+#include "simulate/near_miss_search.h"
+
+#include <optional>
+
+#include "numerics/hermite.h"
+
+namespace subimpact {
+namespace {
+
+// Near: a margin below this part of the largest gap of the contact or separation.
+constexpr double near_share = 0.5;
+
+// The cubic is assumed to have the height of a minimum below the ends of the step right to this
+// part of the height; margins are refined to this part of themselves.
+constexpr double uncertain_share = 0.5;
+constexpr double margin_accuracy = 1e-2;
+constexpr int most_refinements = 3;
+
+// The gap at the ends of a step, of its cubic at s.
+struct GapStep {
+  double t0, t1, g0, rate0, g1, rate1;
+
+  double time(double s) const { return t0 + s * (t1 - t0); }
+  double value(double s) const { return HermiteCubic(g0, rate0, g1, rate1, t1 - t0)(s); }
+
+  // Where the cubic has its local minimum, if it has one.
+  std::optional<double> minimum() const {
+    const HermiteCubic upside_down(-g0, -rate0, -g1, -rate1, t1 - t0);
+    if (rate0 < 0.0 && rate1 >= 0.0) return upside_down.peak();
+    if (!upside_down.reversed_at()) return std::nullopt;
+    return rate0 < 0.0 ? upside_down.first_extremum() : upside_down.second_extremum();
+  }
+};
+
+}  // namespace
+
+void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam, bool refine) {
+  if (step.ends().event_free) return;
+  const double residual = beam.contact().residual_indentation();
+  const auto gap = [&](double lambda) { return sense_ * (lambda - residual); };
+  const IndentationStep& ends = step.indentation();
+  GapStep part{ends.t0,           ends.t1,
+               gap(ends.lambda0), sense_ * ends.rate0,
+               gap(ends.lambda1), sense_ * ends.rate1};
+  for (int n = 0;; ++n) {
+    const std::optional<double> s = part.minimum();
+    if (!s) return;
+    // What the step does not show as an event is none, if only by rounding.
+    const double margin = std::max(part.value(*s), beam.displacement_rounding(step.y1()));
+    if (n_ == most_kept && !(margin < kept_[n_ - 1].margin)) return;
+    const double depth = std::min(part.g0, part.g1) - part.value(*s);
+    const bool certain = uncertain_share * depth <= margin_accuracy * margin;
+    if (certain || !refine || n == most_refinements) return keep({part.time(*s), margin, kind_});
+    const double middle = part.time(*s);
+    step.state_at(middle, state_);
+    const double g = gap(beam.indentation(state_));
+    const double rate = sense_ * beam.indentation_rate(state_);
+    if (rate < 0.0) {
+      part = {middle, part.t1, g, rate, part.g1, part.rate1};
+    } else {
+      part = {part.t0, middle, part.g0, part.rate0, g, rate};
+    }
+  }
+}
+
+void NearMissSearch::keep(const NearMiss& near_miss) {
+  // In order of margin.
+  if (n_ < most_kept) ++n_;
+  std::size_t i = n_ - 1;
+  for (; i > 0 && near_miss.margin < kept_[i - 1].margin; --i) kept_[i] = kept_[i - 1];
+  kept_[i] = near_miss;
+}
+
+void NearMissSearch::finish(double residual, std::vector<NearMiss>& near_misses) {
+  const double largest = farthest_ - sense_ * residual;
+  const auto before = static_cast<std::ptrdiff_t>(near_misses.size());
+  for (std::size_t i = 0; i < n_; ++i) {
+    if (!(kept_[i].margin < near_share * largest)) break;
+    near_misses.push_back(kept_[i]);
+  }
+  std::sort(near_misses.begin() + before, near_misses.end(),
+            [](const NearMiss& a, const NearMiss& b) { return a.time < b.time; });
+  n_ = 0;
+}
+
+}  // namespace subimpact

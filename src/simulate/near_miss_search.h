@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "simulate/observed_step.h"
+#include "subimpact/simulate/records.h"
+
+namespace subimpact {
+
+/// Finds the near misses of one contact or separation after the other, step by step.
+///
+/// The gap g = |lambda - lambda_r| is how far the indentation lies from the residual one, on the
+/// side of the present contact or separation. Within a step lambda is the cubic through its values
+/// and rates at both ends. The cubic has a local minimum of g if g falls at the start and rises at
+/// the end; also if g falls at both ends or rises at both and the cubic turns twice in between, for
+/// which
+///
+///     h |g0' + g1'| > 3 |g1 - g0|
+///
+/// is necessary. A step costs these comparisons. A minimum costs a root and, where the cubic alone
+/// leaves its margin uncertain, up to three states within the step.
+///
+/// Of each contact or separation the nearest few are kept, in an array of fixed size. A step that
+/// is proven free of events (StepEnds::event_free) is not searched: it may span many periods, of
+/// which its ends show nothing. Its proof ends before an approach closer than the margin of its
+/// samples (EventFreeHorizon), so what comes close lies in the steps after it.
+class NearMissSearch {
+ public:
+  /// A contact (`opening`) or a separation (`closing`) begins.
+  void begin(NearMissKind kind) {
+    kind_ = kind;
+    sense_ = kind == NearMissKind::opening ? 1.0 : -1.0;
+    farthest_ = -std::numeric_limits<double>::infinity();
+    n_ = 0;
+  }
+
+  /// A step of it. `refine`: whether states within the step follow the trajectory better than the
+  /// cubic does.
+  void follow(const ObservedStep& step, const StruckBeam& beam, bool refine) {
+    const IndentationStep& ends = step.indentation();
+    farthest_ = std::max(farthest_, sense_ * ends.lambda1);
+    if (may_turn(ends)) look_into(step, beam, refine);
+  }
+
+  /// Appends the near misses of the contact or separation that ends, in order of time: those whose
+  /// margin is below half of the largest gap reached. `residual`: lambda_r at its end, m.
+  void finish(double residual, std::vector<NearMiss>& near_misses);
+
+ private:
+  static constexpr std::size_t most_kept = 8;
+
+  bool may_turn(const IndentationStep& ends) const {
+    const bool falls = sense_ * ends.rate0 < 0.0;
+    const bool rises_then = sense_ * ends.rate1 >= 0.0;
+    if (falls == rises_then) return falls;
+    const double h = ends.length();
+    return h * std::abs(ends.rate0 + ends.rate1) > 3.0 * std::abs(ends.lambda1 - ends.lambda0);
+  }
+  void look_into(const ObservedStep& step, const StruckBeam& beam, bool refine);
+  void keep(const NearMiss& near_miss);
+
+  NearMissKind kind_ = NearMissKind::closing;
+  double sense_ = -1.0;                                         // of the indentation when g grows
+  double farthest_ = -std::numeric_limits<double>::infinity();  // sense * lambda, m
+  std::array<NearMiss, most_kept> kept_;  // of the present contact or separation
+  std::size_t n_ = 0;                     // of these
+  State state_;                           // within a step
+};
+
+}  // namespace subimpact

@@ -1,0 +1,30 @@
+#pragma once
+
+/// Random scenes whose event times carry errors of the mesh, and the finer runs that reveal these.
+
+#include <cstdint>
+#include <vector>
+
+#include "subimpact/case/case.h"
+
+namespace subimpact::error_bars {
+
+struct DrawnScene {
+  Case input;               ///< the run whose error bars are judged
+  std::vector<Case> finer;  ///< the runs that take its place as the truth, from coarse to fine
+  /// Whether `finer` goes on from the run's own mesh, so that the three show an order.
+  bool same_mesh = false;
+  int order = 2;  ///< at which `finer` converges
+};
+
+/// What a scene's finest run may take, roughly.
+struct Budget {
+  double seconds = 12.0;
+};
+
+/// Seed and number determine the scene. All ends, strikes, contact laws and theories; two in five
+/// beams are elastic. Cells (101 to 8001) by central differences, elements (16 to 800) by
+/// `exponential` (elastic) or `nystrom`. A scene that takes too long is drawn again.
+DrawnScene draw(std::uint64_t seed, int number, const Budget& budget);
+
+}  // namespace subimpact::error_bars
