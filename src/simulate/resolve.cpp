@@ -49,6 +49,9 @@ constexpr double matrices_of_modes = 1.0;        // shapes
 constexpr double matrices_of_dense_modes = 6.0;  // and mass, stiffness, decomposition
 constexpr double matrices_of_flight = 3.0;       // of free flight beside the modes
 
+// Dense decomposition of n = 600 unknowns takes 0.5 s, as 600^3/2 entries of right-hand sides do.
+constexpr double work_per_dense_mode = 0.5;
+
 std::vector<std::string> tables_of(const MethodDescriptor& method) {
   std::vector<std::string> names;
   if (!method.tables) return names;
@@ -186,15 +189,27 @@ bool modes_are_left_out(const Options& options, const StruckBeam& beam) {
          in_modes(options, beam.mesh());
 }
 
+bool has_closed_modes(const BeamMesh& mesh) {
+  return mesh.has_closed_modes() || !mesh.modal_stiffness().empty();
+}
+
+bool has_modes(const Options& options, const BeamMesh& mesh) {
+  return in_modes(options, mesh) || options.stop == StopRule::no_more_contact;
+}
+
+double decomposition_of(const Options& options, const BeamMesh& mesh) {
+  if (!has_modes(options, mesh) || has_closed_modes(mesh)) return 0.0;
+  return work_per_dense_mode * std::pow(static_cast<double>(mesh.n_unknowns()), 3);
+}
+
 double memory_of(const Options& options, const StruckBeam& beam) {
   const BeamMesh& mesh = beam.mesh();
   const auto n = static_cast<double>(mesh.n_unknowns());
   const bool yields = beam.sections().can_yield();
   const bool flies = yields && in_modes(options, mesh);
-  const bool closed = mesh.has_closed_modes() || !mesh.modal_stiffness().empty();
-  const bool has_modes = in_modes(options, mesh) || options.stop == StopRule::no_more_contact;
-  const double matrices = (has_modes ? closed ? matrices_of_modes : matrices_of_dense_modes : 0.0) +
-                          (flies ? matrices_of_flight : 0.0);
+  const double of_modes = has_closed_modes(mesh) ? matrices_of_modes : matrices_of_dense_modes;
+  const double matrices =
+      (has_modes(options, mesh) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
   return memory_of_program + memory_per_unknown * n + sizeof(double) * matrices * n * n;
 }
 
@@ -287,6 +302,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   }
   used.energy_tolerance = energy_tolerance(options, used);
   used.memory = memory_of(options, beam);
+  used.decomposition = decomposition_of(options, beam.mesh());
   return used;
 }
 

@@ -34,11 +34,6 @@ double default_wish(const Case& input) {
   return default_share_of_contact * resolve(input).settings().contact_time;
 }
 
-double work_of(const Result& result) {
-  return static_cast<double>(result.work.right_hand_sides) *
-         static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1));
-}
-
 struct Level {
   Case input;
   Result result;
@@ -88,6 +83,7 @@ class Ladder {
  private:
   void choose(bool yields);
   bool run(const Case& next);
+  void count(const Result& result);
   bool try_other_model();
   std::optional<Case> finer_case();
   double work_of_next(double ratio) const;
@@ -116,6 +112,11 @@ void Ladder::choose(bool yields) {
   refinement_.emplace(model_.input, open_);
 }
 
+void Ladder::count(const Result& result) {
+  work_ += counted_work(result);
+  if (options_.finished) options_.finished(result);
+}
+
 // Runs the case and its companion; false if stopped.
 bool Ladder::run(const Case& next) {
   const std::optional<Companion> companion = companion_of(next);
@@ -138,10 +139,10 @@ bool Ladder::run(const Case& next) {
   Result result =
       simulate(next, options_.progress, nullptr, options_.rows ? options_.rows() : nullptr);
   stop = result.outcome.kind == OutcomeKind::stopped;
-  work_ += work_of(result);
+  count(result);
   if (companion && !known && !stop) {
     below = Level{companion->input, beside.valid() ? beside.get() : run_below()};
-    work_ += work_of(below->result);
+    count(below->result);
   }
   if (companion && !stop) add_companion_errors(result, *companion, below->result);
   level_ = Level{next, std::move(result)};
@@ -166,12 +167,13 @@ double Ladder::work_of_next(double ratio) const {
     const double sizes = static_cast<double>(mesh_count(level_->input)) /
                          static_cast<double>(mesh_count(coarser_->input));
     if (sizes > 1.0) {
-      exponent = std::log(work_of(level_->result) / work_of(coarser_->result)) / std::log(sizes);
+      exponent =
+          std::log(counted_work(level_->result) / counted_work(coarser_->result)) / std::log(sizes);
     }
   }
   exponent = std::clamp(exponent, 1.0, 4.0);
   const double companion = std::abs(ratio - 2.0) < 0.01 ? 0.0 : std::pow(0.5, exponent);
-  return work_of(level_->result) * std::pow(ratio, exponent) * (1.0 + companion);
+  return counted_work(level_->result) * std::pow(ratio, exponent) * (1.0 + companion);
 }
 
 std::optional<Case> Ladder::finer_case() {
@@ -259,7 +261,9 @@ void Ladder::report(WithinRun& run) const {
   outcome.reached = reach_.error_within;
   const auto& all = result.sub_impacts;
   outcome.horizon = reach_.n_within < all.size() ? all[reach_.n_within].start : result.outcome.time;
-  if (!outcome.met) {
+  if (!result.outcome.completed()) {
+    outcome.reason = result.outcome.message;
+  } else if (!outcome.met) {
     outcome.reason = reach_.reason + "; " + obstacle_;
     outcome.key = key_;
   }
@@ -267,6 +271,12 @@ void Ladder::report(WithinRun& run) const {
 }
 
 }  // namespace
+
+double counted_work(const Result& result) {
+  return static_cast<double>(result.work.right_hand_sides) *
+             static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
+         result.used.decomposition;
+}
 
 ChosenModel first_choice(const Case& input, const OpenChoices& open) {
   ChosenModel chosen = choose_model(input, open, may_yield(input));

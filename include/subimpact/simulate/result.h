@@ -117,6 +117,9 @@ struct ResolvedSettings {
   double initial_energy = 0.0;      ///< J
   double energy_tolerance = 0.0;    ///< relative to the initial energy
   double memory = 0.0;              ///< bytes that a run takes, roughly
+  /// Cost of the dense decomposition for natural modes that have no closed form, in entries of
+  /// right-hand sides that take as long; 0: none.
+  double decomposition = 0.0;
 };
 
 /// The cost of a run: of the integration (including mass solves and right-hand sides of the beam)

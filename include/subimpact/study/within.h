@@ -29,11 +29,17 @@ struct WithinOptions {
   Jobs jobs = 1;
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
+  /// Called with every run that ended, companions too.
+  std::function<void(const Result& run)> finished;
   Progress progress;  ///< of the run in hand; returning false ends all with what there is
   /// Called before each run whose rows are kept: where they go. Those of the run before are to be
   /// discarded. Empty: rows stay in the result.
   std::function<RowSink*()> rows;
 };
+
+/// What a run cost: evaluations of the right-hand side times unknowns of the beam, and the dense
+/// decomposition for its modes in the same unit.
+double counted_work(const Result& result);
 
 /// Where nothing is wished (no accuracy.event_times), the wish is a tenth of the time scale of the
 /// shortest contacts (ResolvedSettings::contact_time), and this is the limit of the work: some
