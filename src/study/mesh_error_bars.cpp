@@ -14,6 +14,7 @@
 #include "numerics/richardson.h"
 #include "simulate/methods.h"
 #include "study/error_part.h"
+#include "study/free_end_error.h"
 #include "study/method_choice.h"
 #include "subimpact/study/match.h"
 
@@ -148,6 +149,7 @@ Result simulate_with_all_error_bars(const Case& input, const Progress& progress,
     const auto h = [](const Case& of) { return 1.0 / mesh_count(of); };
     const double told = 1.0 - std::pow(h(fine->input) / h(input), order);  // of the mesh's error
     compare(above, "mesh", fine->description, mesh_safety / told);
+    include_free_ends(parts.back(), input, result);
     if (coarse) {
       extrapolate(result, below, above,
                   {static_cast<double>(order), h(coarse->input), h(input), h(fine->input)});

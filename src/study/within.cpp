@@ -144,7 +144,7 @@ bool Ladder::run(const Case& next) {
     below = Level{companion->input, beside.valid() ? beside.get() : run_below()};
     count(below->result);
   }
-  if (companion && !stop) add_companion_errors(result, *companion, below->result);
+  if (companion && !stop) add_companion_errors(result, next, *companion, below->result);
   level_ = Level{next, std::move(result)};
   coarser_ = std::move(below);
   return !stop;

@@ -20,6 +20,7 @@
 #include "error_bars/scenes.h"
 #include "numerics/richardson.h"
 #include "study/error_part.h"
+#include "study/free_end_error.h"
 #include "study/parallel.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/match.h"
@@ -139,7 +140,9 @@ struct Coverage {
 Coverage coverage(const Judged& judged, double factor, std::string* reason = nullptr) {
   Result run = judged.run;
   if (std::getenv("NO_GAPS")) run.near_misses.clear();
-  set_error_bars(run, {compare_events(run, judged.companion, "mesh", "", factor)});
+  ErrorPart part = compare_events(run, judged.companion, "mesh", "", factor);
+  include_free_ends(part, judged.scene.input, run);
+  set_error_bars(run, {part});
   const auto& here = run.sub_impacts;
   const Truth& truth = judged.truth;
   const std::size_t n_decided = run.error_estimate->first_unresolved.value_or(here.size());

@@ -163,7 +163,11 @@ JudgedScene judge(int number, std::uint64_t seed, const error_bars::Budget& budg
                                                       mesh_count(b.run.input);
                                              })->run;
   scene.yields = finest.input.model.mesh == MeshKind::cells;
-  const Reference reference = reference_of(finest.input, finest.result, scene.yields);
+  Reference reference;
+  try {
+    reference = reference_of(finest.input, finest.result, scene.yields);
+  } catch (const InvalidCase&) {  // no finer mesh is allowed: nothing can be judged
+  }
   const std::vector<SequenceRun> runs = sequence_of(finest.input, scene.input.end_time);
   for (Wished& wished : scene.wished) {
     const auto& all = wished.run.result.sub_impacts;

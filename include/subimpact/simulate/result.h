@@ -117,8 +117,7 @@ struct ResolvedSettings {
   double initial_energy = 0.0;      ///< J
   double energy_tolerance = 0.0;    ///< relative to the initial energy
   double memory = 0.0;              ///< bytes that a run takes, roughly
-  /// Cost of the dense decomposition for natural modes that have no closed form, in entries of
-  /// right-hand sides that take as long; 0: none.
+  /// Cost of the natural modes, in entries of right-hand sides that take as long; 0: none needed.
   double decomposition = 0.0;
 };
 

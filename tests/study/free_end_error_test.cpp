@@ -1,0 +1,92 @@
+// The first-order part of the error of cells with free ends.
+
+#include "study/free_end_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/cell_modes.h"
+#include "model/flexural_frequencies.h"
+#include "paper_scene.h"
+#include "study/error_part.h"
+#include "subimpact/study/mesh_error_bars.h"
+
+namespace subimpact {
+namespace {
+
+// A thick beam, whose second-order error is small from some 1000 cells on.
+Case thick_case(int segments) {
+  Case input;
+  input.scene = paper_scene();
+  input.scene.beam.thickness = 0.03;
+  input.scene.striker.mass = 1.0;
+  input.model.section = SectionKind::elastic;
+  input.model.segments = segments;
+  input.end_time = 0.52e-3;
+  input.solver.method = Method::central_difference;
+  input.output.interval = 0.0;
+  return input;
+}
+
+// Modes of fine cells beside those of the continuum: the difference is the first-order part.
+TEST(CellsWithFreeEnds, RaiseFrequenciesAsMuchAsTheClosedFormSays) {
+  Case input = thick_case(40001);
+  const Beam& beam = input.scene.beam;
+  const std::vector<double> exact = flexural_frequencies(beam, 24);
+  const double cells = input.model.segments;
+  const NaturalModes modes =
+      free_cell_modes({static_cast<std::size_t>(cells), beam.length / cells, beam.mass_per_length(),
+                       beam.rotary_inertia(), beam.bending_stiffness()},
+                      false, 1);
+  for (const std::size_t k : {5u, 10u, 20u, 23u}) {
+    const double shift = modes.frequencies[k + 2] / exact[k] - 1.0;
+    const double stated = free_end_error(input, 1.0 / exact[k], 1.0);
+    printf("mode %zu: %.3e, stated %.3e\n", k, shift, stated);
+    EXPECT_NEAR(stated, shift, 0.15 * shift) << k;
+  }
+}
+
+TEST(MeshErrorsOfFineCellsWithFreeEnds, CoverTheTrueOnesThoughTwoMeshesNearlyAgree) {
+  Case exact = thick_case(2001);
+  exact.model.mesh = MeshKind::hermite;
+  exact.model.elements = 400;
+  exact.solver = {};
+  exact.solver.method = Method::exponential;
+  exact.solver.rtol = 1e-11;
+  const double truth = *simulate(exact).sub_impacts.at(0).end;
+  for (const int segments : {2001, 4001}) {
+    const Case input = thick_case(segments);
+    Result result = simulate(input);
+    const Result coarser = simulate(on_other_mesh(input, 0.5)->input);
+    ErrorPart part = compare_events(result, coarser, "mesh", "half as many cells", 1.0);
+    const double error = std::abs(*result.sub_impacts.at(0).end - truth);
+    const double difference = part.errors.at(0);
+    include_free_ends(part, input, result);
+    printf("%d cells: off by %.4f us, by the coarser mesh %.4f, with free ends %.4f\n", segments,
+           1e6 * error, 1e6 * difference, 1e6 * part.errors[0]);
+    EXPECT_GT(error, difference);
+    EXPECT_LT(error, part.errors[0]);
+    EXPECT_LT(part.errors[0], 5.0 * error);
+  }
+}
+
+TEST(OtherMeshesAndEnds, HaveNoFirstOrderPart) {
+  Case input = thick_case(501);
+  EXPECT_GT(free_end_error(input, 1e-5, 1e-3), 0.0);
+  Case pinned = input;
+  pinned.scene.beam.ends = {EndSupport::pinned, EndSupport::clamped};
+  EXPECT_EQ(free_end_error(pinned, 1e-5, 1e-3), 0.0);
+  Case half_free = pinned;
+  half_free.scene.beam.ends[0] = EndSupport::free;
+  EXPECT_DOUBLE_EQ(free_end_error(half_free, 1e-5, 1e-3), 0.5 * free_end_error(input, 1e-5, 1e-3));
+  Case slender = input;
+  slender.scene.beam.theory = BeamTheory::euler_bernoulli;
+  EXPECT_EQ(free_end_error(slender, 1e-5, 1e-3), 0.0);
+  Case elements = input;
+  elements.model.mesh = MeshKind::hermite;
+  EXPECT_EQ(free_end_error(elements, 1e-5, 1e-3), 0.0);
+}
+
+}  // namespace
+}  // namespace subimpact
