@@ -54,9 +54,9 @@ Reference reference_of(const Case& finest, const Result& here, bool yields) {
   }
   const Result& below = yields ? doubled : here;
   reference.sub_impacts = best->sub_impacts;
-  const std::size_t n = std::min(
-      best->error_estimate->first_unresolved.value_or(best->sub_impacts.size()),
-      n_leading_matches(match_sub_impacts(best->sub_impacts, below.sub_impacts)));
+  const std::size_t n =
+      std::min(best->error_estimate->first_unresolved.value_or(best->sub_impacts.size()),
+               n_leading_matches(match_sub_impacts(best->sub_impacts, below.sub_impacts)));
   const double order = yields ? 2.0 : 4.0;
   for (std::size_t i = 0; i < n; ++i) {
     SubImpact& s = reference.sub_impacts[i];
@@ -71,7 +71,8 @@ Reference reference_of(const Case& finest, const Result& here, bool yields) {
 // Leading sub-impacts that the reference knows well enough to judge a wish.
 std::size_t n_judged(const Reference& reference, double wish) {
   std::size_t n = 0;
-  while (n < reference.uncertainty.size() && reference.uncertainty[n] <= reference_share * wish) ++n;
+  while (n < reference.uncertainty.size() && reference.uncertainty[n] <= reference_share * wish)
+    ++n;
   return n;
 }
 
@@ -93,12 +94,12 @@ std::size_t n_before(const std::vector<SubImpact>& all, double horizon) {
 struct Wished {
   double wish = 0.0;
   WithinRun run;
-  double work = 0.0;      // counted, of all runs
-  std::size_t n = 0;      // sub-impacts before the horizon
-  std::size_t n_known = 0;  // of these that the reference knows well enough
+  double work = 0.0;           // counted, of all runs
+  std::size_t n = 0;           // sub-impacts before the horizon
+  std::size_t n_known = 0;     // of these that the reference knows well enough
   std::size_t n_possible = 0;  // that the reference knows well enough, in all
-  double error = 0.0;     // s, true one, of these
-  double cheapest = 0.0;  // counted work of the cheapest setting; 0: none found
+  double error = 0.0;          // s, true one, of these
+  double cheapest = 0.0;       // counted work of the cheapest setting; 0: none found
 };
 
 struct JudgedScene {
@@ -137,7 +138,8 @@ double cheapest_work(const std::vector<SequenceRun>& runs, const Reference& refe
   return work;
 }
 
-JudgedScene judge(int number, std::uint64_t seed, const error_bars::Budget& budget, double work_limit) {
+JudgedScene judge(int number, std::uint64_t seed, const error_bars::Budget& budget,
+                  double work_limit) {
   JudgedScene scene;
   scene.number = number;
   scene.input = error_bars::draw(seed, number, budget).input;
@@ -157,11 +159,12 @@ JudgedScene judge(int number, std::uint64_t seed, const error_bars::Budget& budg
     wished.run = simulate_within(scene.input, {}, options);
     scene.wished.push_back(std::move(wished));
   }
-  const WithinRun& finest = std::max_element(scene.wished.begin(), scene.wished.end(),
-                                             [](const Wished& a, const Wished& b) {
-                                               return mesh_count(a.run.input) <
-                                                      mesh_count(b.run.input);
-                                             })->run;
+  const WithinRun& finest =
+      std::max_element(scene.wished.begin(), scene.wished.end(),
+                       [](const Wished& a, const Wished& b) {
+                         return mesh_count(a.run.input) < mesh_count(b.run.input);
+                       })
+          ->run;
   scene.yields = finest.input.model.mesh == MeshKind::cells;
   Reference reference;
   try {
@@ -189,8 +192,10 @@ double median(std::vector<double> values) {
 }
 
 int report(const std::vector<JudgedScene>& scenes) {
-  fmt::print("| scene | beam | wish, us | chosen | sub-impacts | before horizon | judged | largest "
-             "error, us | work over cheapest | why not all |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| scene | beam | wish, us | chosen | sub-impacts | before horizon | judged | largest "
+      "error, us | work over cheapest | why not all "
+      "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   std::size_t events = 0, misses = 0, wrong = 0, far = 0, requests = 0;
   std::vector<double> ratios;
   for (const JudgedScene& scene : scenes) {
@@ -213,10 +218,11 @@ int report(const std::vector<JudgedScene>& scenes) {
                  result.wish->reason);
     }
   }
-  fmt::print("\n{} requests on {} scenes; {} event times judged: {} requests with an error above "
-             "the wish, {} with a wrong count; horizon as far as the reference decides, or the "
-             "reason named: {}; work of all runs over the cheapest setting, median: {:.2f}\n",
-             requests, scenes.size(), events, misses, wrong, far, median(ratios));
+  fmt::print(
+      "\n{} requests on {} scenes; {} event times judged: {} requests with an error above "
+      "the wish, {} with a wrong count; horizon as far as the reference decides, or the "
+      "reason named: {}; work of all runs over the cheapest setting, median: {:.2f}\n",
+      requests, scenes.size(), events, misses, wrong, far, median(ratios));
   return misses + wrong > 0 ? 1 : 0;
 }
 

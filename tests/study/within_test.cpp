@@ -1,0 +1,203 @@
+// Wishes for event times: what the program chooses, and whether the wish is met.
+
+#include "subimpact/study/within.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "paper_scene.h"
+#include "same_results.h"
+#include "subimpact/study/match.h"
+#include "subimpact/study/mesh_error_bars.h"
+
+namespace subimpact {
+namespace {
+
+Case paper_case(double end_time) {
+  Case input;
+  input.scene = paper_scene();
+  input.end_time = end_time;
+  input.output.interval = 0.0;
+  return input;
+}
+
+Case elastic_case(double end_time) {
+  Case input = paper_case(end_time);
+  input.model.section = SectionKind::elastic;
+  return input;
+}
+
+// The largest difference of starts and ends; infinite if counts differ.
+double largest_difference(const std::vector<SubImpact>& a, const std::vector<SubImpact>& b) {
+  const std::vector<MatchedPair> pairs = match_sub_impacts(a, b);
+  if (n_leading_matches(pairs) < pairs.size()) return INFINITY;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i].start - b[i].start));
+    if (a[i].end && b[i].end) largest = std::max(largest, std::abs(*a[i].end - *b[i].end));
+  }
+  return largest;
+}
+
+GivenKeys given(std::set<std::string> keys) { return {std::move(keys), {}}; }
+
+TEST(OpenChoices, AreAllOfACaseThatNamesNeitherMeshNorMethod) {
+  EXPECT_TRUE(open_choices(given({"beam.length", "time.end", "model.section"})).all());
+}
+
+TEST(OpenChoices, ASizeFixesItsMeshAndAToleranceItsMethod) {
+  const OpenChoices sized = open_choices(given({"model.segments"}));
+  EXPECT_FALSE(sized.size || sized.mesh);
+  EXPECT_TRUE(sized.method && sized.tolerance);
+  const OpenChoices meshed = open_choices(given({"model.mesh"}));
+  EXPECT_TRUE(meshed.size && !meshed.mesh);
+  const OpenChoices tolerant = open_choices(given({"solver.rtol"}));
+  EXPECT_FALSE(tolerant.tolerance || tolerant.method);
+  const OpenChoices timed = open_choices(given({"solver.method"}));
+  EXPECT_TRUE(timed.tolerance && !timed.method);
+}
+
+TEST(AChoice, IsModesWhereTheBeamIsElasticAndCentralDifferencesWhereItYields) {
+  const ChosenModel elastic = choose_model(elastic_case(1e-3), {}, false);
+  EXPECT_EQ(elastic.input.model.mesh, MeshKind::hermite);
+  EXPECT_EQ(elastic.input.solver.method, Method::exponential);
+  const ChosenModel yielding = choose_model(paper_case(1e-3), {}, true);
+  EXPECT_EQ(yielding.input.model.mesh, MeshKind::cells);
+  EXPECT_EQ(yielding.input.solver.method, Method::central_difference);
+}
+
+TEST(AChoice, LeavesWhatTheCaseFixes) {
+  Case input = elastic_case(1e-3);
+  input.solver.method = Method::erk;
+  input.model.mesh = MeshKind::cells;
+  OpenChoices open;
+  open.method = open.mesh = false;
+  const ChosenModel chosen = choose_model(input, open, false);
+  EXPECT_EQ(chosen.input.model.mesh, MeshKind::cells);
+  EXPECT_EQ(chosen.input.solver.method, Method::erk);
+}
+
+// The limit of fine meshes, from ten times as many elements as the wish needs.
+TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
+  Case finest = elastic_case(2e-3);
+  finest.model.mesh = MeshKind::hermite;
+  finest.model.elements = 1600;
+  finest.solver.method = Method::exponential;
+  finest.solver.rtol = 1e-11;
+  const Result limit = simulate(finest);
+  for (const double wish : {1e-5, 1e-6, 1e-7}) {
+    Case input = elastic_case(2e-3);
+    input.accuracy.event_times = wish;
+    const WithinRun run = simulate_within(input, {});
+    ASSERT_TRUE(run.result.wish);
+    EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
+    EXPECT_LE(run.result.wish->reached, wish);
+    EXPECT_LE(largest_difference(run.result.sub_impacts, limit.sub_impacts), wish) << wish;
+    EXPECT_LT(mesh_count(run.input), 1600);
+  }
+}
+
+// The first separation of the paper's beam that yields: 201.476 +- 0.006 us, from 1600 graded
+// elements and 8007 cells.
+TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
+  Case input = paper_case(0.3e-3);
+  input.accuracy.event_times = 0.3e-6;
+  const WithinRun run = simulate_within(input, {});
+  EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
+  ASSERT_GE(run.result.sub_impacts.size(), 3u);
+  EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 0.3e-6);
+  EXPECT_NEAR(run.result.sub_impacts[1].start, 203.297e-6, 0.3e-6);
+}
+
+TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
+  Case input = elastic_case(1e-3);
+  input.accuracy.event_times = 1e-6;
+  WithinOptions two;
+  two.jobs = 2;
+  const WithinRun alone = simulate_within(input, {});
+  const WithinRun beside = simulate_within(input, {}, two);
+  EXPECT_EQ(mesh_count(alone.input), mesh_count(beside.input));
+  expect_same_results(alone.result, beside.result);
+}
+
+TEST(AWish, LeavesACaseThatRepeatsTheRunBitForBit) {
+  Case input = paper_case(0.25e-3);
+  input.accuracy.event_times = 2e-6;
+  const WithinRun run = simulate_within(input, {});
+  expect_same_results(simulate(run.input), run.result);
+}
+
+TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
+  Case input = elastic_case(1e-3);
+  input.model.segments = 101;
+  input.accuracy.event_times = 1e-9;
+  OpenChoices open;
+  open.mesh = open.size = false;
+  const WithinRun run = simulate_within(input, open);
+  EXPECT_TRUE(run.result.outcome.completed());
+  ASSERT_TRUE(run.result.wish);
+  EXPECT_FALSE(run.result.wish->met);
+  EXPECT_EQ(run.result.wish->key, "model.segments");
+  EXPECT_EQ(run.input.model.segments, 101);
+}
+
+TEST(AWish, StopsAtTheLimitOfWork) {
+  Case input = paper_case(1e-3);
+  input.accuracy.event_times = 1e-10;
+  input.accuracy.work_limit = 3e6;
+  double work = 0.0;
+  WithinOptions options;
+  options.finished = [&](const Result& result) { work += counted_work(result); };
+  const WithinRun run = simulate_within(input, {}, options);
+  EXPECT_FALSE(run.result.wish->met);
+  EXPECT_EQ(run.result.wish->key, "accuracy.work_limit");
+  EXPECT_LE(work, 2.0 * 3e6);  // the limit holds for predicted work
+}
+
+TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
+  Case input = paper_case(0.3e-3);
+  input.scene.beam.yield_stress = 3e9;
+  input.accuracy.event_times = 1e-6;
+  const WithinRun run = simulate_within(input, {});
+  EXPECT_EQ(run.result.n_yielded_sections, 0u);
+  EXPECT_EQ(run.input.model.mesh, MeshKind::hermite);
+  EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
+}
+
+TEST(ACompanion, IsHalfAsFineInMeshAndTime) {
+  Case input = paper_case(1e-3);
+  input.model.segments = 401;
+  input.solver.method = Method::central_difference;
+  const auto central = companion_of(input);
+  ASSERT_TRUE(central);
+  EXPECT_EQ(central->input.model.segments, 201);
+  EXPECT_EQ(central->name, "mesh and time");
+  const double step = *resolve(input).settings().step;
+  EXPECT_NEAR(*resolve(central->input).settings().step, 2.0 * step, 0.1 * step);
+  input.solver.method = Method::erk;
+  input.solver.rtol = 1e-7;
+  EXPECT_NEAR(companion_of(input)->input.solver.rtol, 1e-6, 1e-12);
+}
+
+TEST(ACompanion, OfARigidBeamIsCoarserInTimeAlone) {
+  Case input = paper_case(1e-3);
+  input.model.mesh = MeshKind::rigid;
+  const auto companion = companion_of(input);
+  ASSERT_TRUE(companion);
+  EXPECT_EQ(companion->name, "time");
+}
+
+TEST(ACompanion, RevealsThatTheDefaultMeshMissesAnOpening) {
+  Case input = paper_case(0.25e-3);
+  input.solver.method = Method::central_difference;
+  const Result result = simulate_with_companion(input, 1);
+  ASSERT_TRUE(result.error_estimate);
+  // 501 cells bridge the opening at 203 us; the contact that lasts to 217 us is not decided.
+  EXPECT_EQ(result.error_estimate->first_unresolved, 0u);
+}
+
+}  // namespace
+}  // namespace subimpact
