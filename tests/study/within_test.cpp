@@ -120,14 +120,14 @@ TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
   const WithinRun alone = simulate_within(input, {});
   const WithinRun beside = simulate_within(input, {}, two);
   EXPECT_EQ(mesh_count(alone.input), mesh_count(beside.input));
-  expect_same_results(alone.result, beside.result);
+  expect_same(alone.result, beside.result);
 }
 
 TEST(AWish, LeavesACaseThatRepeatsTheRunBitForBit) {
   Case input = paper_case(0.25e-3);
   input.accuracy.event_times = 2e-6;
   const WithinRun run = simulate_within(input, {});
-  expect_same_results(simulate(run.input), run.result);
+  expect_same(simulate(run.input), run.result);
 }
 
 TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
