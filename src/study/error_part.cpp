@@ -74,12 +74,13 @@ std::optional<Doubt> doubt_by_times(const std::vector<SubImpact>& all, const Err
     if (!reason.empty()) return Doubt{i, std::move(reason)};
   }
   if (n < all.size() || n < part.n_refined) {
-    return Doubt{n, fmt::format("the refined run has {} in all, this run {}; from here on they do "
-                                "not correspond",
-                                counted(part.n_refined, "sub-impact"), all.size())};
+    return Doubt{n,
+                 fmt::format("the run compared with has {} in all, this run {}; from here on they "
+                             "do not correspond",
+                             counted(part.n_refined, "sub-impact"), all.size())};
   }
   if (!part.failure.empty()) {
-    return Doubt{n, "the refined run did not complete: " + part.failure};
+    return Doubt{n, "the run compared with did not complete: " + part.failure};
   }
   return std::nullopt;
 }

@@ -16,8 +16,15 @@ namespace subimpact {
 ///
 /// the latter for wave numbers beta whose decaying waves do not reach the other end, where
 /// phi'^2(end) is four times the mean of phi'^2. beta follows from omega by
-/// (omega r/c)^2 = x^2/(1 + x), with the radius of gyration r and c = sqrt(E/rho). Times shorten in
-/// the same proportion. The shift grows with omega; the modes that matter go up to 1/contact_time.
+/// (omega r/c)^2 = x^2/(1 + x), with the radius of gyration r and c = sqrt(E/rho). The shift grows
+/// with omega; the modes that matter go up to 1/contact_time.
+///
+/// Times shorten in the same proportion, on average. The shift is made where waves are reflected:
+/// each time T = 2 l/c_g, with the group velocity c_g, brings one reflection from each end, the
+/// first of them after 2 a/c_g, with the distance a of the strike from the nearest free end. So the
+/// shift is at most
+///
+///     x/(1 + x) min(n t + T, t l/a)/N.
 ///
 /// All else of the mesh's error is of second order and falls faster, so that on fine meshes of
 /// thick beams this part takes over, with the other sign: in between, two meshes may agree by

@@ -79,7 +79,11 @@ TEST(OtherMeshesAndEnds, HaveNoFirstOrderPart) {
   EXPECT_EQ(free_end_error(pinned, 1e-5, 1e-3), 0.0);
   Case half_free = pinned;
   half_free.scene.beam.ends[0] = EndSupport::free;
-  EXPECT_DOUBLE_EQ(free_end_error(half_free, 1e-5, 1e-3), 0.5 * free_end_error(input, 1e-5, 1e-3));
+  // After many reflections half of two free ends'.
+  EXPECT_NEAR(free_end_error(half_free, 1e-5, 1.0), 0.5 * free_end_error(input, 1e-5, 1.0),
+              0.01 * free_end_error(input, 1e-5, 1.0));
+  // At first one reflection, whether the other end is free or not.
+  EXPECT_DOUBLE_EQ(free_end_error(half_free, 1e-5, 1e-4), free_end_error(input, 1e-5, 1e-4));
   Case slender = input;
   slender.scene.beam.theory = BeamTheory::euler_bernoulli;
   EXPECT_EQ(free_end_error(slender, 1e-5, 1e-3), 0.0);

@@ -19,8 +19,10 @@ using scenes::Random;
 constexpr double seconds_elastic = 2.5e-9;
 constexpr double seconds_yielding = 8e-9;
 
-// Shortest run, in first periods.
-constexpr double shortest_end = 0.08;
+// Sub-impacts of a scene on a coarse mesh, at least and at most: the run ends with the last.
+constexpr std::size_t fewest_sub_impacts = 4;
+constexpr std::size_t most_sub_impacts = 12;
+constexpr int pilot_cells = 151;
 
 bool yields(const Case& input) { return may_yield(input); }
 
@@ -39,14 +41,14 @@ void draw_beam(Random& random, Case& input) {
   if (random.chance(0.5)) beam.ends[1] = beam.ends[0];
 }
 
-// If only striker and beam as a whole were in contact, it would last a hundredth to a fifth of the
-// first period.
+// If only striker and beam as a whole were in contact, it would last half a hundredth to a
+// twentieth of the first period.
 void draw_contact(Random& random, Case& input, double first_period) {
   const Beam& beam = input.scene.beam;
   Striker& striker = input.scene.striker;
   Contact& contact = input.scene.contact;
   const double mass = striker.mass * beam.mass() / (striker.mass + beam.mass());
-  const double duration = first_period * random.log_uniform(0.01, 0.2);
+  const double duration = first_period * random.log_uniform(0.005, 0.05);
   const double depth = duration * striker.velocity / 2.94;
   const double stiffness = 1.25 * mass * std::pow(striker.velocity, 2) / std::pow(depth, 2.5);
   const double kind = random.uniform();
@@ -83,12 +85,12 @@ void draw_mesh(Random& random, Case& input) {
   ModelOptions& model = input.model;
   if (random.chance(0.6)) {
     model.mesh = MeshKind::cells;
-    model.segments = 2 * static_cast<int>(random.log_uniform(75.0, 4001.0)) + 1;
+    model.segments = 2 * static_cast<int>(random.log_uniform(100.0, 4001.0)) + 1;
     input.solver.method = Method::central_difference;
   } else {
     model.mesh = MeshKind::hermite;
     const double finest = !uses_symmetry(input) ? 50.0 : yields(input) ? 100.0 : 400.0;
-    model.elements = 2 * static_cast<int>(random.log_uniform(12.0, finest + 1.0));
+    model.elements = 2 * static_cast<int>(random.log_uniform(20.0, finest + 1.0));
     input.solver.method = yields(input) ? Method::nystrom : Method::exponential;
     input.solver.rtol = yields(input) ? 1e-7 : 1e-8;
   }
@@ -135,7 +137,7 @@ void choose_finer(DrawnScene& drawn) {
 
 // Of a run by central differences; those by other methods are cheaper here.
 double seconds_of(const Case& input) {
-  if (input.solver.method == Method::exponential) return 0.0;
+  if (input.solver.method == Method::exponential) return 1e-3;
   Case by_steps = input;
   by_steps.solver = {};
   by_steps.solver.method = Method::central_difference;
@@ -148,18 +150,23 @@ double seconds_of(const Case& input) {
   return steps * each;
 }
 
+// A few first periods, no longer than the budget lasts and than the sub-impacts wanted take.
 bool draw_end(Random& random, DrawnScene& drawn, double first_period, const Budget& budget) {
-  double longest = random.log_uniform(0.2, 1.5) * first_period;
-  Case trial = drawn.input;
-  trial.end_time = first_period;
-  longest = std::min(longest, first_period * budget.seconds / seconds_of(trial));
-  for (Case& finer : drawn.finer) {
-    finer.end_time = first_period;
-    longest = std::min(longest, first_period * budget.seconds / seconds_of(finer));
+  double end = random.log_uniform(0.3, 2.5) * first_period;
+  std::vector<Case*> all{&drawn.input};
+  for (Case& finer : drawn.finer) all.push_back(&finer);
+  for (Case* input : all) {
+    input->end_time = first_period;
+    end = std::min(end, first_period * budget.seconds / seconds_of(*input));
   }
-  drawn.input.end_time = longest;
-  for (Case& finer : drawn.finer) finer.end_time = longest;
-  return longest >= shortest_end * first_period;
+  Case pilot = cells(drawn.input, pilot_cells);
+  pilot.end_time = end;
+  const Result result = simulate(pilot);
+  const std::vector<SubImpact>& list = result.sub_impacts;
+  if (!result.outcome.completed() || list.size() < fewest_sub_impacts) return false;
+  if (list.size() > most_sub_impacts) end = list[most_sub_impacts].start;
+  for (Case* input : all) input->end_time = end;
+  return true;
 }
 
 Random stream_of(std::uint64_t seed, int number, int attempt) {

@@ -10,8 +10,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +30,7 @@ using namespace subimpact;
 using error_bars::DrawnScene;
 
 constexpr double us = 1e6;
-constexpr double factors[] = {0.07, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0};
+constexpr double factors[] = {0.2, 0.35, 0.5, 0.7, 1.0, 1.5};
 constexpr double shown_factor = 1.0;
 
 // Smallest and largest order that an extrapolation takes from three meshes.
@@ -139,7 +137,6 @@ struct Coverage {
 
 Coverage coverage(const Judged& judged, double factor, std::string* reason = nullptr) {
   Result run = judged.run;
-  if (std::getenv("NO_GAPS")) run.near_misses.clear();
   ErrorPart part = compare_events(run, judged.companion, "mesh", "", factor);
   include_free_ends(part, judged.scene.input, run);
   set_error_bars(run, {part});
@@ -202,42 +199,6 @@ std::string row_of(const Judged& judged) {
       counts.wrong_counts > 0 ? " WRONG COUNT" : "", reason);
 }
 
-// DUMP-BEGIN
-std::string dump(const Result& r) {
-  std::string t = "{\"s\":[";
-  for (std::size_t i = 0; i < r.sub_impacts.size(); ++i) {
-    const SubImpact& s = r.sub_impacts[i];
-    t += fmt::format("{}[{:.17g},{:.17g},{:.6g},{:.6g}]", i ? "," : "", s.start,
-                     s.end.value_or(-1.0), s.start_rate, s.end_rate);
-  }
-  t += "],\"n\":[";
-  for (std::size_t i = 0; i < r.near_misses.size(); ++i) {
-    const NearMiss& s = r.near_misses[i];
-    t += fmt::format("{}[{:.17g},{:.17g},{}]", i ? "," : "", s.time, s.margin,
-                     s.kind == NearMissKind::opening ? 1 : -1);
-  }
-  return t + "]}";
-}
-void dump(const Judged& j) {
-  static std::FILE* file = std::fopen(std::getenv("DUMP"), "w");
-  const Case& c = j.scene.input;
-  const ResolvedSettings u = resolve(c).settings();
-  const auto& e = c.scene.beam.ends;
-  Result truth;
-  truth.sub_impacts = j.truth.all;
-  fmt::print(file,
-             "{{\"number\":{},\"kind\":\"{}\",\"n\":{},\"ends\":[{},{}],\"rayleigh\":{},\"pos\":{},"
-             "\"end\":{},\"slender\":{},\"T1\":{},\"tc\":{},\"known\":{},\"run\":{},\"comp\":{},"
-             "\"truth\":{}}}\n",
-             j.number, kind_of(c),
-             c.model.mesh == MeshKind::cells ? c.model.segments : c.model.elements,
-             static_cast<int>(e[0]), static_cast<int>(e[1]),
-             c.scene.beam.theory == BeamTheory::rayleigh ? 1 : 0, c.scene.striker.position,
-             c.end_time, c.scene.beam.radius_of_gyration() / c.scene.beam.length, u.first_period,
-             u.contact_time, j.truth.n_known, dump(j.run), dump(j.companion), dump(truth));
-  std::fflush(file);
-}
-// DUMP-END
 void print_totals(const std::vector<Judged>& all) {
   fmt::print(
       "\n| runs | factor | scenes | known events | corresponding | decided | covered | median "
@@ -278,7 +239,6 @@ int main(int argc, char** argv) {
   std::vector<Judged> all(static_cast<std::size_t>(n_scenes));
   in_parallel(all.size(), [&](std::size_t i) {
     all[i] = judge(first + static_cast<int>(i), seed, budget);
-    if (std::getenv("DUMP")) dump(all[i]);
     fmt::print("{}\n", row_of(all[i]));
     std::fflush(stdout);
   });

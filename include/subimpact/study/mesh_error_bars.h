@@ -12,7 +12,7 @@ namespace subimpact {
 /// | part | refined run | stated error |
 /// |---|---|---|
 /// | time | more accurate in time, see simulate_with_error_bars | 3 d |
-/// | mesh | twice as many cells or elements | 1.5 d/(1 - r^-p) |
+/// | mesh | twice as many cells or elements | 1.5 d/(1 - r^-p); cells: at least that of free ends |
 /// | layers | the exact section on the same mesh, where the case has layers | 1.5 d |
 ///
 /// with d the largest difference between the two runs over a sub-impact and its neighbours, r the
