@@ -231,5 +231,99 @@ TEST(Run, ThatIsToldToEndKeepsWhatItHasComputed) {
   }
 }
 
+// The scene of the paper without any choice of mesh and method.
+std::string open_case() {
+  return "title = \"open\"\n"
+         "beam = { length = 0.7112, width = 0.0163, thickness = 0.0075, density = 2600, "
+         "youngs_modulus = 71.96e9, yield_stress = 150e6 }\n"
+         "striker = { mass = 0.201, nose_radius = 0.01, velocity = 15.9 }\n"
+         "time = { end = 0.25e-3 }\n";
+}
+
+TEST(RunWithin, MeetsAWishAndLeavesTheChoiceInItsFiles) {
+  const TemporaryDirectory directory;
+  directory.write("open.toml", open_case());
+  const Finished finished =
+      run_program({"run", "open.toml", "--within", "1us", "--out", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  const FinishedRun run = read_results(directory.path / "here");
+  ASSERT_TRUE(run.result.wish);
+  EXPECT_TRUE(run.result.wish->met);
+  EXPECT_EQ(run.result.wish->wished, 1e-6);
+  ASSERT_GE(run.result.sub_impacts.size(), 2u);
+  EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 1e-6);
+  EXPECT_EQ(run.input.solver.method, Method::central_difference);
+  EXPECT_GT(run.input.model.segments, 501);
+  // Rows of one run alone, though several were made.
+  EXPECT_EQ(run.result.history.front().time, 0.0);
+  for (std::size_t i = 1; i < run.result.history.size(); ++i) {
+    ASSERT_GE(run.result.history[i].time, run.result.history[i - 1].time);
+  }
+}
+
+TEST(RunWithin, ThatTheCaseItselfWishesForNeedsNoOption) {
+  const TemporaryDirectory directory;
+  directory.write("open.toml", open_case() + "accuracy = { event_times = 2e-6 }\n");
+  const Finished finished = run_program({"run", "open.toml", "--out", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  EXPECT_EQ(read_results(directory.path / "here").result.wish->wished, 2e-6);
+}
+
+TEST(RunWithin, AFixedMeshThatCannotMeetTheWishEndsWithStatus0AndTheReason) {
+  const TemporaryDirectory directory;
+  directory.write("open.toml", open_case());
+  const Finished finished = run_program(
+      {"run", "open.toml", "--within", "1ns", "--set", "model.segments=101", "--out", "here"},
+      directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  expect_in(finished.output, "model.segments");
+  const auto summary = summary_in(directory.path / "here");
+  EXPECT_EQ(summary.at("wish").at("met"), false) << summary.at("wish");
+}
+
+TEST(RunWithin, NeedsAUnit) {
+  const TemporaryDirectory directory;
+  directory.write("open.toml", open_case());
+  const Finished finished =
+      run_program({"run", "open.toml", "--within", "0.1", "--out", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "with its unit, such as 1us");
+  EXPECT_FALSE(fs::exists(directory.path / "here"));
+}
+
+TEST(RunWithin, DoesNotGoWithErrorBarsOfAnotherKind) {
+  const TemporaryDirectory directory;
+  directory.write("open.toml", open_case());
+  const Finished finished =
+      run_program({"run", "open.toml", "--within", "1us", "--error-bars=off"}, directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "--error-bars=off");
+}
+
+TEST(Run, OfACaseThatFixesNothingHasErrorBarsAndItsOwnMesh) {
+  const TemporaryDirectory directory;
+  directory.write("open.toml", open_case());
+  const Finished finished = run_program({"run", "open.toml", "--out", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  const FinishedRun run = read_results(directory.path / "here");
+  ASSERT_TRUE(run.result.error_estimate);
+  EXPECT_FALSE(run.result.wish);
+  const SubImpact& first = run.result.sub_impacts.front();
+  EXPECT_NEAR(*first.end, 201.476e-6, *first.end_error);
+  EXPECT_LT(*first.end_error, 1e-6);
+}
+
+TEST(Run, WithoutErrorBarsTakesTheDefaultKeys) {
+  const TemporaryDirectory directory;
+  directory.write("open.toml", open_case());
+  const Finished finished =
+      run_program({"run", "open.toml", "--error-bars=off", "--out", "here"}, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  const FinishedRun run = read_results(directory.path / "here");
+  EXPECT_FALSE(run.result.error_estimate);
+  EXPECT_EQ(run.input.model.segments, 501);
+  EXPECT_EQ(run.input.solver.method, Method::erk);
+}
+
 }  // namespace
 }  // namespace subimpact

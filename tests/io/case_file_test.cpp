@@ -105,6 +105,7 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   Case foundation = read_case_file(SUBIMPACT_PAPER_CASE).value;
   foundation.solver.step = 1e-7;
   foundation.accuracy.energy = 1e-4;
+  foundation.accuracy.event_times = 1e-6;
   foundation.solver.max_step = 2e-7;
   foundation.solver.table = "dormand-prince";
   foundation.solver.events = EventHandling::located;
