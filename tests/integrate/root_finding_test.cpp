@@ -106,8 +106,8 @@ TEST_P(RootFinding, FindsEveryCrossingOnceAtItsTime) {
     int n_found = 0;
     while (next_root(*integrator, 30.0)) {
       const bool falls = n_found % 2 == 0;
-      const double exact = (falls ? 1.0 : -1.0) * std::acos(level) +
-                           2.0 * M_PI * (n_found / 2 + (falls ? 0 : 1));
+      const double exact =
+          (falls ? 1.0 : -1.0) * std::acos(level) + 2.0 * M_PI * (n_found / 2 + (falls ? 0 : 1));
       ASSERT_NEAR(integrator->time(), exact, 1e-6) << "root " << n_found;
       EXPECT_EQ(integrator->root()->function, 0u);
       EXPECT_LE(std::abs(integrator->state()[0] - level), 2.0 * integrator->root()->tolerance);
