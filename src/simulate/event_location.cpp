@@ -154,9 +154,8 @@ bool EventLocator::relocate(const EventFunction& function, const StepEnds& step,
     correction.add_to(trial_);
     return beam_.evaluate(function, trial_);
   };
-  trial_ = end_;
-  correction.add_to(trial_);
-  const EventValue here = beam_.evaluate(function, trial_);
+  // The method's own state: a root of the library lies on the library's dense output.
+  const EventValue here = value_at(step.t1);
   if (std::abs(here.value) <= rounding_of(function, beam_, trial_, step.t1, here)) return true;
   const double guess = step.t1 - here.value / here.rate;
   if (here.value > 0.0) {
