@@ -56,7 +56,8 @@ void add_compare(CLI::App& program, int& status) {
   options->input.add_to(*command);
   command
       ->add_option("--methods", options->methods,
-                   "Methods to compare, separated by commas; a method's table after a colon")
+                   "Methods to compare, separated by commas; a method's table after a colon, "
+                   "its solver.events after a plus sign")
       ->delimiter(',')
       ->required();
   command->add_option("--out", options->directory,
@@ -69,6 +70,7 @@ void add_compare(CLI::App& program, int& status) {
       "Examples:\n"
       "  subimpact compare case.toml --methods central-difference,erk,dirk,imex,adams,bdf\n"
       "  subimpact compare case.toml --methods erk:dop853,erk:dormand-prince --out out/tables\n"
+      "  subimpact compare case.toml --methods erk,erk+library,erk+interpolated\n"
       "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed.");
   command->callback([options, &status] { status = run_comparison(*options); });

@@ -21,9 +21,9 @@ std::string positive_seconds(const std::string& text) {
 
 namespace {
 
-std::vector<std::string> method_names() {
+std::vector<std::string> names_of_choices(const char* key) {
   std::vector<std::string> names;
-  for (const Choice& method : find_case_key("solver.method")->choices) names.push_back(method.name);
+  for (const Choice& choice : find_case_key(key)->choices) names.push_back(choice.name);
   return names;
 }
 
@@ -40,7 +40,7 @@ std::string did_you_mean(const std::string& name) {
 }
 
 std::string unknown_method(const std::string& option, const std::string& method) {
-  const std::vector<std::string> names = method_names();
+  const std::vector<std::string> names = names_of_choices("solver.method");
   const std::string own = own_name("solver.method", method);
   return fmt::format("--methods {}: unknown method \"{}\"; allowed: {}; {}", option, method,
                      fmt::join(names, ", "),
@@ -60,6 +60,12 @@ std::string unknown_table(const std::string& option, const std::string& method,
                      did_you_mean(near.empty() ? near : method + ":" + near));
 }
 
+std::string unknown_events(const std::string& option, const std::string& events) {
+  const std::vector<std::string> names = names_of_choices("solver.events");
+  return fmt::format("--methods {}: unknown treatment of events \"{}\"; allowed: {}; {}", option,
+                     events, fmt::join(names, ", "), did_you_mean(nearest_name(events, names)));
+}
+
 template <class List>
 bool contains(const List& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
@@ -69,14 +75,14 @@ bool contains(const List& list, const std::string& name) {
 
 void check_method_names(const std::vector<std::string>& methods) {
   for (const std::string& option : methods) {
-    const std::size_t colon = option.find(':');
-    const std::string method = option.substr(0, colon);
-    if (!contains(method_names(), method)) throw CaseFileError(unknown_method(option, method));
-    if (colon != std::string::npos) {
-      const std::string table = option.substr(colon + 1);
-      if (!contains(table_names(method), table)) {
-        throw CaseFileError(unknown_table(option, method, table));
-      }
+    const auto [method, table, events] = parse_method_name(option);
+    if (!contains(names_of_choices("solver.method"), method))
+      throw CaseFileError(unknown_method(option, method));
+    if (table && !contains(table_names(method), *table)) {
+      throw CaseFileError(unknown_table(option, method, *table));
+    }
+    if (events && !contains(names_of_choices("solver.events"), *events)) {
+      throw CaseFileError(unknown_events(option, *events));
     }
   }
 }

@@ -143,7 +143,8 @@ void add_work_precision(CLI::App& program, int& status) {
   options->input.add_to(*command);
   command
       ->add_option("--methods", options->methods,
-                   "Methods to sweep, separated by commas; a method's table after a colon. "
+                   "Methods to sweep, separated by commas; a method's table after a colon, "
+                   "its solver.events after a plus sign. "
                    "Default: all that can run the case")
       ->delimiter(',');
   command

@@ -96,6 +96,8 @@ std::span<const Named<EventHandling>> names_of(EventHandling) {
   static constexpr Named<EventHandling> names[] = {
       {EventHandling::located, "located", "steps end at events"},
       {EventHandling::interpolated, "interpolated", "event times are interpolated within steps"},
+      {EventHandling::library, "library",
+       "contact events by the root-finding of SUNDIALS: erk, dirk, imex, adams, bdf"},
   };
   return names;
 }

@@ -71,7 +71,7 @@ std::optional<CostEstimate> estimate_cost(ResolvedRun& run) {
     step =
         std::min(radians / used.highest_frequency, input.solver.max_step.value_or(input.end_time));
   }
-  const bool retaken = beam.sections().can_yield() && used.events == EventHandling::located;
+  const bool retaken = beam.sections().can_yield() && used.events != EventHandling::interpolated;
   cost.steps = input.end_time / step;
   cost.right_hand_sides = (retaken ? share_of_yielding : 1.0) * evaluations * cost.steps;
   cost.seconds = overhead * cost.right_hand_sides * cost.seconds_per_right_hand_side;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+
+#include "ode/event_functions.h"
 
 namespace subimpact {
 
@@ -17,6 +20,8 @@ struct IntegratorOptions {
   std::string table = {};                 ///< of Runge-Kutta methods; empty: the method's first
   int max_order = 0;                      ///< of multistep methods, from 1 to the method's limit
   VectorOperations vector_operations = VectorOperations::project;  ///< of methods of SUNDIALS
+  /// Whose roots end steps, of methods of SUNDIALS; none: no root-finding.
+  std::shared_ptr<const EventFunctions> event_functions = {};
 };
 
 }  // namespace subimpact

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "case/counted.h"
@@ -12,6 +13,7 @@ namespace subimpact {
 namespace {
 
 constexpr double us = 1e6;  // per second
+constexpr std::size_t narrowest_name = 22;
 
 std::string setting_of(const ComparedRun& run) {
   if (run.result.used.step) return fmt::format("step {:.4g} us", *run.result.used.step * us);
@@ -29,15 +31,18 @@ std::string comparison_table(const Comparison& comparison) {
   const Result& reference = comparison.reference;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:<22} {:<14} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>10} {:>11}\n", "", "",
-                 "sub-", "corre-", "start", "end", "peak", "impulse", "right-hand", "wall");
-  fmt::format_to(out, "{:<22} {:<14} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>10} {:>11}\n",
-                 "method", "setting", "imp.", "spond", "max, us", "max, us", "max, rel.",
+  std::size_t width = narrowest_name;
+  for (const ComparedRun& run : comparison.runs) width = std::max(width, run.name.size());
+  fmt::format_to(out, "{:<{}} {:<14} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>10} {:>11}\n", "",
+                 width, "", "sub-", "corre-", "start", "end", "peak", "impulse", "right-hand",
+                 "wall");
+  fmt::format_to(out, "{:<{}} {:<14} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>10} {:>11}\n",
+                 "method", width, "setting", "imp.", "spond", "max, us", "max, us", "max, rel.",
                  "max, rel.", "sides", "time");
   for (const ComparedRun& run : comparison.runs) {
     fmt::format_to(
-        out, "{:<22} {:<14} {:>6} {:>6} {:>10.2e} {:>10.2e} {:>9.1e} {:>9.1e} {:>10} {:>11}\n",
-        run.name, setting_of(run), run.result.sub_impacts.size(), run.n_corresponding,
+        out, "{:<{}} {:<14} {:>6} {:>6} {:>10.2e} {:>10.2e} {:>9.1e} {:>9.1e} {:>10} {:>11}\n",
+        run.name, width, setting_of(run), run.result.sub_impacts.size(), run.n_corresponding,
         run.max_start_difference * us, run.max_end_difference * us, run.max_peak_difference,
         run.max_impulse_difference, run.result.work.right_hand_sides,
         duration_text(run.result.work.wall_seconds));

@@ -202,6 +202,10 @@ std::string method_listing() {
                    fmt::format("{}({})", table.order, table.embedded_order), table.evaluations,
                    table.note);
   }
+  fmt::format_to(out, "\nTreatment of events (solver.events)\n");
+  for (const Choice& events : find_case_key("solver.events")->choices) {
+    fmt::format_to(out, "  {:<20} {}\n", events.name, events.note);
+  }
   return fmt::to_string(text);
 }
 

@@ -16,12 +16,10 @@ constexpr double us = 1e6;  // per second
 
 std::string settings_text(const PlanPoint& point) {
   const ModelOptions& model = point.input.model;
-  const std::string method = point.run.setting.method;
-  const std::size_t colon = method.find(':');
-  std::string text = fmt::format("--method {}", method.substr(0, colon));
-  if (colon != std::string::npos) {
-    text += fmt::format(" --set solver.table={}", method.substr(colon + 1));
-  }
+  const auto [method, table, events] = parse_method_name(point.run.setting.method);
+  std::string text = fmt::format("--method {}", method);
+  if (table) text += fmt::format(" --set solver.table={}", *table);
+  if (events) text += fmt::format(" --set solver.events={}", *events);
   const MeshDescriptor& mesh = descriptor_of(model.mesh);
   text += fmt::format(" --set model.mesh={} --set {}={}", mesh.name, mesh.refinement->key,
                       model.*(mesh.refinement->count));

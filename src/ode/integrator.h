@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -52,6 +54,14 @@ class Integrator {
   /// The same, integrated backwards from the end of the step. The result differs from state_at by
   /// the step's own error, which is large only where the force changes within the step.
   virtual void state_before_end(double t, State& y) { state_at(t, y); }
+
+  /// A root at the end of the last step, which the integrator's own root-finding ended there.
+  struct Root {
+    std::size_t function;  ///< of the event functions in IntegratorOptions
+    double tolerance;      ///< s, of its time
+  };
+  /// Nothing for integrators without root-finding. After a root the caller restarts.
+  virtual std::optional<Root> root() const { return std::nullopt; }
 
   /// Whether the integrator has proven that no event happened in the last step, however long:
   /// events need not be looked for in it.

@@ -63,16 +63,8 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
   y1 = &whole.y1;
   for (int n_cuts = 0; n_cuts < most_cuts; ++n_cuts) {
     std::optional<EventFunction> event;
-    dealt_with_.clear();
-    while (auto crossing = find_crossing_in({t0, t1, y0, *y1, whole.event_free})) {
-      const StepEnds step{t0, t1, y0, *y1};
-      dealt_with_.push_back(crossing->function);
-      if (crossing->unresolved && !resolve(*crossing, step)) continue;
-      t1 = locate(*crossing, step);
-      std::swap(end_, trial_);
-      y1 = &end_;
-      event = crossing->function;
-    }
+    if (events_ == EventHandling::located) event = find_event(whole, t1, y1);
+    if (events_ == EventHandling::library && n_cuts == 0) event = event_of_integrator(whole, y1);
     corrector_.correct({t0, t1, y0, *y1, whole.event_free}, correction);
     if (!(correction.valid_until < t1)) {
       const bool moves = event && !correction.is_empty();
@@ -85,6 +77,31 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
   }
   throw RunStopped(OutcomeKind::solver_failed,
                    "section events cut one step over and over, without an end");
+}
+
+std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, double& t1,
+                                                      const State*& y1) {
+  std::optional<EventFunction> event;
+  dealt_with_.clear();
+  while (auto crossing = find_crossing_in({whole.t0, t1, whole.y0, *y1, whole.event_free})) {
+    const StepEnds step{whole.t0, t1, whole.y0, *y1};
+    dealt_with_.push_back(crossing->function);
+    if (crossing->unresolved && !resolve(*crossing, step)) continue;
+    t1 = locate(*crossing, step);
+    std::swap(end_, trial_);
+    y1 = &end_;
+    event = crossing->function;
+  }
+  return event;
+}
+
+std::optional<EventFunction> EventLocator::event_of_integrator(const StepEnds& whole,
+                                                               const State*& y1) {
+  const auto root = integrator_.root();
+  if (!root || whole.t1 < integrator_.time()) return std::nullopt;
+  end_ = whole.y1;
+  y1 = &end_;
+  return EventFunction{event_kinds(beam_.contact().branch())[root->function]};
 }
 
 bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {
@@ -137,9 +154,8 @@ bool EventLocator::relocate(const EventFunction& function, const StepEnds& step,
     correction.add_to(trial_);
     return beam_.evaluate(function, trial_);
   };
-  trial_ = end_;
-  correction.add_to(trial_);
-  const EventValue here = beam_.evaluate(function, trial_);
+  // The method's own state: a root of the library lies on the library's dense output.
+  const EventValue here = value_at(step.t1);
   if (std::abs(here.value) <= rounding_of(function, beam_, trial_, step.t1, here)) return true;
   const double guess = step.t1 - here.value / here.rate;
   if (here.value > 0.0) {

@@ -5,6 +5,7 @@
 
 #include "ode/integrator.h"
 #include "ode/step_ends.h"
+#include "subimpact/simulate/options.h"
 #include "system/contact_events.h"
 #include "system/section_correction.h"
 
@@ -26,11 +27,20 @@ double rounding_of(const EventFunction& function, const StruckBeam& beam, const 
 /// step then ends there, and what remains is searched again, in case the estimates have the wrong
 /// order. If sections leave their smooth pieces before the event, it is located again on the
 /// corrected trajectory.
+///
+/// With EventHandling::library the event is the root at which the integrator has ended the step
+/// (Integrator::root). Sections are treated as above: an event whose step contains section events
+/// is moved to the corrected trajectory, one behind the end of the correction is left to later
+/// steps.
 class EventLocator {
  public:
   EventLocator(StruckBeam& beam, Integrator& integrator, SectionCorrector& corrector,
-               bool double_roots)
-      : beam_(beam), integrator_(integrator), corrector_(corrector), double_roots_(double_roots) {}
+               EventHandling events, bool double_roots)
+      : beam_(beam),
+        integrator_(integrator),
+        corrector_(corrector),
+        events_(events),
+        double_roots_(double_roots) {}
 
   /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, by moving the pointer to a
   /// state stored in this object until the next call. Returns the event at the end, if there is
@@ -39,6 +49,10 @@ class EventLocator {
                                         SectionCorrection& correction);
 
  private:
+  // The earliest event in a step, which is shortened to end there.
+  std::optional<EventFunction> find_event(const StepEnds& whole, double& t1, const State*& y1);
+  // The same, of a step that the integrator's own root-finding has shortened.
+  std::optional<EventFunction> event_of_integrator(const StepEnds& whole, const State*& y1);
   std::optional<Crossing> find_crossing_in(const StepEnds& step);
   // Whether the double root of a crossing exists; if so, narrows it to the first of the two.
   bool resolve(Crossing& crossing, const StepEnds& step);
@@ -52,6 +66,7 @@ class EventLocator {
   StruckBeam& beam_;
   Integrator& integrator_;
   SectionCorrector& corrector_;
+  EventHandling events_;
   bool double_roots_;
   std::vector<EventFunction> dealt_with_;  // in the step being searched
   State end_, trial_;

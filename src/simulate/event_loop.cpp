@@ -37,8 +37,8 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
       audit_(&audit),
       options_(options),
       corrector_(beam, options.correction_tolerance),
-      locator_(beam, integrator, corrector_, options.double_roots) {
-  const bool located = options.events == EventHandling::located;
+      locator_(beam, integrator, corrector_, options.events, options.double_roots) {
+  const bool located = options.events != EventHandling::interpolated;
   const bool corrects = located && std::isfinite(options.correction_tolerance);
   beam_.contact().set_evaluation(located ? Evaluation::smooth : Evaluation::switching);
   beam_.set_section_evaluation(corrects ? Evaluation::smooth : Evaluation::switching);
@@ -78,10 +78,10 @@ void EventLoop::advance() {
   check_step_end();
   const bool suspicious =
       audit_->is_suspicious(indentation_.t1, end, indentation_.lambda1, indentation_.rate1);
-  if (options_.events == EventHandling::located) {
-    locate_events();
-  } else {
+  if (options_.events == EventHandling::interpolated) {
     interpolate_events();
+  } else {
+    locate_events();
   }
   check_accepted(suspicious);
   observer_->on_accepted(time_, *state_, beam_);
@@ -213,7 +213,8 @@ void EventLoop::report(const EventFunction& function, double time, const State& 
 
 void EventLoop::check_root(const EventFunction& function, double time, const State& y) {
   const EventValue at = beam_.evaluate(function, y);
-  const double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
+  double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
+  if (const auto root = integrator_.root()) tolerated += std::abs(at.rate) * root->tolerance;
   if (!(std::abs(at.value) <= tolerated)) {
     audit_->fail(time, OutcomeKind::inaccurate,
                  fmt::format("{} was located at {:.6g} us, but its condition is missed there by "

@@ -28,7 +28,7 @@ struct MethodDescriptor {
   };
   Steps steps = Steps::adaptive;
   bool implicit = false;  ///< solves equations to the tolerance, whatever the step
-  bool sundials = false;  ///< by SUNDIALS, so that study.vector_operations has an effect
+  bool sundials = false;  ///< by SUNDIALS, with its root-finding and vector operations
 
   /// Whether an elastic beam is integrated in its natural modes.
   enum class Modes {

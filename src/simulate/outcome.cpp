@@ -7,6 +7,7 @@ namespace subimpact {
 namespace {
 
 std::string text_of(EventHandling events) {
+  if (events == EventHandling::library) return "library";
   return events == EventHandling::located ? "located" : "interpolated";
 }
 std::string text_of(ReversalHandling reversals) {

@@ -12,6 +12,7 @@
 #include "numerics/mass_solver.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
+#include "system/contact_event_functions.h"
 #include "system/contact_resonance.h"
 
 namespace subimpact {
@@ -79,9 +80,26 @@ std::optional<int> max_order_used(const Options& options) {
   return order;
 }
 
+std::vector<std::string> methods_of_sundials() {
+  std::vector<std::string> names;
+  for (const MethodDescriptor& method : methods()) {
+    if (method.sundials) names.emplace_back(method.name);
+  }
+  return names;
+}
+
 // Settings that the method cannot take.
 void check_method(const Options& options, const ResolvedSettings& used, bool can_yield) {
   const MethodDescriptor& method = descriptor_of(options.solver.method);
+  if (used.events == EventHandling::library && !method.sundials) {
+    throw InvalidCase(
+        "solver.events",
+        fmt::format("is \"library\", the root-finding of SUNDIALS, which {} does not "
+                    "have; allowed: {}; or use {}",
+                    method.name,
+                    method.needs_located_events ? "\"located\"" : "\"located\", \"interpolated\"",
+                    fmt::join(methods_of_sundials(), ", ")));
+  }
   if (method.needs_located_events && used.events != EventHandling::located) {
     throw InvalidCase("solver.events",
                       fmt::format("is \"interpolated\", but the steps of {} are too long for it; "
@@ -394,13 +412,17 @@ void RunParts::complete() {
 
 std::unique_ptr<Integrator> RunParts::make_integrator() {
   const bool library = given.study.vector_operations == VectorOperationsKind::library;
-  const IntegratorOptions options{
+  IntegratorOptions options{
       .relative_tolerance = given.solver.rtol,
       .fixed_step = settings.step,
       .max_step = given.solver.max_step,
       .table = settings.table.value_or(""),
       .max_order = settings.max_order.value_or(0),
       .vector_operations = library ? VectorOperations::library : VectorOperations::project};
+  if (settings.events == EventHandling::library) {
+    options.event_functions =
+        std::make_shared<ContactEventFunctions>(beam, given.study.pair_detection);
+  }
   return descriptor_of(given.solver.method).make(beam, options);
 }
 

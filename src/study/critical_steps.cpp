@@ -92,7 +92,8 @@ std::vector<Resonance> resonances(const std::string& method) {
 bool asked_for(const std::vector<std::string>& methods, const std::string& method) {
   if (methods.empty()) return true;
   return std::any_of(methods.begin(), methods.end(), [&](const std::string& asked) {
-    return asked == method || method.rfind(asked + ":", 0) == 0;
+    return asked == method || method.rfind(asked + ":", 0) == 0 ||
+           method.rfind(asked + "+", 0) == 0;
   });
 }
 

@@ -6,9 +6,9 @@
 
 namespace subimpact {
 
-/// The case with another method, named alone ("erk") or with a table ("erk:dormand-prince"), and
-/// without history rows. Table, order and fixed step of the case stay only where they were meant
-/// for this method. Throws InvalidCase for an unknown name.
+/// The case with another method, named as for parse_method_name, and without history rows. Table,
+/// order and fixed step of the case stay only where they were meant for this method, library events
+/// only where the method has them. Throws InvalidCase for an unknown name.
 Case with_method(const Case& input, const std::string& name);
 
 /// Whether resolve() takes the case.

@@ -77,12 +77,14 @@ std::vector<Trial> all_trials(const Case& input, const std::vector<std::string>&
   trials.add_steps("central-difference", "central-difference");
   trials.add_steps("central-difference, forced", "central-difference", true);
   for (const char* method :
-       {"nystrom:dprkn8", "nystrom:dprkn12", "erk:dormand-prince", "erk:dop853", "exponential",
-        "dirk:esdirk547", "dirk:ark324", "dirk:trbdf2", "imex:ark437"}) {
+       {"nystrom:dprkn8", "nystrom:dprkn12", "erk:dormand-prince", "erk:dop853",
+        "erk:dop853+library", "exponential", "dirk:esdirk547", "dirk:esdirk547+library",
+        "dirk:ark324", "dirk:trbdf2", "imex:ark437"}) {
     trials.add_steps(method, method);
   }
-  for (const char* method : {"nystrom:dprkn8", "erk:dormand-prince", "erk:dop853", "exponential",
-                             "dirk:esdirk547", "imex:ark437", "adams"}) {
+  for (const char* method :
+       {"nystrom:dprkn8", "erk:dormand-prince", "erk:dop853", "erk:dop853+library", "exponential",
+        "dirk:esdirk547", "imex:ark437", "adams", "adams+library"}) {
     trials.add_tolerances(method, method);
   }
   for (int order = 1; order <= 5; ++order) {

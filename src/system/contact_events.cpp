@@ -72,12 +72,7 @@ std::optional<Crossing> find_crossing(const ContactState& contact, const Indenta
     }
     if (found && !(earliest && earliest->guess <= found->guess)) earliest = found;
   };
-  if (contact.branch() == ContactBranch::separated) consider(EventKind::contact_begins);
-  if (contact.branch() == ContactBranch::plastic) consider(EventKind::contact_unloads);
-  if (contact.branch() == ContactBranch::elastic) {
-    consider(EventKind::contact_ends);
-    consider(EventKind::contact_yields);
-  }
+  for (const EventKind kind : event_kinds(contact.branch())) consider(kind);
   return earliest;
 }
 

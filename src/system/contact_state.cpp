@@ -4,6 +4,21 @@
 
 namespace subimpact {
 
+std::span<const EventKind> event_kinds(ContactBranch branch) {
+  static constexpr EventKind separated[] = {EventKind::contact_begins};
+  static constexpr EventKind elastic[] = {EventKind::contact_ends, EventKind::contact_yields};
+  static constexpr EventKind plastic[] = {EventKind::contact_unloads};
+  switch (branch) {
+    case ContactBranch::separated:
+      return separated;
+    case ContactBranch::elastic:
+      return elastic;
+    case ContactBranch::plastic:
+      return plastic;
+  }
+  return {};
+}
+
 double ContactState::force(double indentation) const {
   if (evaluation_ == Evaluation::switching) return law_->force(history_, indentation);
   return law_->branch_force(branch_, history_, indentation);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "numerics/trajectory_root.h"
@@ -21,6 +22,9 @@ struct EventFunction {
   EventKind kind;
   double sense = 1.0;  ///< sign of the indentation rate before contact_unloads
 };
+
+/// The events that end a branch.
+std::span<const EventKind> event_kinds(ContactBranch branch);
 
 /// The contact between striker and beam in one run: the law, the branch in force and the history.
 /// Force and event functions depend on the indentation lambda (m) and its rate (m/s) alone.

@@ -115,15 +115,15 @@ void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
   jacobian().stiffness_entries(moments_, slope, values);
 }
 
-double StruckBeam::indentation(const State& y) const {
+double StruckBeam::indentation(std::span<const double> y) const {
   return y[n_] - mesh_->struck_point()(beam_positions(y));
 }
 
-double StruckBeam::indentation_rate(const State& y) const {
+double StruckBeam::indentation_rate(std::span<const double> y) const {
   return y.back() - mesh_->struck_point()(beam_velocities(y));
 }
 
-double StruckBeam::displacement_rounding(const State& y) const {
+double StruckBeam::displacement_rounding(std::span<const double> y) const {
   const double size = std::abs(y[n_]) + std::abs(mesh_->struck_point()(beam_positions(y)));
   return 8.0 * std::numeric_limits<double>::epsilon() * size;
 }

@@ -70,13 +70,15 @@ class StruckBeam final : public MechanicalSystem {
 
   /// At t = 0: beam at rest, nose just touching.
   State initial_state() const;
-  std::span<const double> beam_positions(const State& y) const { return {y.data(), n_}; }
-  std::span<const double> beam_velocities(const State& y) const { return {y.data() + n_ + 1, n_}; }
-  double indentation(const State& y) const;       ///< lambda, m
-  double indentation_rate(const State& y) const;  ///< m/s
+  std::span<const double> beam_positions(std::span<const double> y) const { return y.first(n_); }
+  std::span<const double> beam_velocities(std::span<const double> y) const {
+    return y.subspan(n_ + 1, n_);
+  }
+  double indentation(std::span<const double> y) const;       ///< lambda, m
+  double indentation_rate(std::span<const double> y) const;  ///< m/s
   double contact_force(const State& y) const { return contact_.force(indentation(y)); }
   /// Rounding of the indentation at y, m.
-  double displacement_rounding(const State& y) const;
+  double displacement_rounding(std::span<const double> y) const;
   /// Curvatures and their rates at y.
   void read_motion(const State& y, SectionMotion& motion) const;
 

@@ -71,6 +71,19 @@ TEST_P(AMethod, FindsTheFirstFourSubImpacts) {
   EXPECT_GE(result.work.right_hand_sides, result.work.nonlinear_iterations);
 }
 
+TEST_P(AMethod, FindsThemByItsOwnRootFinding) {
+  const Setting& setting = GetParam();
+  Case input = setting.on(SectionKind::elastic, 0.35e-3);
+  input.solver.events = EventHandling::library;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_EQ(result.sub_impacts.size(), 4u);
+  const double worst = worst_of_first_four(result, "seed_elastic");
+  std::printf("%s: largest time difference %.2e us with events of the library\n", setting.name,
+              worst);
+  EXPECT_LT(worst, setting.bound_us);
+}
+
 TEST_P(AMethod, GoesThroughAYieldingBeam) {
   const Setting& setting = GetParam();
   const Result result = simulate(setting.on(SectionKind::exact, 0.3e-3));
@@ -121,6 +134,19 @@ TEST(Refused, AFixedStepOfAMultistepMethod) {
     const InvalidCase refusal = refusal_of(input);
     EXPECT_EQ(refusal.key, "solver.step");
     EXPECT_NE(std::string(refusal.what()).find("max_step"), std::string::npos);
+  }
+}
+
+TEST(Refused, LibraryEventsOfAMethodThatIsNotOfSundials) {
+  for (const Method method : {Method::nystrom, Method::exponential, Method::central_difference}) {
+    Case input = paper_case(SectionKind::elastic, 1e-3);
+    input.solver.method = method;
+    input.solver.events = EventHandling::library;
+    const InvalidCase refusal = refusal_of(input);
+    EXPECT_EQ(refusal.key, "solver.events");
+    const std::string message = refusal.what();
+    EXPECT_NE(message.find("allowed: \"located\""), std::string::npos) << message;
+    EXPECT_NE(message.find("erk, dirk, imex, adams, bdf"), std::string::npos) << message;
   }
 }
 

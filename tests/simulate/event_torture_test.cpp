@@ -27,6 +27,9 @@ class Random {
 
 const std::vector<std::string> tables = {"dormand-prince", "dop853", "bogacki-shampine", "dprkn8",
                                          "exponential"};
+const std::vector<std::string> library_methods = {
+    "dormand-prince", "dop853", "bogacki-shampine", "dirk:esdirk547", "imex:ark437",
+    "adams",          "bdf"};
 
 // Restitution of an elasto-plastic impact that reaches x = lambda_m/lambda_s, from its energies.
 double restitution_at(double x) {
@@ -34,8 +37,8 @@ double restitution_at(double x) {
                    std::pow(x - 1.0, 1.5) / (0.4 * (std::pow(x, 2.5) - std::pow(x - 1.0, 2.5))));
 }
 
-TEST(TwoRigidBodies, MeetOnceWhateverTheirSizesAndTheMethod) {
-  constexpr int n_scenarios = 40000;
+void expect_one_impact(int n_scenarios, const std::vector<std::string>& methods,
+                       EventHandling events) {
   Random random(1);
   int wrong = 0;
   double worst_restitution = 0.0;
@@ -49,7 +52,7 @@ TEST(TwoRigidBodies, MeetOnceWhateverTheirSizesAndTheMethod) {
     const double elastic = bodies.largest_indentation();
     const bool yields = k % 2 == 0;
     if (yields) bodies.yield_indentation = elastic * random.between(0.02, 0.9);
-    const Way way{random.one_of(tables), random.decades(-9, -5), {}, EventHandling::located};
+    const Way way{random.one_of(methods), random.decades(-9, -5), {}, events};
     StruckBeam beam = bodies.make(way.in_modes());
     const Result result = run_two_bodies(beam, way, 6.0 * bodies.duration());
     const std::size_t expected = yields ? 4 : 2;
@@ -87,6 +90,14 @@ TEST(TwoRigidBodies, MeetOnceWhateverTheirSizesAndTheMethod) {
   EXPECT_LT(worst_duration, 2e-3);
 }
 
+TEST(TwoRigidBodies, MeetOnceWhateverTheirSizesAndTheMethod) {
+  expect_one_impact(40000, tables, EventHandling::located);
+}
+
+TEST(TwoRigidBodies, MeetOnceWithEventsOfTheLibrary) {
+  expect_one_impact(5000, library_methods, EventHandling::library);
+}
+
 // A target that swings, w = A sin(omega t + phase), and a striker that drifts towards it, so that
 // the gap's first maximum at `time` exceeds zero for `duration` (negative: misses by as much).
 struct Graze {
@@ -102,8 +113,10 @@ struct Graze {
   }
 };
 
-TEST(AGraze, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
-  constexpr int n_scenarios = 60000;
+// Grazes from `shortest` (s) or `shortest_angle` (rad of the swing), the longer of the two, to a
+// hundredth of a period.
+void expect_grazes_found(int n_scenarios, const std::vector<std::string>& methods,
+                         EventHandling events, double shortest, double shortest_angle) {
   Random random(2);
   int missed = 0;
   int invented = 0;
@@ -116,18 +129,15 @@ TEST(AGraze, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
     graze.drift = graze.amplitude * graze.omega * random.between(0.02, 0.5);
     graze.time = random.between(0.3, 0.9) * 6.283 / graze.omega;
     const bool touches = k % 2 == 0;
-    // From a nanosecond to a hundredth of a period.
+    const double least = std::max(shortest, shortest_angle / graze.omega);
     graze.duration = (touches ? 1.0 : -1.0) *
-                     std::exp(random.between(std::log(1e-9), std::log(0.06 / graze.omega)));
+                     std::exp(random.between(std::log(least), std::log(0.06 / graze.omega)));
     TwoBodies bodies;
     bodies.target_mass = 1.0;
     bodies.spring = graze.omega * graze.omega;
     bodies.contact_stiffness = 1e3;  // too soft for the touch to change the motion
     bodies.velocity = graze.drift;
-    const Way way{random.one_of<std::string>({"dop853", "dprkn8", "dprkn12", "exponential"}),
-                  1e-12,
-                  {},
-                  EventHandling::located};
+    const Way way{random.one_of(methods), 1e-12, {}, events};
     StruckBeam beam = bodies.make(way.in_modes());
     beam.contact().set(ContactBranch::separated, {});
     const Result result = run_two_bodies(beam, way, graze.time + 1.2 / graze.omega, graze.state());
@@ -148,6 +158,18 @@ TEST(AGraze, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
   EXPECT_EQ(missed, 0);
   EXPECT_EQ(invented, 0);
   EXPECT_EQ(out_of_order, 0);
+}
+
+TEST(AGraze, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
+  expect_grazes_found(60000, {"dop853", "dprkn8", "dprkn12", "exponential"}, EventHandling::located,
+                      1e-9, 0.0);
+}
+
+// The dense output is less accurate than the method, and a graze is as deep as the square of its
+// duration.
+TEST(AGraze, OfAThousandthOfARadianOrMoreIsFoundByTheLibrary) {
+  expect_grazes_found(5000, {"dop853", "dormand-prince", "adams", "bdf"}, EventHandling::library,
+                      0.0, 1e-3);
 }
 
 // The same two bodies by a program of its own: classical Runge-Kutta with steps far below any time

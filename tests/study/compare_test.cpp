@@ -9,9 +9,10 @@ namespace {
 
 TEST(ComparedMethods, AllFindTheSameSubImpactsOfAnElasticBeam) {
   const Comparison comparison =
-      compare(elastic_case(0.6e-3), {"central-difference", "erk", "erk:dormand-prince", "nystrom",
-                                     "exponential", "adams", "bdf"});
-  ASSERT_EQ(comparison.runs.size(), 7u);
+      compare(elastic_case(0.6e-3),
+              {"central-difference", "erk", "erk:dormand-prince", "erk:dormand-prince+library",
+               "erk+library", "nystrom", "exponential", "adams", "bdf", "bdf+library"});
+  ASSERT_EQ(comparison.runs.size(), 10u);
   EXPECT_EQ(comparison.reference.sub_impacts.size(), 8u);
   for (const ComparedRun& run : comparison.runs) {
     EXPECT_EQ(run.n_corresponding, 8u) << run.name << ": " << run.remark;
@@ -32,6 +33,23 @@ TEST(AMethodThatMissesASubImpact, IsToldFromWhereOn) {
   EXPECT_LT(run.n_corresponding, 26u);
   EXPECT_NE(run.remark.find("instead of 26"), std::string::npos) << run.remark;
   EXPECT_NE(run.remark.find(" us"), std::string::npos) << run.remark;
+}
+
+TEST(ATreatmentOfEvents, IsNamedAfterAPlusSign) {
+  Case input = elastic_case(1e-5);
+  input.solver.events = EventHandling::library;
+  const Comparison comparison = compare(input, {"erk", "erk:verner+interpolated", "adams+located",
+                                                "nystrom", "nystrom+interpolated"});
+  const auto used = [&](std::size_t i) { return comparison.runs[i].result.used.events; };
+  EXPECT_EQ(used(0), EventHandling::library);
+  EXPECT_EQ(used(1), EventHandling::interpolated);
+  EXPECT_EQ(comparison.runs[1].result.used.table, "verner");
+  EXPECT_EQ(used(2), EventHandling::located);
+  EXPECT_EQ(used(3), EventHandling::located);  // it has no root-finding
+  EXPECT_EQ(used(4), EventHandling::interpolated);
+  EXPECT_EQ(comparison.reference.used.events, EventHandling::located);
+  EXPECT_THROW(compare(input, {"nystrom+library"}), InvalidCase);
+  EXPECT_THROW(compare(input, {"erk+librari"}), InvalidCase);
 }
 
 TEST(AnUnknownMethodOrTable, IsRefusedBeforeAnythingRuns) {

@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "integrate/arkode_ark.h"
 #include "integrate/arkode_erk.h"
 #include "integrate/central_difference.h"
+#include "integrate/cvode.h"
 #include "integrate/exponential.h"
 #include "integrate/nystrom.h"
 #include "lumped_mesh.h"
@@ -15,6 +17,7 @@
 #include "simulate/event_loop.h"
 #include "simulate/recorder.h"
 #include "struck_beam_of.h"
+#include "system/contact_event_functions.h"
 #include "system/modal_beam.h"
 
 namespace subimpact {
@@ -52,7 +55,8 @@ struct TwoBodies {
 
 /// How a two-body problem is integrated.
 struct Way {
-  std::string table = "dop853";  ///< of erk or nystrom, or "exponential", "central-difference"
+  /// Of erk or nystrom, "dirk:" or "imex:" and a table, or a method without tables.
+  std::string table = "dop853";
   double rtol = 1e-10;
   std::optional<double> fixed_step;
   EventHandling events = EventHandling::located;
@@ -71,9 +75,19 @@ struct Way {
       return std::make_unique<Nystrom>(beam, IntegratorOptions{rtol, fixed_step, {}, table});
     }
     IntegratorOptions options;
-    options.table = table;
     options.relative_tolerance = rtol;
     options.fixed_step = fixed_step;
+    if (events == EventHandling::library) {
+      options.event_functions = std::make_shared<ContactEventFunctions>(beam, true);
+    }
+    if (table == "adams" || table == "bdf") {
+      options.max_order = table == "bdf" ? bdf_order_limit : adams_order_limit;
+      return table == "bdf" ? make_cvode_bdf(beam, options) : make_cvode_adams(beam, options);
+    }
+    const std::size_t colon = table.find(':');
+    options.table = table.substr(colon == std::string::npos ? 0 : colon + 1);
+    if (table.rfind("dirk:", 0) == 0) return make_arkode_dirk(beam, options);
+    if (table.rfind("imex:", 0) == 0) return make_arkode_imex(beam, options);
     return make_arkode_erk(beam, options);
   }
 };

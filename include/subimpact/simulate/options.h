@@ -13,9 +13,11 @@ namespace subimpact {
 
 /// Treatment of an event inside a step.
 enum class EventHandling {
-  located,      ///< the step is retaken to end at the event, found on the trajectory itself
-  interpolated  ///< the step stands; the event's time is interpolated within it (the paper's
-                ///< scheme)
+  located,       ///< the step is retaken to end at the event, found on the trajectory itself
+  interpolated,  ///< the step stands; the event's time is interpolated within it (the paper's
+                 ///< scheme)
+  library        ///< contact events by the root-finding of SUNDIALS on its own dense output;
+                 ///< sections as with `located`
 };
 
 enum class ReversalHandling {

@@ -1,11 +1,20 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "subimpact/case/case.h"
 
 namespace subimpact {
+
+/// What "erk:dop853+library" names: a method, a table of coefficients after a colon, and a
+/// treatment of events (solver.events) after a plus sign. The last two may be left out.
+struct MethodName {
+  std::string method;
+  std::optional<std::string> table, events;
+};
+MethodName parse_method_name(const std::string& name);
 
 /// One setting of one method.
 struct Setting {

@@ -31,11 +31,18 @@ constexpr double largest_change_of_gamma = 1e-12;
 
 using Part = MechanicalSystem::Part;
 
+constexpr int dense_output_degree = 4;
+
+constexpr RootCalls root_calls = {ARK_ROOT_RETURN,         ARKStepRootInit,
+                                  ARKStepSetRootDirection, ARKStepSetNoInactiveRootWarn,
+                                  ARKStepGetRootInfo,      ARKStepGetCurrentTime,
+                                  ARKStepGetLastStep};
+
 class ArkSolver : private SolverFrame {
  public:
   ArkSolver(MechanicalSystem& system, const IntegratorOptions& options, SUNContext context,
             Part implicit_part)
-      : SolverFrame(system, options.relative_tolerance, context),
+      : SolverFrame(system, options, root_calls, context),
         system_(system),
         implicit_part_(implicit_part),
         y_(make_vector(2 * n_positions_, context, options.vector_operations)),
@@ -63,8 +70,15 @@ class ArkSolver : private SolverFrame {
     check(ARKStepSetLinearSolver(memory, matrices_.newton_solver(), matrices_.newton_matrix()),
           "ARKStepSetLinearSolver");
     check(ARKStepSetLinSysFn(memory, newton_matrix), "ARKStepSetLinSysFn");
-    // Dense output is not used, and Lagrange interpolation costs no evaluation.
-    check(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
+    if (roots_.is_on()) {
+      // Lagrange interpolation would begin again at a low degree after every restart.
+      check(ARKStepSetInterpolantType(memory, ARK_INTERP_HERMITE), "ARKStepSetInterpolantType");
+      check(ARKStepSetInterpolantDegree(memory, dense_output_degree),
+            "ARKStepSetInterpolantDegree");
+    } else {
+      // Dense output is not used, and Lagrange interpolation costs no evaluation.
+      check(ARKStepSetInterpolantType(memory, ARK_INTERP_LAGRANGE), "ARKStepSetInterpolantType");
+    }
     check(ARKStepSetMaxNumSteps(memory, -1), "ARKStepSetMaxNumSteps");
     check(ARKStepSetLSetupFrequency(memory, steps_per_matrix), "ARKStepSetLSetupFrequency");
     check(ARKStepSetJacEvalFrequency(memory, steps_per_matrix), "ARKStepSetJacEvalFrequency");
@@ -84,19 +98,24 @@ class ArkSolver : private SolverFrame {
   void reset(double t, const State& y) {
     std::copy(y.begin(), y.end(), entries(y_.get()).begin());
     check(ARKStepReset(memory_.get(), t, y_.get()), "ARKStepReset");
+    check(roots_.restart(memory_.get(), event_values, y), "ARKStepRootInit");
     time_ = t;
   }
 
   /// One step; returns the time reached.
   double step(State& y) {
     double reached = time_;
-    check(ARKStepEvolve(memory_.get(), time_ahead(time_), y_.get(), &reached, ARK_ONE_STEP),
-          "ARKStepEvolve");
+    const auto evolve = [&] {
+      return ARKStepEvolve(memory_.get(), time_ahead(time_), y_.get(), &reached, ARK_ONE_STEP);
+    };
+    check(roots_.step(memory_.get(), reached, entries(y_.get()), evolve), "ARKStepEvolve");
     const auto values = entries(y_.get());
     std::copy(values.begin(), values.end(), y.begin());
     time_ = reached;
-    return reached;
+    roots_.drain(memory_.get(), reached, evolve);
+    return time_;
   }
+  const std::optional<Integrator::Root>& root() const { return roots_.root(); }
 
   void add_counts(WorkCounts& counts) const {
     long rejected = 0, mass_solves = 0, iterations = 0, failures = 0;

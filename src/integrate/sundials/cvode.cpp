@@ -15,6 +15,10 @@
 namespace subimpact {
 namespace {
 
+constexpr RootCalls root_calls = {
+    CV_ROOT_RETURN,   CVodeRootInit,       CVodeSetRootDirection, CVodeSetNoInactiveRootWarn,
+    CVodeGetRootInfo, CVodeGetCurrentTime, CVodeGetLastStep};
+
 // What CVODE's two families share; each attaches its own nonlinear solver after construction.
 class CvodeIntegrator : public Integrator, protected SolverFrame {
  public:
@@ -25,13 +29,17 @@ class CvodeIntegrator : public Integrator, protected SolverFrame {
     before_restart_.nonlinear_failures += so_far.nonlinear_failures;
     std::copy(y.begin(), y.end(), entries(y_.get()).begin());
     check(CVodeReInit(memory(), t, y_.get()), "CVodeReInit");
+    check(roots_.restart(memory(), event_values, y), "CVodeRootInit");
     stand_at(t, y);
     time_ = t;
   }
 
   void step() override {
     double reached = t1_;
-    check(CVode(memory(), time_ahead(t1_), y_.get(), &reached, CV_ONE_STEP), "CVode");
+    const auto evolve = [&] {
+      return CVode(memory(), time_ahead(t1_), y_.get(), &reached, CV_ONE_STEP);
+    };
+    check(roots_.step(memory(), reached, entries(y_.get()), evolve), "CVode");
     std::swap(y0_, y1_);
     t0_ = t1_;
     time_ = t1_ = reached;
@@ -39,6 +47,8 @@ class CvodeIntegrator : public Integrator, protected SolverFrame {
     std::copy(values.begin(), values.end(), y1_.begin());
     ++steps_;
   }
+
+  std::optional<Root> root() const override { return roots_.root(); }
 
   void state_at(double t, State& y) override {
     check(CVodeGetDky(memory(), t, 0, y_.get()), "CVodeGetDky");
@@ -77,7 +87,7 @@ class CvodeIntegrator : public Integrator, protected SolverFrame {
 
   CvodeIntegrator(SecondOrderOde& ode, int family, const IntegratorOptions& options,
                   ContextPointer context)
-      : SolverFrame(ode, options.relative_tolerance, context.get()),
+      : SolverFrame(ode, options, root_calls, context.get()),
         context_(std::move(context)),
         y_(make_vector(2 * n_positions_, context_.get(), options.vector_operations)),
         memory_(CVodeCreate(family, context_.get())) {

@@ -36,7 +36,8 @@ class OneStepIntegrator final : public Integrator {
     try {
       t1_ = main_.step(y1_);
       // The library goes on even where a step no longer moves the time; the bound is nystrom's.
-      if (!(t1_ - t0_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_))) {
+      if (!main_.root() &&
+          !(t1_ - t0_ > 16.0 * std::numeric_limits<double>::epsilon() * std::abs(t0_))) {
         throw IntegrationFailure(t0_, "ARKODE", "step size too small",
                                  "the step has shrunk to the rounding of the time");
       }
@@ -59,6 +60,8 @@ class OneStepIntegrator final : public Integrator {
     ++partial_steps_;
   }
 
+  std::optional<Root> root() const override { return main_.root(); }
+
   WorkCounts work() const override {
     WorkCounts counts;
     main_.add_counts(counts);
@@ -72,6 +75,7 @@ class OneStepIntegrator final : public Integrator {
   static IntegratorOptions as_partial(IntegratorOptions options) {
     options.fixed_step = options.fixed_step.value_or(1.0);  // set anew before every use
     options.max_step.reset();
+    options.event_functions.reset();
     return options;
   }
 

@@ -18,12 +18,13 @@ void keep_context_message(int, const char*, const char*, const char* text, SUNEr
 
 }  // namespace
 
-SolverFrame::SolverFrame(SecondOrderOde& ode, double relative_tolerance,
-                         [[maybe_unused]] SUNContext context)
+SolverFrame::SolverFrame(SecondOrderOde& ode, const IntegratorOptions& options,
+                         const RootCalls& calls, [[maybe_unused]] SUNContext context)
     : ode_(ode),
       n_positions_(ode.n_positions()),
-      position_weight_(1.0 / (relative_tolerance * ode.scales().position)),
-      velocity_weight_(1.0 / (relative_tolerance * ode.scales().velocity)) {
+      roots_(options.event_functions, calls),
+      position_weight_(1.0 / (options.relative_tolerance * ode.scales().position)),
+      velocity_weight_(1.0 / (options.relative_tolerance * ode.scales().velocity)) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   SUNContext_PushErrHandler(context, keep_context_message, &message_);
 #endif
@@ -49,6 +50,11 @@ int SolverFrame::error_weights(N_Vector, N_Vector weights, void* frame) {
   std::fill(out.begin(), middle, self.position_weight_);
   std::fill(middle, out.end(), self.velocity_weight_);
   return 0;
+}
+
+int SolverFrame::event_values(sunrealtype, N_Vector y, sunrealtype* values, void* frame) {
+  SolverFrame& self = of(frame);
+  return self.guarded([&] { self.roots_.evaluate(entries(y), values); });
 }
 
 #if SUNDIALS_VERSION_MAJOR < 7

@@ -8,6 +8,8 @@
 #include <exception>
 #include <string>
 
+#include "integrate/options.h"
+#include "integrate/sundials/root_finder.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
@@ -19,7 +21,8 @@ namespace subimpact {
 /// messages are kept for the failure that follows them.
 class SolverFrame {
  public:
-  SolverFrame(SecondOrderOde& ode, double relative_tolerance, SUNContext context);
+  SolverFrame(SecondOrderOde& ode, const IntegratorOptions& options, const RootCalls& calls,
+              SUNContext context);
   SolverFrame(const SolverFrame&) = delete;
   SolverFrame& operator=(const SolverFrame&) = delete;
 
@@ -28,6 +31,8 @@ class SolverFrame {
   /// Error weights 1/(rtol * scale) of positions and velocities: evaluated at every step, but
   /// constant.
   static int error_weights(N_Vector y, N_Vector weights, void* frame);
+  /// The functions whose roots the library finds.
+  static int event_values(sunrealtype t, N_Vector y, sunrealtype* values, void* frame);
 
 #if SUNDIALS_VERSION_MAJOR < 7
   static void keep_message(int code, const char* module, const char* function, char* message,
@@ -59,6 +64,7 @@ class SolverFrame {
   std::size_t n_positions_;
   double time_ = 0.0;  // s, up to which the solution is good
   long right_hand_sides_ = 0;
+  RootFinder roots_;
 
  private:
   double position_weight_, velocity_weight_;
