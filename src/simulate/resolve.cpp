@@ -381,6 +381,7 @@ std::unique_ptr<Integrator> RunParts::make_integrator() {
       .max_step = given.solver.max_step,
       .table = settings.table.value_or(""),
       .max_order = settings.max_order.value_or(0),
+      .constant_force_on_last = given.study.striker_update == StrikerUpdate::constant_force,
       .vector_operations = library ? VectorOperations::library : VectorOperations::project};
   return descriptor_of(given.solver.method).make(beam, options);
 }
