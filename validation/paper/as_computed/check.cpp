@@ -85,8 +85,8 @@ double layer_yield(int n) {
 
 std::string table_of_updates() {
   std::string text =
-      "The scheme: central differences at the paper's step with three updates of the striker's "
-      "share, and the accurate solution.\n\n" +
+      "The scheme: central differences with two updates of the striker, and the accurate "
+      "solution.\n\n" +
       runs_head();
   const auto add = [&](const std::string& name, const Settings& settings) {
     text += runs_row(name, run(settings));
