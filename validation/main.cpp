@@ -20,6 +20,7 @@ struct Named {
 };
 
 const Named cases[] = {{"paper", check_paper},
+                       {"paper/as_computed", check_paper_as_computed},
                        {"timoshenko", check_timoshenko},
                        {"rigid_bodies", check_rigid_bodies},
                        {"long_beam", check_long_beam},

@@ -48,6 +48,16 @@ std::span<const Named<MeshKind>> names_of(MeshKind) {
   return names;
 }
 
+std::span<const Named<CellSpacing>> names_of(CellSpacing) {
+  static constexpr Named<CellSpacing> names[] = {
+      {CellSpacing::cells, "cells", "length/segments: the cells fill the beam"},
+      {CellSpacing::points, "points",
+       "length/(segments - 1): a whole cell at each end, half of it beyond; as the paper's authors "
+       "computed, free ends only"},
+  };
+  return names;
+}
+
 std::span<const Named<SectionKind>> names_of(SectionKind) {
   static const auto names = names_in<SectionKind>(sections());
   return names;
@@ -114,6 +124,15 @@ std::span<const Named<VectorOperationsKind>> names_of(VectorOperationsKind) {
   static constexpr Named<VectorOperationsKind> names[] = {
       {VectorOperationsKind::project, "project", "SUNDIALS on this project's vector operations"},
       {VectorOperationsKind::library, "library", "SUNDIALS on its own serial vector"},
+  };
+  return names;
+}
+
+std::span<const Named<StrikerUpdate>> names_of(StrikerUpdate) {
+  static constexpr Named<StrikerUpdate> names[] = {
+      {StrikerUpdate::central, "central", "by central differences, as the beam: second order"},
+      {StrikerUpdate::constant_force, "constant-force",
+       "by the force at the start of the step: first order; probably the paper's"},
   };
   return names;
 }

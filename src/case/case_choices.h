@@ -21,6 +21,7 @@ std::span<const Named<BeamTheory>> names_of(BeamTheory);
 std::span<const Named<EndSupport>> names_of(EndSupport);
 std::span<const Named<ContactKind>> names_of(ContactKind);
 std::span<const Named<MeshKind>> names_of(MeshKind);
+std::span<const Named<CellSpacing>> names_of(CellSpacing);
 std::span<const Named<SectionKind>> names_of(SectionKind);
 std::span<const Named<SymmetryUse>> names_of(SymmetryUse);
 std::span<const Named<HingeUse>> names_of(HingeUse);
@@ -30,6 +31,7 @@ std::span<const Named<MassSolverKind>> names_of(MassSolverKind);
 std::span<const Named<EventHandling>> names_of(EventHandling);
 std::span<const Named<ReversalHandling>> names_of(ReversalHandling);
 std::span<const Named<VectorOperationsKind>> names_of(VectorOperationsKind);
+std::span<const Named<StrikerUpdate>> names_of(StrikerUpdate);
 
 template <class Enum>
 const char* name_of(Enum value) {

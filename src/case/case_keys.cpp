@@ -242,6 +242,7 @@ std::vector<CaseKey> make_case_keys() {
 
     row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\", or \"hermite\" if model.elements is given", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
+    row("model.spacing", "", any_value, "length of the cells, with mesh = \"cells\"", as_in_case, AT(model.spacing)),
     row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
     row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points per element, where the bending law is evaluated", as_in_case, AT(model.sections_per_element)),
     row("model.hinges", "", any_value, "sections of elements where the slope may jump", as_in_case, AT(model.hinges)),
@@ -276,6 +277,7 @@ std::vector<CaseKey> make_case_keys() {
     row("study.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(study.mass_solver)),
     row("study.pair_detection", "", any_value, "search for contacts that open and close within one step", as_in_case, AT(study.pair_detection)),
     row("study.beyond_critical", "", any_value, "allows a fixed step above the stability limit, to study how runs fail there", as_in_case, AT(study.beyond_critical)),
+    row("study.striker_update", "", any_value, "how central differences advance the striker over a step", as_in_case, AT(study.striker_update)),
   };
 }
 // clang-format on

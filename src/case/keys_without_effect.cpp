@@ -85,6 +85,7 @@ constexpr IdleKey idle_keys[] = {
     {"study.pair_detection", "solver.events", interpolates_events},
     {"study.vector_operations", "solver.method", is_not_sundials},
     {"study.beyond_critical", "solver.method", is_not_central},
+    {"study.striker_update", "solver.method", is_not_central},
 };
 
 bool is_given(const GivenKeys& given, const std::string& name) {

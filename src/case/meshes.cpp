@@ -21,7 +21,21 @@ ElementGrading grading_of(const Case& input) {
   return {input.model.strike_refinement, input.model.refined_length * input.scene.beam.length};
 }
 
+CellMesh::Spacing spacing_of(const Case& input) {
+  return input.model.spacing == CellSpacing::points ? CellMesh::Spacing::points
+                                                    : CellMesh::Spacing::cells;
+}
+
+void check_points(const Case& input) {
+  if (input.scene.beam.is_free()) return;
+  throw InvalidCase(
+      "model.spacing",
+      "is \"points\", which is for free ends; allowed with supports: \"cells\"; leave "
+      "it out, or set beam.ends = [\"free\", \"free\"]");
+}
+
 void check_cells(const Case& input) {
+  if (input.model.spacing == CellSpacing::points) return check_points(input);
   const double cells = input.model.segments;
   const double at = input.scene.striker.position;
   if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
@@ -76,6 +90,13 @@ void check_elements(const Case& input) {
                   at, input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements));
 }
 
+void check_has_no_points(const Case& input) {
+  if (input.model.spacing == CellSpacing::cells) return;
+  throw InvalidCase("model.spacing",
+                    "is \"points\", but only cells have a spacing; allowed with this mesh: "
+                    "\"cells\"; leave it out, or set model.mesh = \"cells\"");
+}
+
 void check_is_not_graded(const Case& input) {
   if (input.model.strike_refinement == 1.0) return;
   throw InvalidCase("model.strike_refinement",
@@ -110,9 +131,9 @@ bool uses_half(const Case& input, const char* key, int count, bool odd, const ch
 Mesh make_cell_mesh(const Case& input) {
   const int segments = input.model.segments;
   const bool half = uses_half(input, "model.segments", segments, true, "cell");
-  return std::make_shared<CellMesh>(input.scene.beam, input.scene.striker.position,
-                                    static_cast<std::size_t>(segments),
-                                    half ? CellMesh::Extent::half : CellMesh::Extent::whole);
+  return std::make_shared<CellMesh>(
+      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(segments),
+      half ? CellMesh::Extent::half : CellMesh::Extent::whole, spacing_of(input));
 }
 
 Mesh make_hermite_mesh(const Case& input) {
@@ -126,14 +147,23 @@ Mesh make_hermite_mesh(const Case& input) {
                            input.model.hinges == HingeUse::automatic && may_yield(input)});
 }
 
-int order_of_cells(const Case&) { return 2; }
+double size_of_cells(const Case& input) {
+  return CellMesh::spacing_of(input.scene.beam, static_cast<std::size_t>(input.model.segments),
+                              spacing_of(input));
+}
+
+double size_of_elements(const Case& input) {
+  return input.scene.beam.length / input.model.elements;
+}
+
+int order_of_cells(const Case& input) { return input.model.spacing == CellSpacing::points ? 1 : 2; }
 
 int order_of_elements(const Case& input) {
   if (!may_yield(input)) return 4;
   return input.model.hinges == HingeUse::off ? 1 : 2;
 }
 
-constexpr const char* keys_of_cells[] = {"model.segments", "model.symmetry"};
+constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "model.symmetry"};
 constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
                                             "model.hinges",         "model.strike_refinement",
                                             "model.refined_length", "model.symmetry"};
@@ -141,7 +171,7 @@ constexpr const char* keys_of_elements[] = {"model.elements",       "model.secti
 constexpr MeshDescriptor rows[] = {
     {.kind = MeshKind::cells,
      .name = "cells",
-     .note = "the paper's equal cells, second order",
+     .note = "equal cells, second order",
      .keys = keys_of_cells,
      .check =
          [](const Case& input) {
@@ -150,21 +180,31 @@ constexpr MeshDescriptor rows[] = {
          },
      .make = make_cell_mesh,
      .refinement = {{&ModelOptions::segments, "model.segments", "cells",
-                     static_cast<int>(CellMesh::fewest_cells_if_clamped), true, order_of_cells}}},
+                     static_cast<int>(CellMesh::fewest_cells_if_clamped), true, size_of_cells,
+                     order_of_cells}}},
     {.kind = MeshKind::hermite,
      .name = "hermite",
      .note = "cubic Hermite elements, fourth order",
      .keys = keys_of_elements,
-     .check = check_elements,
+     .check =
+         [](const Case& input) {
+           check_has_no_points(input);
+           check_elements(input);
+         },
      .make = make_hermite_mesh,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
-                     static_cast<int>(HermiteMesh::fewest_elements), false, order_of_elements}}},
+                     static_cast<int>(HermiteMesh::fewest_elements), false, size_of_elements,
+                     order_of_elements}}},
     {.kind = MeshKind::rigid,
      .name = "rigid",
      .note = "the beam as a rigid body, for impacts of two bodies",
      .keys = {},
      .bends = false,
-     .check = check_is_not_graded,
+     .check =
+         [](const Case& input) {
+           check_is_not_graded(input);
+           check_has_no_points(input);
+         },
      .make = make_rigid_mesh},
 };
 

@@ -4,8 +4,14 @@
 
 namespace subimpact {
 
-CentralDifference::CentralDifference(SecondOrderOde& ode, double step)
-    : ode_(ode), n_(ode.n_positions()), step_(step), a0_(n_), a1_(n_), a_partial_(n_) {}
+CentralDifference::CentralDifference(SecondOrderOde& ode, double step, LastPosition last_position)
+    : ode_(ode),
+      n_(ode.n_positions()),
+      step_(step),
+      last_position_(last_position),
+      a0_(n_),
+      a1_(n_),
+      a_partial_(n_) {}
 
 void CentralDifference::restart(double t, const State& y) {
   stand_at(t, y);
@@ -29,6 +35,7 @@ void CentralDifference::advance(double h, const State& from, const std::vector<d
     v[i] = v0[i] + half * a0[i];
     q[i] = q0[i] + h * v[i];
   }
+  if (last_position_ == LastPosition::constant_force) q[n_ - 1] = q0[n_ - 1] + h * v0[n_ - 1];
   ode_.acceleration({q, n_}, acceleration);
   ++work_.right_hand_sides;
 #pragma GCC ivdep

@@ -11,10 +11,17 @@ namespace subimpact {
 /// written with the velocity, so that the scheme is self-starting and can take a partial step (the
 /// same positions to rounding): v[n+1/2] = v[n] + dt/2 a[n], q[n+1] = q[n] + dt v[n+1/2], v[n+1] =
 /// v[n+1/2] + dt/2 a[n+1]. One acceleration per step. Stable for dt * omega_max < 2.
+///
+/// The last position may be advanced by a force that is constant over the step instead, of first
+/// order in dt: q[n+1] = q[n] + dt u[n] + dt^2/2 a[n], u[n+1] = u[n] + dt a[n]. With the velocity
+/// v[n] = u[n] + dt/2 a[n], that of the central differences, this is q[n+1] = q[n] + dt v[n].
 class CentralDifference final : public Integrator {
  public:
+  enum class LastPosition { central, constant_force };
+
   /// `step` in s; the caller must keep it below the critical step.
-  CentralDifference(SecondOrderOde& ode, double step);
+  CentralDifference(SecondOrderOde& ode, double step,
+                    LastPosition last_position = LastPosition::central);
 
   void restart(double t, const State& y) override;
   void step() override;
@@ -32,6 +39,7 @@ class CentralDifference final : public Integrator {
   SecondOrderOde& ode_;
   std::size_t n_;
   double step_;
+  LastPosition last_position_;
   double origin_ = 0.0;  // times are origin + k step, free of accumulated rounding
   long steps_from_origin_ = 0;
   std::vector<double> a0_, a1_, a_partial_;

@@ -19,6 +19,7 @@ struct IntegratorOptions {
   std::optional<double> max_step = {};    ///< s
   std::string table = {};                 ///< of Runge-Kutta methods; empty: the method's first
   int max_order = 0;                      ///< of multistep methods, from 1 to the method's limit
+  bool constant_force_on_last = false;    ///< of central differences: see CentralDifference
   VectorOperations vector_operations = VectorOperations::project;  ///< of methods of SUNDIALS
   /// Whose roots end steps, of methods of SUNDIALS; none: no root-finding.
   std::shared_ptr<const EventFunctions> event_functions = {};

@@ -35,8 +35,13 @@ std::string symmetry_text(const Case& input, const ResolvedSettings& used) {
 std::string mesh_text(const Case& input, const ResolvedSettings& used) {
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
   if (input.parts.mesh || !refinement || input.model.strike_refinement != 1.0) return used.mesh;
-  return fmt::format("{}; {} of {:.6g} mm", used.mesh, refinement->parts,
-                     1e3 * input.scene.beam.length / input.model.*(refinement->count));
+  const double size = 1e3 * refinement->size(input);
+  const bool longer = input.model.spacing == CellSpacing::points;
+  return fmt::format(
+      "{}; {} of {:.6g} mm{}", used.mesh, refinement->parts, size,
+      longer ? fmt::format(", whole ones at both ends: the equations of a beam of {:.7g} mm",
+                           size * input.model.segments)
+             : "");
 }
 
 std::string section_text(const Case& input, const ResolvedSettings& used) {

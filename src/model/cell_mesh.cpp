@@ -35,16 +35,25 @@ std::vector<std::array<double, 2>> end_stencils(EndSupport end) {
 
 }  // namespace
 
-CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent)
+double CellMesh::spacing_of(const Beam& beam, std::size_t n_cells, Spacing spacing) {
+  return beam.length / static_cast<double>(spacing == Spacing::points ? n_cells - 1 : n_cells);
+}
+
+CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent,
+                   Spacing spacing)
     : BeamMesh(count_unknowns(beam, n_cells, extent == Extent::half), 1, extent == Extent::half),
       n_cells_(n_cells),
-      spacing_(beam.length / static_cast<double>(n_cells)),
+      spacing_(spacing_of(beam, n_cells, spacing)),
+      first_centre_(spacing == Spacing::points ? 0.0 : 0.5),
       mass_per_length_(beam.mass_per_length()),
       rotary_inertia_(beam.rotary_inertia()),
       ends_(beam.ends) {
   if (symmetric() && (n_cells % 2 == 0 || position != 0.5 || ends_[0] != ends_[1])) {
     throw std::invalid_argument(
         "cell mesh: a half model needs an odd number of cells, struck at 0.5, and ends alike");
+  }
+  if (spacing == Spacing::points && !beam.is_free()) {
+    throw std::invalid_argument("cell mesh: the spacing of points is for free ends");
   }
   const double inverse = 1.0 / (spacing_ * spacing_);
   stencil_ = {inverse, -2.0 * inverse, inverse};
@@ -59,11 +68,16 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
     }
   }
   if (beam.is_free()) translation_.assign(n_unknowns(), 1.0);
-  beam_mass_ = beam.mass();
+  beam_mass_ = spacing == Spacing::points
+                   ? mass_per_length_ * spacing_ * static_cast<double>(n_cells)
+                   : beam.mass();
   assemble_mass();
   place_sections();
   place_strike(position);
-  if (ends_[0] == EndSupport::free) first_end_.terms = {{0, 1.5}, {1, -0.5}};  // no curvature there
+  if (ends_[0] == EndSupport::free) {  // no curvature there
+    first_end_.terms = {{0, 1.0 + first_centre_}, {1, -first_centre_}};
+    if (first_centre_ == 0.0) first_end_.terms.pop_back();
+  }
 }
 
 // The displacement of a cell's centre.
@@ -113,7 +127,7 @@ void CellMesh::place_sections() {
                           : ends_[1] == EndSupport::free ? n_cells_ - 1
                                                          : n_cells_;
   for (std::size_t i = first; i < end; ++i) {
-    positions_.push_back((static_cast<double>(i) + 0.5) * spacing_);
+    positions_.push_back((static_cast<double>(i) + first_centre_) * spacing_);
     weights_.push_back(copies * spacing_);
   }
   if (symmetric()) weights_.back() = spacing_;
@@ -127,7 +141,8 @@ void CellMesh::place_strike(double position) {
     return;
   }
   const double cells = static_cast<double>(n_cells_);
-  const double at = std::clamp(position * cells - 0.5, 0.0, cells - 1.0);
+  const double length = cells - 1.0 + 2.0 * first_centre_;  // of the beam, in spacings
+  const double at = std::clamp(position * length - first_centre_, 0.0, cells - 1.0);
   const auto left = std::min(static_cast<std::size_t>(at), n_cells_ - 2);
   const double share = at - static_cast<double>(left);
   const auto add = [&](std::size_t i, double part) {
@@ -216,7 +231,8 @@ NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
 }
 
 std::string CellMesh::description() const {
-  return std::to_string(n_cells_) + " cells" + (symmetric() ? ", one half by symmetry" : "");
+  return std::to_string(n_cells_) + (first_centre_ == 0.0 ? " points" : " cells") +
+         (symmetric() ? ", one half by symmetry" : "");
 }
 
 }  // namespace subimpact

@@ -7,8 +7,7 @@
 
 namespace subimpact {
 
-/// The paper's mesh: N equal cells of length dx = l/N with the displacement at their centres,
-/// second order in dx.
+/// N equal cells of length dx = l/N with the displacement at their centres, second order in dx.
 ///
 ///     kappa_i = (w[i+1] - 2 w[i] + w[i-1])/dx^2 at the cells' centres
 ///     Mass = rho A dx I + (J/dx) L,  L the Laplacian of the chain of cells (tridiagonal)
@@ -21,19 +20,29 @@ namespace subimpact {
 ///     clamped  the displacement is continued symmetrically, w[-1] = w[0]; w = 0 at the end of the
 ///              parabola through the first centres, w[0] = w[1]/9, so w[0] is not an unknown
 ///
+/// With the spacing `points`, for free ends, dx = l/(N - 1): the outermost centres are the ends of
+/// the beam, and the outer halves of the end cells lie beyond them. These are the equations of a
+/// beam that is longer and heavier by the part 1/(N - 1), an error of first order; the published
+/// run has them.
+///
 /// A strike between two centres is shared between them by linear weights. In the symmetric half
 /// model (strike at mid-span, N odd, ends alike) the last unknown is the struck cell, N/2.
 class CellMesh final : public BeamMesh {
  public:
   enum class Extent { whole, half };
+  enum class Spacing { cells, points };
 
   static constexpr std::size_t fewest_cells = 5;
   static constexpr std::size_t fewest_cells_if_clamped = 7;
 
   /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument for
   /// too few cells, for a half model of an even number of cells, of unlike ends or struck off
-  /// mid-span.
-  CellMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent);
+  /// mid-span, for the spacing `points` with supports.
+  CellMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent,
+           Spacing spacing = Spacing::cells);
+
+  /// dx, m.
+  static double spacing_of(const Beam& beam, std::size_t n_cells, Spacing spacing);
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
@@ -57,6 +66,7 @@ class CellMesh final : public BeamMesh {
 
   std::size_t n_cells_;
   double spacing_;
+  double first_centre_;  // its distance from the end of the beam, in spacings
   double mass_per_length_;
   double rotary_inertia_;
   std::array<EndSupport, 2> ends_;

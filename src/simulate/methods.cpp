@@ -51,7 +51,10 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 256,
        .make =
            [](StruckBeam& beam, const IntegratorOptions& options) {
-             return std::make_unique<CentralDifference>(beam, *options.fixed_step);
+             using Last = CentralDifference::LastPosition;
+             return std::make_unique<CentralDifference>(
+                 beam, *options.fixed_step,
+                 options.constant_force_on_last ? Last::constant_force : Last::central);
            }},
       {.kind = Method::erk,
        .name = "erk",

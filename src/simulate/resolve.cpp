@@ -418,6 +418,7 @@ std::unique_ptr<Integrator> RunParts::make_integrator() {
       .max_step = given.solver.max_step,
       .table = settings.table.value_or(""),
       .max_order = settings.max_order.value_or(0),
+      .constant_force_on_last = given.study.striker_update == StrikerUpdate::constant_force,
       .vector_operations = library ? VectorOperations::library : VectorOperations::project};
   if (settings.events == EventHandling::library) {
     options.event_functions =

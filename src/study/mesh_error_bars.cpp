@@ -146,7 +146,7 @@ Result simulate_with_all_error_bars(const Case& input, const Progress& progress,
     const Result below = coarse ? simulate(coarse->input, go_on) : Result{};
     const Result above = on_fine.get();
     const int order = *mesh_order(input);
-    const auto h = [](const Case& of) { return 1.0 / mesh_count(of); };
+    const auto h = [](const Case& of) { return refinement_of(of)->size(of); };
     const double told = 1.0 - std::pow(h(fine->input) / h(input), order);  // of the mesh's error
     compare(above, "mesh", fine->description, mesh_safety / told);
     include_free_ends(parts.back(), input, result);

@@ -40,6 +40,7 @@ Sequence sequence_of(const Case& input, MeshKind kind) {
   base.model.mesh = kind;
   base.parts.mesh = nullptr;
   if (!mesh_uses(base, "model.strike_refinement")) base.model.strike_refinement = 1.0;
+  if (!mesh_uses(base, "model.spacing")) base.model.spacing = CellSpacing::cells;
   if (descriptor_of(base.model.section).has_layers) base.model.section = SectionKind::exact;
   Sequence sequence;
   sequence.order = mesh_order(base).value_or(0);

@@ -30,6 +30,46 @@ TEST(CentralDifference, IsTheThreePointFormulaOfThePaper) {
   }
 }
 
+TEST(CentralDifference, AdvancesTheLastPositionByAConstantForceIfAsked) {
+  CurvedMotion motion;
+  const double step = 0.01;
+  CentralDifference integrator(motion, step, CentralDifference::LastPosition::constant_force);
+  integrator.restart(0.0, motion.initial());
+  std::vector<double> a(3);
+  motion.acceleration({motion.initial().data(), 3}, a);
+  double q = motion.initial()[2];
+  double u = motion.initial()[5] - 0.5 * step * a[2];
+  State before, now = motion.initial();
+  for (int i = 0; i < 200; ++i) {
+    motion.acceleration({now.data(), 3}, a);
+    integrator.step();
+    const State next = integrator.state();
+    q += step * u + 0.5 * step * step * a[2];
+    u += step * a[2];
+    EXPECT_NEAR(next[2], q, 2e-14);
+    for (std::size_t k = 0; k < 2 && !before.empty(); ++k) {
+      EXPECT_NEAR(next[k] - 2.0 * now[k] + before[k], step * step * a[k], 2e-15);
+    }
+    before = now;
+    now = next;
+  }
+}
+
+TEST(CentralDifference, IsOfFirstOrderIfTheLastPositionMovesByAConstantForce) {
+  SpringChain chain(1);
+  double previous = 0.0;
+  for (const int n : {100, 200, 400}) {
+    CentralDifference integrator(chain, 3.0 / n, CentralDifference::LastPosition::constant_force);
+    integrator.restart(0.0, chain.initial());
+    for (int i = 0; i < n; ++i) integrator.step();
+    const double error = chain.error(3.0, integrator.state());
+    if (previous > 0.0) {
+      EXPECT_NEAR(std::log2(previous / error), 1.0, 0.1);
+    }
+    previous = error;
+  }
+}
+
 double largest_over(SpringChain& chain, double step, int n_steps) {
   CentralDifference integrator(chain, step);
   integrator.restart(0.0, chain.initial());

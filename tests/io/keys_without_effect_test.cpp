@@ -51,6 +51,13 @@ const Idle idle_cases[] = {
     {"SegmentsBesideElements",
      "[model]\nmesh = \"hermite\"\nsegments = 501\n",
      {"model.segments = 501 has no effect with model.mesh = \"hermite\""}},
+    {"SpacingBesideElements",
+     "[model]\nmesh = \"hermite\"\nspacing = \"cells\"\n",
+     {"model.spacing = \"cells\" has no effect with model.mesh = \"hermite\""}},
+    {"StrikerOfCentralDifferencesUnderNystrom",
+     "[solver]\nmethod = \"nystrom\"\n[study]\nstriker_update = \"constant-force\"\n",
+     {"study.striker_update = \"constant-force\" has no effect with solver.method = "
+      "\"nystrom\""}},
     {"AnyMeshBesideARigidBeam",
      "[model]\nmesh = \"rigid\"\nsegments = 501\nsection = \"elastic\"\nsymmetry = \"off\"\n",
      {"model.segments = 501 has no effect with model.mesh = \"rigid\"",

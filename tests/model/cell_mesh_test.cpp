@@ -16,6 +16,7 @@ namespace subimpact {
 namespace {
 
 using Extent = CellMesh::Extent;
+using Spacing = CellMesh::Spacing;
 
 Beam beam_of(BeamTheory theory) {
   Beam beam = paper_beam();
@@ -33,6 +34,8 @@ std::vector<CellMesh> meshes() {
       all.emplace_back(beam, 0.5, n, Extent::whole);
       all.emplace_back(beam, 0.5, n, Extent::half);
       all.emplace_back(beam, 0.31, n, Extent::whole);
+      all.emplace_back(beam, 0.31, n, Extent::whole, Spacing::points);
+      all.emplace_back(beam, 0.5, n, Extent::half, Spacing::points);
     }
     for (const double position : {0.0, 0.013, 0.5, 0.77, 1.0}) {
       all.emplace_back(beam, position, 20, Extent::whole);
@@ -152,6 +155,51 @@ TEST(CellMesh, HasTheBeamsMassAndTheRotaryInertiaOfAnInnerRotation) {
     EXPECT_NEAR(mesh.mass().quadratic_form(rotation), points + links, 1e-12 * points);
     EXPECT_EQ(links > 0.0, theory == BeamTheory::rayleigh);
   }
+}
+
+TEST(CellsAboutPoints, HaveTheEquationsOfABeamLongerByASpacing) {
+  for (const Extent extent : {Extent::whole, Extent::half}) {
+    const std::size_t n = 41;
+    const Beam beam = paper_beam();
+    Beam longer = beam;
+    longer.length *= 41.0 / 40.0;
+    const CellMesh points(beam, 0.5, n, extent, Spacing::points);
+    const CellMesh cells(longer, 0.5, n, extent);
+    const std::vector<double> w = random_numbers(5, cells.n_unknowns());
+    ASSERT_EQ(points.n_unknowns(), cells.n_unknowns());
+    EXPECT_NEAR(points.beam_mass(), longer.mass(), 1e-15);
+    EXPECT_NEAR(points.mass().quadratic_form(w), cells.mass().quadratic_form(w), 1e-14);
+    EXPECT_EQ(points.struck_point()(w), cells.struck_point()(w));
+    EXPECT_NEAR(points.highest_frequency(1.0), cells.highest_frequency(1.0), 1e-9);
+    std::vector<double> kappa(cells.n_sections()), expected(cells.n_sections());
+    points.curvatures(w, kappa);
+    cells.curvatures(w, expected);
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      EXPECT_NEAR(kappa[i], expected[i], 1e-12 * std::abs(expected[i]));
+      EXPECT_NEAR(points.section_weights()[i], cells.section_weights()[i], 1e-16);
+    }
+    std::vector<double> forces(w.size()), expected_forces(w.size());
+    points.bending_forces(expected, forces);
+    cells.bending_forces(expected, expected_forces);
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      EXPECT_NEAR(forces[i], expected_forces[i], 1e-12 * std::abs(expected_forces[i]));
+    }
+  }
+}
+
+TEST(CellsAboutPoints, LieFromEndToEnd) {
+  const Beam beam = paper_beam();
+  for (const double position : {0.0, 0.31, 0.5, 1.0}) {
+    const CellMesh mesh(beam, position, 21, Extent::whole, Spacing::points);
+    std::vector<double> x(21);
+    for (std::size_t i = 0; i < 21; ++i) x[i] = static_cast<double>(i) * beam.length / 20.0;
+    EXPECT_NEAR(mesh.struck_point()(x), position * beam.length, 1e-14);
+    EXPECT_EQ(mesh.first_end()(x), 0.0);
+    EXPECT_NEAR(mesh.section_positions().front(), x[1], 1e-15);
+    EXPECT_NEAR(mesh.section_positions().back(), x[19], 1e-15);
+  }
+  const CellMesh half(beam, 0.5, 21, Extent::half, Spacing::points);
+  EXPECT_NEAR(half.section_positions()[half.struck_section()], 0.5 * beam.length, 1e-15);
 }
 
 TEST(CellMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
@@ -296,6 +344,7 @@ TEST(CellMesh, RefusesShapesItCannotModel) {
   EXPECT_THROW(CellMesh(clamped, 0.5, 6, Extent::whole), std::invalid_argument);
   EXPECT_THROW(CellMesh(clamped, 0.5, 7, Extent::half), std::invalid_argument);
   EXPECT_NO_THROW(CellMesh(clamped, 0.5, 7, Extent::whole));
+  EXPECT_THROW(CellMesh(clamped, 0.5, 7, Extent::whole, Spacing::points), std::invalid_argument);
 }
 
 TEST(BandedSolver, SolvesTheMassMatricesOfBeams) {

@@ -17,16 +17,19 @@ struct Chain {
   std::size_t n_cells;
   CellMesh::Extent extent;
   BeamTheory theory;
+  CellMesh::Spacing spacing = CellMesh::Spacing::cells;
 };
 
 std::ostream& operator<<(std::ostream& out, const Chain& chain) {
   return out << chain.n_cells << (chain.extent == CellMesh::Extent::half ? " half " : " whole ")
-             << chain.theory;
+             << chain.theory << (chain.spacing == CellMesh::Spacing::points ? " points" : "");
 }
 
 class ModesOfCells : public testing::TestWithParam<Chain> {
  protected:
-  CellMesh mesh() const { return {beam(), 0.5, GetParam().n_cells, GetParam().extent}; }
+  CellMesh mesh() const {
+    return {beam(), 0.5, GetParam().n_cells, GetParam().extent, GetParam().spacing};
+  }
   Beam beam() const {
     Beam beam = paper_beam();
     beam.theory = GetParam().theory;
@@ -93,14 +96,17 @@ TEST_P(ModesOfCells, SatisfyTheEquationsOfMotion) {
 
 INSTANTIATE_TEST_SUITE_P(
     , ModesOfCells,
-    testing::Values(Chain{5, CellMesh::Extent::half, BeamTheory::rayleigh},
-                    Chain{6, CellMesh::Extent::whole, BeamTheory::rayleigh},
-                    Chain{101, CellMesh::Extent::half, BeamTheory::rayleigh},
-                    Chain{101, CellMesh::Extent::half, BeamTheory::euler_bernoulli},
-                    Chain{100, CellMesh::Extent::whole, BeamTheory::rayleigh},
-                    Chain{101, CellMesh::Extent::whole, BeamTheory::euler_bernoulli},
-                    Chain{501, CellMesh::Extent::half, BeamTheory::rayleigh},
-                    Chain{501, CellMesh::Extent::whole, BeamTheory::euler_bernoulli}),
+    testing::Values(
+        Chain{5, CellMesh::Extent::half, BeamTheory::rayleigh},
+        Chain{6, CellMesh::Extent::whole, BeamTheory::rayleigh},
+        Chain{101, CellMesh::Extent::half, BeamTheory::rayleigh},
+        Chain{101, CellMesh::Extent::half, BeamTheory::euler_bernoulli},
+        Chain{100, CellMesh::Extent::whole, BeamTheory::rayleigh},
+        Chain{101, CellMesh::Extent::whole, BeamTheory::euler_bernoulli},
+        Chain{501, CellMesh::Extent::half, BeamTheory::rayleigh},
+        Chain{101, CellMesh::Extent::half, BeamTheory::rayleigh, CellMesh::Spacing::points},
+        Chain{20, CellMesh::Extent::whole, BeamTheory::rayleigh, CellMesh::Spacing::points},
+        Chain{501, CellMesh::Extent::whole, BeamTheory::euler_bernoulli}),
     NamedAsPrinted{});
 
 class ModalCoordinates : public testing::Test {

@@ -172,6 +172,15 @@ TEST(Explanation, SaysThatAnInfiniteYieldStressLeavesNothingToYield) {
   expect_in(text, "the contact never yields");
 }
 
+TEST(Explanation, GivesTheLengthOfTheMesh) {
+  Case input = paper_case();
+  const auto text = [&] { return explanation(input, resolve(input).settings(), std::nullopt); };
+  expect_in(text(), "501 cells, one half by symmetry; cells of 1.41956 mm\n");
+  input.model.spacing = CellSpacing::points;
+  expect_in(text(), "501 points, one half by symmetry; cells of 1.4224 mm");
+  expect_in(text(), "a beam of 712.6224 mm\n");
+}
+
 TEST(Explanation, GivesTheReasonForAWholeModel) {
   Case input = paper_case();
   input.model.symmetry = SymmetryUse::off;

@@ -223,6 +223,11 @@ TEST(AnotherMesh, KeepsWhatSymmetryNeedsAndTheStableStep) {
   EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input), 251);
   input.model.symmetry = SymmetryUse::off;
   EXPECT_EQ(mesh_count(on_other_mesh(input, 2.0)->input), 1002);
+  EXPECT_EQ(mesh_order(input), 2);
+  input.model.spacing = CellSpacing::points;
+  EXPECT_EQ(mesh_order(input), 1);
+  EXPECT_EQ(on_other_mesh(input, 2.0)->input.model.spacing, CellSpacing::points);
+  input.model.spacing = CellSpacing::cells;
   input = on_elements(input, 50);
   EXPECT_EQ(mesh_count(on_other_mesh(input, 0.5)->input), 25);
   input.model.symmetry = SymmetryUse::automatic;

@@ -28,6 +28,12 @@ enum class MeshKind {
   rigid     ///< the beam as a rigid body
 };
 
+/// Length of N equal cells of a beam of length l.
+enum class CellSpacing {
+  cells,  ///< l/N: the cells fill the beam
+  points  ///< l/(N - 1): their centres do, from end to end
+};
+
 /// Whether a scene that is symmetric about mid-span is modelled by one half.
 enum class SymmetryUse { automatic, off };
 
@@ -39,7 +45,8 @@ enum class HingeUse {
 
 struct ModelOptions {
   MeshKind mesh = MeshKind::cells;
-  int segments = 501;            ///< cells
+  int segments = 501;  ///< cells
+  CellSpacing spacing = CellSpacing::cells;
   int elements = 200;            ///< Hermite elements
   int sections_per_element = 2;  ///< of Hermite elements
   HingeUse hinges = HingeUse::automatic;

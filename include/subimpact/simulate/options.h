@@ -76,6 +76,12 @@ enum class MassSolverKind { banded, klu };
 
 enum class VectorOperationsKind { project, library };
 
+/// How central differences advance the striker over a step.
+enum class StrikerUpdate {
+  central,        ///< as the beam
+  constant_force  ///< by the force at the step's start, constant over the step: first order
+};
+
 /// Switches for experiments with the program itself. No strike needs them.
 struct StudyOptions {
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
@@ -83,6 +89,7 @@ struct StudyOptions {
   bool pair_detection = true;  ///< look for contacts that open and close again within one step
   bool beyond_critical =
       false;  ///< allows a fixed step above the stability limit, to study the failure
+  StrikerUpdate striker_update = StrikerUpdate::central;
 };
 
 struct Options {

@@ -1,0 +1,91 @@
+// The run of the struck-beam paper: 501 points 1/500 of the length apart, 40 layers, 0.1 us. Its
+// printed numbers are met within a unit of their last digit (validation/paper/as_computed).
+
+#include <algorithm>
+
+#include "paper_case.h"
+
+namespace subimpact {
+namespace {
+
+Case published_run(double end_time) {
+  Case input = paper_case(SectionKind::layers, end_time);
+  input.model.spacing = CellSpacing::points;
+  input.solver.method = Method::central_difference;
+  input.solver.step = 1e-7;
+  input.study.striker_update = StrikerUpdate::constant_force;
+  return input;
+}
+
+double first_separation_us(const Case& input) { return end_us(simulate(input).sub_impacts.at(0)); }
+
+TEST(ThePublishedRun, Has18And39SubImpactsAtThePrintedTimes) {
+  const Result result = simulate(published_run(8e-3));
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  const auto& found = result.sub_impacts;
+  const auto second =
+      std::find_if(found.begin(), found.end(), [](const SubImpact& s) { return s.zone == 2; });
+  ASSERT_EQ(found.size(), 57u);
+  EXPECT_EQ(second - found.begin(), 18);
+  EXPECT_EQ(found.back().zone, 2);
+  EXPECT_EQ(found[17].subzone, 2);
+  EXPECT_NEAR(end_us(found[0]), 203.0, 1.0);
+  EXPECT_NEAR(1e-3 * end_us(found[17]), 1.757, 0.001);
+  EXPECT_NEAR(1e-3 * start_us(found[18]), 5.178, 0.001);
+  EXPECT_NEAR(1e-3 * end_us(found[56]), 7.031, 0.001);
+  EXPECT_NEAR(1e-3 * (start_us(found[18]) - end_us(found[17])), 3.42, 0.01);
+  EXPECT_NEAR(1e3 * result.sub_impacts[0].max_indentation, 0.169, 0.001);
+}
+
+TEST(ThePublishedRun, KeepsMomentumToRoundingAndEnergyToAThousandth) {
+  const Result result = simulate(published_run(2e-3));
+  EXPECT_LT(*result.max_momentum_error, 1e-11);
+  EXPECT_LT(result.max_energy_error, 1e-3);
+}
+
+TEST(ThePublishedRun, SeparatesAtOneTimeWhateverTheMethod) {
+  Case input = published_run(0.25e-3);
+  EXPECT_NEAR(first_separation_us(input), 203.49, 0.02);
+  input.study.striker_update = StrikerUpdate::central;
+  EXPECT_NEAR(first_separation_us(input), 203.49, 0.02);
+  input.solver.step.reset();
+  for (const Method method : {Method::erk, Method::nystrom, Method::exponential, Method::adams}) {
+    input.solver.method = method;
+    EXPECT_NEAR(first_separation_us(input), 203.455, 0.005) << static_cast<int>(method);
+  }
+}
+
+// 1/501 of the length apart, contact goes on: the indentation stays 0.02 um above the residual one.
+TEST(ThePublishedRun, SeparatesLaterOnCellsThatFillTheBeam) {
+  Case input = published_run(0.25e-3);
+  input.model.spacing = CellSpacing::cells;
+  EXPECT_NEAR(first_separation_us(input), 217.15, 0.05);
+}
+
+TEST(ThePublishedRun, IsThatOfABeamLongerByASpacing) {
+  Case input = published_run(1e-3);
+  const Result points = simulate(input);
+  input.model.spacing = CellSpacing::cells;
+  input.scene.beam.length *= 501.0 / 500.0;
+  const Result longer = simulate(input);
+  ASSERT_EQ(points.sub_impacts.size(), longer.sub_impacts.size());
+  for (std::size_t i = 0; i < points.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(end_us(points.sub_impacts[i]), end_us(longer.sub_impacts[i]), 1e-5);
+  }
+}
+
+TEST(AnElasticBeamOnPoints, MovesTheSameInItsModesInClosedForm) {
+  Case input = paper_case(SectionKind::elastic, 0.6e-3);
+  input.model.spacing = CellSpacing::points;
+  input.solver.method = Method::nystrom;
+  const Result on_mesh = simulate(input);
+  input.solver.method = Method::exponential;
+  const Result in_modes = simulate(input);
+  ASSERT_EQ(on_mesh.sub_impacts.size(), in_modes.sub_impacts.size());
+  for (std::size_t i = 0; i + 1 < on_mesh.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(end_us(on_mesh.sub_impacts[i]), end_us(in_modes.sub_impacts[i]), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace subimpact
