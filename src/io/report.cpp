@@ -7,7 +7,10 @@
 #include <iterator>
 
 #include "case/counted.h"
+#include "case/meshes.h"
 #include "io/printable.h"
+#include "io/sub_impact_rows.h"
+#include "io/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/results.h"
@@ -22,28 +25,53 @@ std::string time_or_never(const std::optional<double>& time) {
   return time ? fmt::format("{:.4f} us", *time * us) : "never";
 }
 
-std::string zone_text(const std::vector<ZoneSummary>& zones) {
+std::string zone_text(const std::vector<ZoneSummary>& zones,
+                      const std::optional<std::size_t>& n_decided) {
   fmt::memory_buffer text;
+  std::size_t n_before = 0;  // sub-impacts, up to and with the zone
   for (const ZoneSummary& zone : zones) {
-    fmt::format_to(std::back_inserter(text), "  zone {:<14} {} in {}, {:.1f} to {} us\n", zone.zone,
-                   counted(zone.n_sub_impacts, "sub-impact"), counted(zone.n_subzones, "sub-zone"),
-                   zone.start * us, zone.end ? fmt::format("{:.1f}", *zone.end * us) : "(open)");
+    n_before += static_cast<std::size_t>(zone.n_sub_impacts);
+    fmt::format_to(std::back_inserter(text), "  zone {:<14} {} in {}, {:.1f} to {} us{}\n",
+                   zone.zone, counted(zone.n_sub_impacts, "sub-impact"),
+                   counted(zone.n_subzones, "sub-zone"), zone.start * us,
+                   zone.end ? fmt::format("{:.1f}", *zone.end * us) : "(open)",
+                   n_decided && *n_decided < n_before ? ", not decided" : "");
   }
   return fmt::to_string(text);
 }
 
-std::string error_estimate_text(const Result& result, double largest_error,
-                                const std::optional<std::size_t>& first_unresolved,
-                                const std::string& reason) {
-  if (!first_unresolved) return fmt::format("all times to {:.1e} us", largest_error * us);
-  const std::size_t i = *first_unresolved;
-  const std::string when = i < result.sub_impacts.size()
-                               ? fmt::format(" at {:.3f} us", result.sub_impacts[i].start * us)
-                               : std::string(", which this run does not have");
-  return fmt::format(
-      "times to {:.1e} us before sub-impact {}{}; from there on count and order are "
-      "uncertain: {}",
-      largest_error * us, i + 1, when, reason);
+// "times to 0.3 us up to sub-impact 9 (0.84 ms); from there undecided: <reason>".
+std::string valid_times_text(const Result& result, double largest_error,
+                             const std::optional<std::size_t>& first_unresolved,
+                             const std::string& reason) {
+  if (!first_unresolved) {
+    return fmt::format("all times to {} up to {}", error_text(largest_error),
+                       duration_text(result.outcome.time));
+  }
+  const std::size_t n = std::min(*first_unresolved, result.sub_impacts.size());
+  if (n == 0) return fmt::format("no sub-impact is decided: {}", reason);
+  return fmt::format("times to {} up to sub-impact {} ({}); from there undecided: {}",
+                     error_text(largest_error), n,
+                     duration_text(result.end_of(result.sub_impacts[n - 1])), reason);
+}
+
+// The setting that makes the errors of a part smaller; empty for a part without one.
+std::string setting_against(const std::string& part, const Case& input, const Result& result) {
+  if (part == "layers") return "model.section = \"exact\"";
+  if (part == "time") return result.used.step ? "a shorter solver.step" : "a smaller solver.rtol";
+  if (part != "mesh" || input.parts.mesh) return {};
+  const auto& refinement = descriptor_of(input.model.mesh).refinement;
+  return refinement ? fmt::format("a larger {}", refinement->key) : std::string();
+}
+
+// Which setting to try where no sub-impact is decided: that of the first part to blame.
+std::string setting_to_try(const Case& input, const Result& result) {
+  for (const ErrorEstimate::Part& part : result.error_estimate->parts) {
+    if (part.first_unresolved != std::size_t{0}) continue;
+    const std::string setting = setting_against(part.name, input, result);
+    if (!setting.empty()) return "; try " + setting;
+  }
+  return {};
 }
 
 std::string first_failure_text(const Outcome& outcome) {
@@ -60,22 +88,14 @@ std::string mass_text(double mass) {
   return fmt::format("{:.6g} kg", mass);
 }
 
-// The sub-impacts that the error bars resolve, part by part and in total.
-void add_error_estimate(const Result& result, fmt::memory_buffer& text) {
-  const ErrorEstimate& estimate = *result.error_estimate;
-  const auto line = [&](const std::string& label, const std::string& value) {
-    fmt::format_to(std::back_inserter(text), "  {:<19} {}\n", label, value);
-  };
-  for (const ErrorEstimate::Part& part : estimate.parts) {
-    line("error of " + part.name,
-         fmt::format(
-             "{} (refined run: {})",
-             error_estimate_text(result, part.largest_error, part.first_unresolved, part.reason),
-             part.refined_run));
+// What each refined run shows.
+void add_error_parts(const Result& result, fmt::memory_buffer& text) {
+  for (const ErrorEstimate::Part& part : result.error_estimate->parts) {
+    fmt::format_to(std::back_inserter(text), "  {:<19} {} (refined run: {})\n",
+                   "error of " + part.name,
+                   valid_times_text(result, part.largest_error, part.first_unresolved, part.reason),
+                   part.refined_run);
   }
-  if (estimate.parts.size() == 1) return;
-  line("error bars", error_estimate_text(result, estimate.largest_error, estimate.first_unresolved,
-                                         estimate.reason));
 }
 
 }  // namespace
@@ -94,6 +114,22 @@ std::string outcome_caveat(const Result& result) {
   return fmt::format("{} at {:.6g} us", kind, outcome.time * us);
 }
 
+std::string error_words(const Case& input, const Result& result) {
+  if (!result.error_estimate) return "not known; --error-bars estimates the error of every time";
+  const ErrorEstimate& estimate = *result.error_estimate;
+  const std::string text = valid_times_text(result, estimate.largest_error,
+                                            estimate.first_unresolved, undecided_reason(result));
+  return result.n_decided() == std::size_t{0} && !result.sub_impacts.empty()
+             ? text + setting_to_try(input, result)
+             : text;
+}
+
+std::string decided_words(const Result& result) {
+  const std::optional<std::size_t> n = result.n_decided();
+  if (!n) return {};
+  return *n == result.sub_impacts.size() ? ", all decided" : fmt::format(", {} decided", *n);
+}
+
 std::string wish_words(const WishOutcome& wish, const Result& result) {
   const std::vector<SubImpact>& all = result.sub_impacts;
   const auto n_before = std::count_if(
@@ -107,9 +143,9 @@ std::string wish_words(const WishOutcome& wish, const Result& result) {
   std::string text = fmt::format("event times within {}: ", duration_text(wish.wished));
   if (wish.met) {
     text += "met " + range;
-    if (is_known) text += fmt::format(" ({} reached)", duration_text(wish.reached));
+    if (is_known) text += fmt::format(" ({} reached)", error_text(wish.reached));
   } else {
-    text += is_known ? fmt::format("not met; {} reached {}", duration_text(wish.reached), range)
+    text += is_known ? fmt::format("not met; {} reached {}", error_text(wish.reached), range)
                      : std::string("not met; the error reached is not known");
   }
   if (!wish.reason.empty()) text += (wish.met && !to_the_end ? "; beyond: " : "; ") + wish.reason;
@@ -118,47 +154,45 @@ std::string wish_words(const WishOutcome& wish, const Result& result) {
 }
 
 std::string sub_impact_table(const Result& result) {
-  const bool with_errors = result.error_estimate.has_value();
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  if (const std::string caveat = outcome_caveat(result); !caveat.empty()) {
-    fmt::format_to(out, "{}\n", caveat);
+  const SubImpactRows table = sub_impact_rows(result);
+  std::string text;
+  const auto add_line = [&](const std::string& line) {
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  };
+  if (const std::string caveat = outcome_caveat(result); !caveat.empty()) add_line(caveat);
+  std::string names, units;
+  for (const SubImpactRows::Column& column : table.columns) {
+    const char* space = units.empty() ? "" : " ";
+    names += fmt::format("{}{:>{}}", space, column.name, column.width);
+    units += fmt::format("{}{:>{}}", space, column.unit, column.width);
   }
-  const auto heading = [&](auto... names) {
-    fmt::format_to(out, "{:>4} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12} {:>11}", names...);
-  };
-  // The two last columns, with error bars, and the line's end.
-  const auto errors = [&](const std::string& start, const std::string& end) {
-    if (with_errors) fmt::format_to(out, " {:>10} {:>10}", start, end);
-    fmt::format_to(out, "\n");
-  };
-  heading("", "start", "end", "duration", "peak force", "impulse", "indentation", "residual",
-          "striker");
-  errors("+- start", "+- end");
-  heading("no.", "us", "us", "us", "N", "N s", "max, mm", "mm", "m/s");
-  errors("us", "us");
+  add_line(names);
+  add_line(units);
+  const std::string undecided =
+      fmt::format("from here on not decided: {}", undecided_reason(result));
+  const std::size_t n_rows = table.rows.size();
+  const std::size_t n_decided = result.n_decided().value_or(n_rows);
   int zone = 0, subzone = 0;
-  std::size_t index = 0;
-  const auto error_text = [](const std::optional<double>& error) {
-    return error ? fmt::format("{:.1e}", *error * us) : std::string("?");
-  };
-  for (const SubImpact& s : result.sub_impacts) {
+  for (std::size_t i = 0; i < n_rows; ++i) {
+    if (i == n_decided) add_line(undecided);
+    const SubImpact& s = result.sub_impacts[i];
     if (s.zone != zone) {
-      fmt::format_to(out, "zone {}\n", s.zone);
+      add_line(fmt::format("zone {}", s.zone));
     } else if (s.subzone != subzone) {
-      fmt::format_to(out, "  sub-zone {}\n", s.subzone);
+      add_line(fmt::format("  sub-zone {}", s.subzone));
     }
     zone = s.zone;
     subzone = s.subzone;
-    const std::string end = s.end ? fmt::format("{:.4f}", *s.end * us) : "(open)";
-    const std::string duration = s.end ? fmt::format("{:.4f}", (*s.end - s.start) * us) : "";
-    fmt::format_to(
-        out, "{:>4} {:>13.4f} {:>13} {:>11} {:>11.2f} {:>11.6f} {:>12.7f} {:>12.7f} {:>11.6f}",
-        ++index, s.start * us, end, duration, s.peak_force, s.impulse, s.max_indentation * mm,
-        s.residual_indentation * mm, s.striker_velocity);
-    errors(error_text(s.start_error), error_text(s.end_error));
+    std::string line;
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      line += fmt::format("{}{:>{}}", k == 0 ? "" : " ", table.rows[i].cells[k],
+                          table.columns[k].width);
+    }
+    add_line(line);
   }
-  return fmt::to_string(text);
+  // A refined run has sub-impacts that this run lacks.
+  if (n_decided == n_rows && !undecided_reason(result).empty()) add_line(undecided);
+  return text;
 }
 
 std::string run_summary(const Case& input, const Result& result) {
@@ -177,14 +211,15 @@ std::string run_summary(const Case& input, const Result& result) {
   if (result.no_more_contact) {
     line("no more contact", "proven: striker and beam never touch again");
   }
+  line("error", error_words(input, result));
   line("model", fmt::format("{}; section {}; {}", result.used.mesh,
                             to_text(*find_case_key("model.section")->get(input)),
                             counted(result.used.n_unknowns, "unknown")));
   line("masses", fmt::format("beam {}, striker {}", mass_text(input.scene.beam.mass()),
                              mass_text(input.scene.striker.mass)));
-  line("sub-impacts",
-       fmt::format("{} in {}", result.sub_impacts.size(), counted(zones.size(), "zone")));
-  text.append(zone_text(zones));
+  line("sub-impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
+                                  counted(zones.size(), "zone"), decided_words(result)));
+  text.append(zone_text(zones, result.n_decided()));
   line("first yield",
        fmt::format("section {}, contact {}", time_or_never(result.first_section_yield),
                    time_or_never(result.first_contact_yield)));
@@ -201,7 +236,7 @@ std::string run_summary(const Case& input, const Result& result) {
            : fmt::format(
                  "energy to {:.1e}, relative; momentum is not conserved: the supports take it up",
                  result.max_energy_error));
-  if (result.error_estimate) add_error_estimate(result, text);
+  if (result.error_estimate) add_error_parts(result, text);
   line("method", fmt::format("{}{}", to_string(input.solver.method),
                              result.used.table ? ", table " + *result.used.table : ""));
   line("work", fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"),

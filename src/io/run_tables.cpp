@@ -1,7 +1,5 @@
 #include "io/run_tables.h"
 
-#include <algorithm>
-
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/system/events.h"
@@ -23,11 +21,50 @@ std::optional<double> duration(const SubImpact& s) {
   return s.end ? std::optional(*s.end - s.start) : std::nullopt;
 }
 
-Columns<SubImpact> with_error_bars(Columns<SubImpact> columns, const Columns<SubImpact>& errors) {
-  for (Column<SubImpact> column : errors) {
-    column.optional = true;
-    columns.push_back(std::move(column));
-  }
+// `n_decided`: leading sub-impacts that are decided; none without an error estimate.
+Column<SubImpact> decided_column(const std::optional<std::size_t>& n_decided) {
+  return {"decided", "1: certain in count and order; 0: not; empty: without error bars",
+          [n_decided](const SubImpact&, std::size_t index) {
+            return n_decided ? std::optional(index < *n_decided ? 1 : 0) : std::nullopt;
+          }};
+}
+
+// Files of older versions may lack these.
+Columns<SubImpact> error_columns() {
+  Columns<SubImpact> columns = {
+      {"start_error_s",
+       "error of start_s, sum of its parts; this and what follows: empty without "
+       "error bars",
+       &SubImpact::start_error},
+      {"end_error_s", "error of end_s, sum of its parts", &SubImpact::end_error},
+      {"error_time_s", "part of the integration in time", &SubImpact::error_time},
+      {"error_mesh_s", "part of the mesh", &SubImpact::error_mesh},
+      {"error_layers_s", "part of layers in place of the exact section", &SubImpact::error_layers},
+      {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes",
+       &SubImpact::start_mesh_limit},
+      {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
+      {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error}};
+  for (Column<SubImpact>& column : columns) column.optional = true;
+  return columns;
+}
+
+Columns<SubImpact> all_events_columns(const std::optional<std::size_t>& n_decided) {
+  Columns<SubImpact> columns = {
+      {"index", "number of the sub-impact, from 1", number_from_1},
+      {"zone", "number of its zone, from 1", &SubImpact::zone},
+      {"subzone", "number of its sub-zone within the zone, from 1", &SubImpact::subzone},
+      {"start_s", "instant at which contact begins", &SubImpact::start},
+      {"end_s", "instant at which the contact force returns to zero; empty: after the run's end",
+       &SubImpact::end},
+      {"duration_s", "end_s - start_s", duration},
+      {"peak_force_N", "largest contact force", &SubImpact::peak_force},
+      {"impulse_Ns", "momentum that the striker loses", &SubImpact::impulse},
+      {"max_indentation_m", "largest indentation", &SubImpact::max_indentation},
+      {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
+      {"striker_velocity_m_per_s", "velocity of the striker at the end",
+       &SubImpact::striker_velocity},
+      decided_column(n_decided)};
+  for (const Column<SubImpact>& column : error_columns()) columns.push_back(column);
   return columns;
 }
 
@@ -43,30 +80,7 @@ std::string listing(const char* file, const char* rows, const Columns<Row>& colu
 }  // namespace
 
 const Columns<SubImpact>& events_columns() {
-  static const Columns<SubImpact> columns = with_error_bars(
-      {{"index", "number of the sub-impact, from 1", number_from_1},
-       {"zone", "number of its zone, from 1", &SubImpact::zone},
-       {"subzone", "number of its sub-zone within the zone, from 1", &SubImpact::subzone},
-       {"start_s", "instant at which contact begins", &SubImpact::start},
-       {"end_s", "instant at which the contact force returns to zero; empty: after the run's end",
-        &SubImpact::end},
-       {"duration_s", "end_s - start_s", duration},
-       {"peak_force_N", "largest contact force", &SubImpact::peak_force},
-       {"impulse_Ns", "momentum that the striker loses", &SubImpact::impulse},
-       {"max_indentation_m", "largest indentation", &SubImpact::max_indentation},
-       {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
-       {"striker_velocity_m_per_s", "velocity of the striker at the end",
-        &SubImpact::striker_velocity}},
-      {{"start_error_s", "with error bars: error of start_s, sum of its parts",
-        &SubImpact::start_error},
-       {"end_error_s", "error of end_s, sum of its parts", &SubImpact::end_error},
-       {"error_time_s", "part of the integration in time", &SubImpact::error_time},
-       {"error_mesh_s", "part of the mesh", &SubImpact::error_mesh},
-       {"error_layers_s", "part of layers in place of the exact section", &SubImpact::error_layers},
-       {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes",
-        &SubImpact::start_mesh_limit},
-       {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
-       {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error}});
+  static const Columns<SubImpact> columns = all_events_columns(std::nullopt);
   return columns;
 }
 
@@ -115,13 +129,8 @@ const Columns<SectionRow>& sections_columns() {
   return columns;
 }
 
-std::string events_csv(const std::vector<SubImpact>& sub_impacts) {
-  Columns<SubImpact> columns = events_columns();
-  const bool with_errors =
-      std::any_of(sub_impacts.begin(), sub_impacts.end(),
-                  [](const SubImpact& s) { return s.start_error.has_value(); });
-  if (!with_errors) std::erase_if(columns, [](const auto& column) { return column.optional; });
-  return csv_text(columns, sub_impacts);
+std::string events_csv(const Result& result) {
+  return csv_text(all_events_columns(result.n_decided()), result.sub_impacts);
 }
 
 std::string transitions_csv(const std::vector<Transition>& transitions) {

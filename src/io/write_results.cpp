@@ -157,7 +157,7 @@ void ResultWriter::finish(const Case& input, const Result& result) {
     const fs::path& place = directory_.staging();
     write_rows(*history_);
     if (sections_) write_rows(*sections_);
-    write_file(place / "events.csv", events_csv(result.sub_impacts));
+    write_file(place / "events.csv", events_csv(result));
     write_file(place / "transitions.csv", transitions_csv(result.transitions));
     write_file(place / "summary.json", summary_json(input, result));
     directory_.commit();

@@ -28,7 +28,7 @@ FigureScript energies_figure(const Case&, const Result& result) {
   FigureScript figure("energies",
                       "Energies, and the motion of striker (u_mf = w_m - w(0)) and struck point "
                       "(f_c = w_c - w(0)) relative to the beam's end. Above: zones, sub-zones and "
-                      "sub-impacts; zones are shaded.",
+                      "sub-impacts, pale where they are not decided; zones are shaded.",
                       {800, 660});
   const TimeUnit unit = time_unit(result.outcome.time);
   const Unit joule = energy_unit(result.used.initial_energy);
@@ -36,7 +36,7 @@ FigureScript energies_figure(const Case&, const Result& result) {
                                           largest(result, &HistoryRow::striker_relative)));
   figure.table("zones", "from,to,number", spans(result, unit, &SubImpact::zone));
   figure.table("subzones", "from,to,number", spans(result, unit, &SubImpact::subzone));
-  figure.table("sub_impacts", "from,to", sub_impact_bands(result, unit));
+  add_sub_impact_bands(figure, "sub_impacts", result, unit);
   const auto line = [&](const char* name, double HistoryRow::*member, double factor) {
     figure.line(name, history_line(result, unit, member, factor), {660, 280});
   };

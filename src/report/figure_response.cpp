@@ -18,7 +18,7 @@ FigureScript response_figure(const Case&, const Result& result) {
   FigureScript figure("response",
                       "Contact force and displacements over the strike: w_c of the struck point, "
                       "w_m of the striker, f_c = w_c - w(0) the beam's deflection at the struck "
-                      "point. Shaded: sub-impacts.",
+                      "point. Shaded: sub-impacts, hatched where they are not decided.",
                       {800, 580});
   const TimeUnit unit = time_unit(result.outcome.time);
   const Unit newton = force_unit(result.max_force);
@@ -31,7 +31,7 @@ FigureScript response_figure(const Case&, const Result& result) {
   line("struck", &HistoryRow::struck_displacement, metre.factor);
   line("striker", &HistoryRow::striker_displacement, metre.factor);
   line("deflection", &HistoryRow::struck_deflection, metre.factor);
-  figure.table("bands", "from,to", sub_impact_bands(result, unit));
+  add_sub_impact_bands(figure, "bands", result, unit);
   figure.set("end", result.outcome.time * unit.per_second).set("time_unit", unit.name);
   figure.set("force_unit", newton.name).set("length_unit", metre.name);
   return figure;

@@ -189,14 +189,21 @@ TimeUnit time_unit(double length) {
   return {1e6, "µs"};
 }
 
-NumberRows sub_impact_bands(const Result& result, TimeUnit unit) {
-  NumberRows bands;
-  for (const SubImpact& s : result.sub_impacts) {
-    bands.push_back(
-        {s.start * unit.per_second, s.end.value_or(result.outcome.time) * unit.per_second});
+void add_sub_impact_bands(FigureScript& figure, const std::string& name, const Result& result,
+                          TimeUnit unit) {
+  const std::size_t n_decided = result.n_decided().value_or(result.sub_impacts.size());
+  NumberRows decided, undecided;
+  for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
+    const SubImpact& s = result.sub_impacts[i];
+    (i < n_decided ? decided : undecided)
+        .push_back({s.start * unit.per_second, result.end_of(s) * unit.per_second});
   }
-  if (bands.empty()) bands.push_back({0.0, 0.0});
-  return bands;
+  figure.set("n_undecided", static_cast<double>(undecided.size()));
+  for (NumberRows* bands : {&decided, &undecided}) {
+    if (bands->empty()) bands->push_back({0.0, 0.0});
+  }
+  figure.table(name, "from,to", decided);
+  figure.table(name + "_undecided", "from,to", undecided);
 }
 
 std::vector<Point> history_line(const Result& result, TimeUnit unit, double HistoryRow::*member,

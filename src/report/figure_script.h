@@ -82,8 +82,11 @@ struct TimeUnit {
 };
 TimeUnit time_unit(double length);
 
-/// One band (from, to) per sub-impact, in the given unit of time.
-NumberRows sub_impact_bands(const Result& result, TimeUnit unit);
+/// Adds the tables $<name> and $<name>_undecided of a band (from, to) per decided and undecided
+/// sub-impact, in the given unit of time, and the variable n_undecided. Without an error estimate
+/// all count as decided.
+void add_sub_impact_bands(FigureScript& figure, const std::string& name, const Result& result,
+                          TimeUnit unit);
 
 /// A column of the history as a line over time.
 std::vector<Point> history_line(const Result& result, TimeUnit unit, double HistoryRow::*member,

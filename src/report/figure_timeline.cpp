@@ -89,11 +89,12 @@ FigureScript timeline_figure(const Case&, const Result& result) {
   FigureScript figure(
       "timeline",
       "Every sub-impact at the time it begins: duration and impulse, on logarithmic "
-      "axes; numbers count the sub-impacts.",
+      "axes; numbers count the sub-impacts. Pale with open circles: not decided.",
       {800, 560});
   const TimeUnit unit = time_unit(result.outcome.time);
   const std::vector<Column> columns = columns_of(result);
   NumberRows panels, sub_impacts;
+  const std::size_t n_decided = result.n_decided().value_or(result.sub_impacts.size());
   std::string titles;
   for (const Column& column : columns) {
     const double margin = edge * (column.to - column.from) / column.width();
@@ -109,12 +110,14 @@ FigureScript timeline_figure(const Case&, const Result& result) {
       if (!column.holds(s)) continue;
       sub_impacts.push_back({static_cast<double>(panels.size()), static_cast<double>(i + 1),
                              s.start * unit.per_second, duration_us(s, result),
-                             impulse_mNs(s, result), 1.0 * durations[i], 1.0 * impulses[i]});
+                             impulse_mNs(s, result), 1.0 * durations[i], 1.0 * impulses[i],
+                             i < n_decided ? 1.0 : 0.0});
     }
   }
   figure.table("columns", "from,to,left,right", panels);
   figure.table("sub_impacts",
-               "column,number,start,duration_us,impulse_mNs,label_duration_us,label_impulse_mNs",
+               "column,number,start,duration_us,impulse_mNs,label_duration_us,label_impulse_mNs,"
+               "decided",
                sub_impacts);
   figure.set("titles", titles).set("time_unit", unit.name);
   return figure;

@@ -33,6 +33,15 @@ void mark_clauses(FigureScript& figure, const std::string& text) {
   }
 }
 
+std::string undecided_mark(const Result& result) {
+  const std::size_t n = result.sub_impacts.size();
+  const std::size_t n_decided = result.n_decided().value_or(n);
+  if (n_decided == n) return {};
+  if (n_decided == 0) return "no sub-impact is decided";
+  return n_decided + 1 == n ? fmt::format("sub-impact {} is not decided", n)
+                            : fmt::format("sub-impacts {} to {} are not decided", n_decided + 1, n);
+}
+
 }  // namespace
 
 std::vector<std::string> figures_left_out(const Case& input, const Result& result) {
@@ -63,7 +72,11 @@ std::vector<FigureScript> figure_scripts(const Case& input, const Result& result
   figures.push_back(timeline_figure(input, result));
   if (!result.section_history.empty()) figures.push_back(bending_figure(input, result));
   const std::string caveat = outcome_caveat(result);
-  for (FigureScript& figure : figures) mark_clauses(figure, caveat);
+  const std::string undecided = undecided_mark(result);
+  for (FigureScript& figure : figures) {
+    mark_clauses(figure, caveat);
+    if (!undecided.empty()) figure.mark(undecided);
+  }
   return figures;
 }
 

@@ -6,6 +6,8 @@
 
 #include "case/counted.h"
 #include "io/sealed_files.h"
+#include "io/sub_impact_rows.h"
+#include "io/uncertain.h"
 #include "io/write_file.h"
 #include "report/files.h"
 #include "report/inlined_svg.h"
@@ -45,7 +47,7 @@ List tiles(const Result& result) {
   };
   const std::size_t n_zones = summarise_zones(result.sub_impacts).size();
   tile(fmt::format("{}", result.sub_impacts.size()),
-       noun_after(result.sub_impacts.size(), "sub-impact"));
+       noun_after(result.sub_impacts.size(), "sub-impact") + decided_words(result));
   tile(fmt::format("{}", n_zones), noun_after(n_zones, "zone"));
   tile(fmt::format("{:.4g} kN", 1e-3 * result.max_force), "largest force");
   tile(fmt::format("{:.4g} mm", 1e3 * result.max_indentation), "largest indentation");
@@ -67,41 +69,51 @@ List figure_list(const DrawnFigures& figures, const std::filesystem::path& figur
   return list;
 }
 
-// The cells of a row; an error that is not given is a question mark.
-std::vector<std::string> sub_impact_cells(const SubImpact& s, std::size_t number,
-                                          bool with_errors) {
-  std::vector<std::string> cells = {fmt::format("{}", number),
-                                    fmt::format("{:.4f}", 1e6 * s.start),
-                                    s.end ? fmt::format("{:.4f}", 1e6 * *s.end) : "(open)",
-                                    s.end ? fmt::format("{:.4f}", 1e6 * (*s.end - s.start)) : "",
-                                    fmt::format("{:.1f}", s.peak_force),
-                                    fmt::format("{:.4f}", 1e3 * s.impulse),
-                                    fmt::format("{:.6f}", 1e3 * s.max_indentation),
-                                    fmt::format("{:.6f}", 1e3 * s.residual_indentation),
-                                    fmt::format("{:.5f}", s.striker_velocity)};
-  if (!with_errors) return cells;
-  for (const auto& error : {s.start_error, s.end_error, s.error_time}) {
-    cells.push_back(error ? fmt::format("{:.1e}", 1e6 * *error) : "?");
+List column_list(const SubImpactRows& table) {
+  List list;
+  for (const SubImpactRows::Column& column : table.columns) {
+    const std::string unit = column.unit;
+    list.push_back({{{"name", column.name}, {"unit", unit == "us" ? "µs" : unit}}, {}});
   }
-  return cells;
+  return list;
 }
 
-List sub_impact_list(const Result& result) {
+// A line across the table, where sub-impacts are no longer decided.
+List undecided_line(const Result& result, std::size_t n_columns) {
+  return {Fields{
+      {{"n_columns", fmt::format("{}", n_columns)}, {"undecided_reason", undecided_reason(result)}},
+      {}}};
+}
+
+List sub_impact_list(const Result& result, const SubImpactRows& table) {
   List list;
+  const std::size_t n_columns = table.columns.size();
+  const std::size_t n_decided = result.n_decided().value_or(table.rows.size());
   int zone = 0, subzone = 0;
   for (const SubImpact& s : result.sub_impacts) {
-    const auto cells = sub_impact_cells(s, list.size() + 1, result.error_estimate.has_value());
+    const SubImpactRows::Row& row = table.rows[list.size()];
     const bool begins = s.zone != zone || s.subzone != subzone;
     zone = s.zone;
     subzone = s.subzone;
-    const Fields heading{{{"n_columns", fmt::format("{}", cells.size())},
+    const Fields heading{{{"n_columns", fmt::format("{}", n_columns)},
                           {"zone", fmt::format("{}", zone)},
                           {"subzone", fmt::format("{}", subzone)}},
                          {}};
-    list.push_back(
-        {{}, {{"subzones", if_given(begins, heading)}, {"cells", list_of("cell", cells)}}});
+    const bool line_before = list.size() == n_decided;
+    list.push_back({{{"row_class", row.is_decided ? "" : " class=\"undecided\""}},
+                    {{"undecided_from", line_before ? undecided_line(result, n_columns) : List{}},
+                     {"subzones", if_given(begins, heading)},
+                     {"cells", list_of("cell", row.cells)}}});
   }
   return list;
+}
+
+// After the last row, where a refined run has sub-impacts that this run lacks.
+List undecided_after(const Result& result, const SubImpactRows& table) {
+  const bool all_here = result.n_decided() == table.rows.size();
+  return all_here && !undecided_reason(result).empty()
+             ? undecided_line(result, table.columns.size())
+             : List{};
 }
 
 List key_list(const Case& input) {
@@ -141,9 +153,7 @@ Fields error_bars(const ErrorEstimate& estimate) {
     parts.push_back(
         {{{"name", part.name},
           {"run", part.refined_run},
-          {"error", part.first_unresolved == std::size_t{0}
-                        ? ""
-                        : fmt::format("{:.1e} µs", 1e6 * part.largest_error)},
+          {"error", part.first_unresolved == std::size_t{0} ? "" : error_text(part.largest_error)},
           {"valid",
            part.first_unresolved
                ? fmt::format(
@@ -185,6 +195,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   const Result& result = run.result;
   const Scene& scene = run.input.scene;
   const std::string caveat = outcome_caveat(result);
+  const SubImpactRows table = sub_impact_rows(result, "±");
   std::string versions = run.program_version;
   for (const auto& [name, version] : run.libraries) versions += ", " + name + " " + version;
   Fields page{
@@ -194,6 +205,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
        {"outcome", std::string(to_string(result.outcome.kind))},
        {"end", duration_text(result.outcome.time)},
+       {"errors", error_words(run.input, result)},
        {"versions", versions}},
       {{"wishes", wish_list(result)},
        {"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
@@ -203,7 +215,9 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"figures", figure_list(figures, figure_directory)},
        {"left_out", list_of("reason", figures.left_out)},
        {"failed", list_of("failure", figures.failed)},
-       {"sub_impacts", sub_impact_list(result)},
+       {"columns", column_list(table)},
+       {"sub_impacts", sub_impact_list(result, table)},
+       {"undecided_after", undecided_after(result, table)},
        {"keys", key_list(run.input)},
        {"without_errors", if_given(!result.error_estimate)},
        {"with_errors", if_given(result.error_estimate.has_value(),

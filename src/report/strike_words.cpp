@@ -23,6 +23,7 @@ std::string sub_impact_words(const Result& result) {
   const std::vector<ZoneSummary> zones = summarise_zones(hits);
   std::string text = fmt::format("What looks like one blow is {} in {}",
                                  counted(hits.size(), "sub-impact"), counted(zones.size(), "zone"));
+  text += decided_words(result);
   if (hits.size() == 1) text = "The strike is a single contact";
   text += hits.back().end
               ? fmt::format("; the last separation comes at {}. ", duration_text(*hits.back().end))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "io/row_thinning.h"
 #include "print.h"
@@ -62,7 +63,7 @@ TEST(ReadResults, IsTheInverseOfWritingThem) {
       EXPECT_EQ(key.get(run.input), key.get(input)) << key.name;
     }
     EXPECT_EQ(summary_json(run.input, run.result), summary_json(input, result));
-    EXPECT_EQ(events_csv(run.result.sub_impacts), events_csv(result.sub_impacts));
+    EXPECT_EQ(events_csv(run.result), events_csv(result));
     EXPECT_EQ(transitions_csv(run.result.transitions), transitions_csv(result.transitions));
     EXPECT_EQ(history_csv(run.result.history), history_csv(result.history));
     EXPECT_EQ(sections_csv(run.result.section_history), sections_csv(result.section_history));
@@ -123,7 +124,7 @@ TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
       "the same, finer", 2, "they part", 3e-9, {{"mesh", "the same, finer", 2, "they part", 3e-9}}};
   write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
   const FinishedRun run = read_results(directory.path);
-  EXPECT_EQ(events_csv(run.result.sub_impacts), events_csv(result.sub_impacts));
+  EXPECT_EQ(events_csv(run.result), events_csv(result));
   ASSERT_TRUE(run.result.error_estimate);
   EXPECT_EQ(run.result.error_estimate->first_unresolved, 2u);
   EXPECT_EQ(run.result.error_estimate->reason, "they part");
@@ -167,6 +168,37 @@ TEST(ReadResults, OfFilesWithoutAWishHaveNone) {
   }
   make_older(directory.path, text, "\"layout\": 3");
   EXPECT_FALSE(read_results(directory.path).result.wish);
+}
+
+TEST(ReadResults, OfOlderTablesLackErrorsAndWhetherSubImpactsAreDecided) {
+  const TemporaryDirectory directory;
+  const Case input = read_case_text(small_case_text(), "small.toml").value;
+  write_results(directory.path, input, sample_result());
+  make_older(directory.path, summary_json(input, sample_result()), "\"layout\": 3");
+  std::istringstream lines(events_csv(sample_result()));
+  std::ofstream older(directory.path / "events.csv");
+  for (std::string line; std::getline(lines, line);) {  // as before: the first 11 columns
+    std::size_t end = 0;
+    for (int k = 0; k < 11; ++k) end = line.find(',', end) + 1;
+    older << line.substr(0, end - 1) << '\n';
+  }
+  older.close();
+  const FinishedRun run = read_results(directory.path);
+  ASSERT_EQ(run.result.sub_impacts.size(), 3u);
+  EXPECT_FALSE(run.result.sub_impacts.front().start_error);
+  EXPECT_FALSE(run.result.n_decided());
+  EXPECT_EQ(events_csv(run.result), events_csv(sample_result()));
+}
+
+TEST(ReadResults, KeepWhichSubImpactsAreDecided) {
+  for (const std::size_t n : {0u, 1u, 3u}) {
+    const TemporaryDirectory directory;
+    const Result result = sample_result_with_errors(n);
+    write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
+    const FinishedRun run = read_results(directory.path);
+    EXPECT_EQ(run.result.n_decided(), n);
+    EXPECT_EQ(events_csv(run.result), events_csv(result));
+  }
 }
 
 TEST(ReadResults, OfLayout2HaveOtherNamesAndTheOppositeMoment) {

@@ -52,12 +52,14 @@ nlohmann::json parsed_summary(const Case& input, const Result& result) {
 TEST(EventsCsv, HasTheAgreedColumns) {
   EXPECT_EQ(events_csv({}),
             "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
-            "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s\n");
+            "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s,decided,"
+            "start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
+            "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s\n");
 }
 
 TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
   const Result result = sample_result();
-  const Table rows = parse_csv(events_csv(result.sub_impacts));
+  const Table rows = parse_csv(events_csv(result));
   ASSERT_EQ(rows.size(), 4u);
   const SubImpact& first = result.sub_impacts[0];
   EXPECT_EQ(rows[1][0], "1");
@@ -71,11 +73,33 @@ TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
 }
 
 TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
-  const Table rows = parse_csv(events_csv(sample_result().sub_impacts));
-  ASSERT_EQ(rows[3].size(), 11u);
+  const Table rows = parse_csv(events_csv(sample_result()));
+  ASSERT_EQ(rows[3].size(), 20u);
   EXPECT_EQ(rows[3][4], "");
   EXPECT_EQ(rows[3][5], "");
   EXPECT_NE(rows[3][6], "");
+}
+
+TEST(EventsCsv, HasTheSameColumnsWhetherErrorsAreKnownOrNot) {
+  Result result = sample_result();
+  const Table without = parse_csv(events_csv(result));
+  for (SubImpact& s : result.sub_impacts) s.start_error = s.end_error = s.error_mesh = 1e-9;
+  result.error_estimate = ErrorEstimate{"the same, finer", 1, "they part", 1e-9, {}};
+  const Table with = parse_csv(events_csv(result));
+  EXPECT_EQ(with[0], without[0]);
+  ASSERT_EQ(with[0][11], "decided");
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(without[i][11], "");
+    EXPECT_EQ(without[i][12], "");
+    EXPECT_EQ(with[i][11], i == 1 ? "1" : "0");
+    EXPECT_EQ(number(with[i][12]), 1e-9);
+  }
+}
+
+TEST(EventsCsv, OfARefinedRunWithMoreSubImpactsHaveOnlyDecidedOnes) {
+  Result result = sample_result();
+  result.error_estimate = ErrorEstimate{"the same, finer", 3, "the refined run has 4", 1e-9, {}};
+  for (const auto& row : parse_csv(events_csv(result))) EXPECT_NE(row[11], "0");
 }
 
 TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
@@ -115,7 +139,7 @@ TEST(ColumnListing, NamesAndExplainsEveryColumnOfEveryTable) {
   Result result = sample_result();
   result.sub_impacts[0].start_error = 1e-9;
   for (const std::string& table :
-       {events_csv(result.sub_impacts), transitions_csv({}), history_csv({}), sections_csv({})}) {
+       {events_csv(result), transitions_csv({}), history_csv({}), sections_csv({})}) {
     const Table rows = parse_csv(table);
     for (const std::string& column : rows[0]) {
       const std::size_t at = listing.find("\n  " + column + " ");

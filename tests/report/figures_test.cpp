@@ -9,6 +9,7 @@
 
 #include "report/figure_script.h"
 #include "report/files.h"
+#include "sample_result.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/case_file.h"
 #include "temporary_directory.h"
@@ -211,6 +212,32 @@ TEST(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
     expect_in(content(directory.path / (figure.name + ".svg")),
               "first failure between 100 and 150 us");
   }
+}
+
+TEST(Figures, SetUndecidedSubImpactsApart) {
+  const TemporaryDirectory directory;
+  const Case input = short_case({});
+  const Result result = sample_result_with_errors(1);
+  for (const FigureScript& figure : figure_scripts(input, result)) {
+    expect_in(figure.text(), "sub-impacts 2 to 3 are not decided");
+  }
+  const std::string response = response_figure(input, result).text();
+  EXPECT_EQ(table_in(response, "$bands").size(), 1u);
+  EXPECT_EQ(table_in(response, "$bands_undecided").size(), 2u);
+  expect_in(timeline_figure(input, result).text(), ",0\nEOD");
+  const DrawnFigures figures = draw_figures(directory.path, input, result);
+  EXPECT_TRUE(figures.failed.empty());
+  expect_in(content(directory.path / "response.svg"), "not decided");
+}
+
+TEST(Figures, OfARunWithoutErrorBarsSetNoSubImpactApart) {
+  const Case input = short_case({});
+  for (const FigureScript& figure : figure_scripts(input, sample_result())) {
+    EXPECT_EQ(figure.text().find("are not decided\""), std::string::npos) << figure.name();
+  }
+  const std::string response = response_figure(input, sample_result()).text();
+  EXPECT_EQ(table_in(response, "$bands").size(), 3u);
+  expect_in(response, "n_undecided = 0\n");
 }
 
 TEST(SpacingOfTics, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {

@@ -7,6 +7,7 @@
 
 #include "report/inlined_svg.h"
 #include "report/strike_words.h"
+#include "sample_result.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/study/strike_account.h"
 #include "temporary_directory.h"
@@ -174,11 +175,37 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   run.result.error_estimate = estimate;
   const std::string page = page_of(run);
   EXPECT_EQ(xml_problem(page), "");
-  for (const char* piece : {"the same with rtol = 1e-10", "2.0e-03 µs", "for all sub-impacts",
+  for (const char* piece : {"the same with rtol = 1e-10", "0.002 us", "for all sub-impacts",
                             "the same with 103 cells", "before sub-impact 2", "they &lt;part&gt;",
                             "sub-impact 2 is the first that is uncertain"}) {
     expect_in(page, piece);
   }
+}
+
+TEST(HtmlReport, CountsAndMarksDecidedSubImpacts) {
+  FinishedRun run = small_run();
+  run.result = sample_result_with_errors(1);
+  const std::string page = html_report(run, {}, ".");
+  EXPECT_EQ(xml_problem(page), "");
+  expect_in(page, "<b>3</b><span>sub-impacts, 1 decided</span>");
+  expect_in(page, "333.333 ± 0.017");
+  const auto line = page.find("From here on not decided: they part.");
+  const auto first_row = page.find("<tr class=\"undecided\">");
+  ASSERT_NE(line, std::string::npos);
+  ASSERT_NE(first_row, std::string::npos);
+  EXPECT_LT(page.find("333.333 ±"), line);
+  EXPECT_LT(line, first_row);
+  expect_in(page, "Error of the event times: times to 0.3 us up to sub-impact 1");
+  expect_in(page, "3 sub-impacts in 2 zones, 1 decided");
+}
+
+TEST(HtmlReport, WithoutErrorBarsMarksNoSubImpact) {
+  FinishedRun run = small_run();
+  run.result = sample_result();
+  const std::string page = html_report(run, {}, ".");
+  EXPECT_EQ(page.find("class=\"undecided\""), std::string::npos);
+  expect_in(page, "<b>3</b><span>sub-impacts</span>");
+  expect_in(page, "Error of the event times: not known");
 }
 
 TEST(HtmlReport, OfARunThatFailedSaysSo) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <sstream>
 
 #include "report/strike_words.h"
 #include "sample_result.h"
@@ -37,6 +38,121 @@ TEST(SubImpactTable, SetsZonesAndSubZonesApartAndMarksAnOpenEnd) {
   EXPECT_LT(zone_1, subzone_2);
   EXPECT_LT(subzone_2, zone_2);
   EXPECT_LT(zone_2, open);
+}
+
+// The line of a table that begins with that number.
+std::string row_of(const std::string& table, const std::string& number) {
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    std::string first;
+    std::istringstream(line) >> first;
+    if (first == number) return line;
+  }
+  ADD_FAILURE() << "no row " << number << " in:\n" << table;
+  return {};
+}
+
+TEST(SubImpactTable, GivesTimesTheirErrorsAndNoDigitBelow) {
+  const std::string table = sub_impact_table(sample_result_with_errors(2));
+  expect_in(row_of(table, "1"), "333.333 +- 0.017");
+  expect_in(row_of(table, "2"), "500.0 +- 0.3");
+  expect_in(row_of(table, "2"), "600.0   +- 0.3");
+  // 0.52 us of 100 us: 0.52 % of 8796 N and of 0.1 N s.
+  expect_in(row_of(table, "2"), " 100.0 ");
+  expect_in(row_of(table, "2"), " 8800");
+  expect_in(row_of(table, "2"), "0.1000");
+  EXPECT_EQ(row_of(table, "2").find("0.10000"), std::string::npos) << table;
+}
+
+TEST(SubImpactTable, ShowsTheExactFirstStartWithoutAnError) {
+  const std::string row = row_of(sub_impact_table(sample_result_with_errors(2)), "1");
+  std::istringstream words(row);
+  std::string number, start, end;
+  words >> number >> start >> end;
+  EXPECT_EQ(start, "0") << row;
+  EXPECT_EQ(end, "333.333") << row;
+}
+
+TEST(SubImpactTable, MarksUndecidedRowsAndGivesTheReasonAboveThem) {
+  const std::string table = sub_impact_table(sample_result_with_errors(1));
+  const auto line = table.find("from here on not decided: they part\n");
+  ASSERT_NE(line, std::string::npos) << table;
+  EXPECT_LT(table.find("333.333"), line);
+  EXPECT_GT(table.find("2?"), line);
+  expect_in(row_of(table, "2?"), "500.0 +- ?");
+  expect_in(row_of(table, "3?"), "5000.0 +- ?");  // the digits of the largest error
+  EXPECT_EQ(row_of(table, "1").find('?'), std::string::npos) << table;
+}
+
+TEST(SubImpactTable, EndsWithTheReasonIfTheRefinedRunHasMoreSubImpacts) {
+  Result result = sample_result_with_errors(3);
+  result.error_estimate->first_unresolved = 3;
+  result.error_estimate->reason = "the refined run has 4";
+  const std::string last = "from here on not decided: the refined run has 4\n";
+  const std::string table = sub_impact_table(result);
+  EXPECT_EQ(table.rfind(last), table.size() - last.size()) << table;
+  EXPECT_EQ(table.find("3?"), std::string::npos) << table;
+}
+
+TEST(SubImpactTable, KeepsDecimalPointsOfAColumnUnderEachOther) {
+  for (const std::size_t n_decided : {0u, 1u, 3u}) {
+    const std::string table = sub_impact_table(sample_result_with_errors(n_decided));
+    const std::string mark = n_decided < 2 ? "?" : "";
+    const std::string second = row_of(table, "2" + mark), third = row_of(table, "3" + mark);
+    // start, and peak force: the columns before and after those that an open end leaves empty
+    EXPECT_EQ(second.find("500.") + 3, third.find("5000.") + 4) << table;
+    EXPECT_EQ(second.find("13"), third.find("13")) << table;
+  }
+}
+
+TEST(SubImpactTable, WithErrorsThatMeanNothingShowsQuestionMarks) {
+  Result result = sample_result_with_errors(3);
+  for (const double error : {std::numeric_limits<double>::infinity(), 1e300, -1.0}) {
+    result.sub_impacts[1].start_error = result.sub_impacts[1].end_error = error;
+    expect_in(row_of(sub_impact_table(result), "2"), "+- ?");
+  }
+}
+
+TEST(SubImpactTable, WithErrorsLargerThanTheTimesStillHasARowPerSubImpact) {
+  Result result = sample_result_with_errors(3);
+  for (SubImpact& s : result.sub_impacts) s.start_error = s.end_error = 7.0;
+  expect_in(row_of(sub_impact_table(result), "2"), "0 +- 7000000");
+}
+
+TEST(ErrorWords, OfDecidedTimesNameTheErrorAndTheEnd) {
+  EXPECT_EQ(error_words(paper_case(), sample_result_with_errors(3)),
+            "all times to 0.3 us up to 8 ms");
+  expect_in(run_summary(paper_case(), sample_result_with_errors(3)),
+            "  error               all times to 0.3 us up to 8 ms\n");
+  expect_in(run_summary(paper_case(), sample_result_with_errors(3)), "3 in 2 zones, all decided\n");
+}
+
+TEST(ErrorWords, NameTheLastDecidedSubImpactItsEndAndTheReason) {
+  EXPECT_EQ(error_words(paper_case(), sample_result_with_errors(2)),
+            "times to 0.3 us up to sub-impact 2 (600 us); from there undecided: they part");
+  const std::string summary = run_summary(paper_case(), sample_result_with_errors(2));
+  expect_in(summary, "3 in 2 zones, 2 decided\n");
+  expect_in(summary,
+            "zone 2              1 sub-impact in 1 sub-zone, 5000.0 to (open) us, not decided\n");
+  EXPECT_EQ(summary.find("0.0e+00"), std::string::npos);
+}
+
+TEST(ErrorWords, OfNothingDecidedNameTheSettingToTry) {
+  Result result = sample_result_with_errors(0);
+  EXPECT_EQ(error_words(paper_case(), result),
+            "no sub-impact is decided: they part; try a larger model.segments");
+  result.error_estimate->parts.front().name = "time";
+  expect_in(error_words(paper_case(), result), "; try a smaller solver.rtol");
+  result.used.step = 1e-7;
+  expect_in(error_words(paper_case(), result), "; try a shorter solver.step");
+  result.error_estimate->parts.front().name = "layers";
+  expect_in(error_words(paper_case(), result), "; try model.section = \"exact\"");
+}
+
+TEST(ErrorWords, OfARunWithoutErrorBarsSayHowToGetThem) {
+  EXPECT_EQ(error_words(paper_case(), sample_result()),
+            "not known; --error-bars estimates the error of every time");
+  expect_in(run_summary(paper_case(), sample_result()), "  error               not known; ");
 }
 
 TEST(FailureMessage, NamesTimeModeMethodLastEventAndCause) {

@@ -46,4 +46,22 @@ inline Result sample_result() {
   return result;
 }
 
+/// The same with errors of 0.0163 and 0.26 us in the first two sub-impacts, of which `n_decided`
+/// are decided.
+inline Result sample_result_with_errors(std::size_t n_decided) {
+  Result result = sample_result();
+  result.sub_impacts[0].start_error = 0.0;
+  result.sub_impacts[0].end_error = 0.0163e-6;
+  result.sub_impacts[1].start_error = result.sub_impacts[1].end_error = 0.26e-6;
+  ErrorEstimate estimate;
+  estimate.refined_run = "the same, finer";
+  if (n_decided < result.sub_impacts.size()) estimate.first_unresolved = n_decided;
+  estimate.reason = n_decided < result.sub_impacts.size() ? "they part" : "";
+  estimate.largest_error = 0.26e-6;
+  estimate.parts = {{"mesh", "the same, finer", estimate.first_unresolved, estimate.reason,
+                     estimate.largest_error}};
+  result.error_estimate = estimate;
+  return result;
+}
+
 }  // namespace subimpact

@@ -16,12 +16,21 @@ namespace subimpact {
 /// the results passed every check, in one line; empty for a run that completed.
 std::string outcome_caveat(const Result& result);
 
+/// The error of the event times, in one line: of all, or up to which sub-impact and why no further;
+/// where nothing is known, which setting to try.
+std::string error_words(const Case& input, const Result& result);
+
+/// ", 9 decided", ", all decided": continues a number of sub-impacts. Empty without error estimate.
+std::string decided_words(const Result& result);
+
 /// What became of a wished accuracy, in one line: wish, horizon, error reached, reason and the key
 /// to free.
 std::string wish_words(const WishOutcome& wish, const Result& result);
 
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
-/// with outcome_caveat(), if there is one.
+/// with outcome_caveat(), if there is one. With an error estimate, times have their errors beside
+/// them, no number has a digit below what the errors allow, and a line with the reason stands where
+/// sub-impacts are no longer decided; these have question marks.
 std::string sub_impact_table(const Result& result);
 
 /// A dozen lines: how the run ended, what happened, what it cost.

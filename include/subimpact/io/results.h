@@ -72,8 +72,9 @@ std::string comparison_csv(const Comparison& comparison);
 std::string matches_csv(const Comparison& comparison);
 
 /// The contents of the files of a run. Numbers in CSV carry 17 significant digits, enough to read
-/// the same double back; a sub-impact that has not ended has empty end and duration columns.
-std::string events_csv(const std::vector<SubImpact>& sub_impacts);
+/// the same double back; a sub-impact that has not ended has empty end and duration columns. The
+/// columns are the same for every result.
+std::string events_csv(const Result& result);
 std::string transitions_csv(const std::vector<Transition>& transitions);
 std::string history_csv(const std::vector<HistoryRow>& history);
 std::string sections_csv(const std::vector<SectionRow>& sections);

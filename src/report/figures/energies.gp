@@ -1,6 +1,6 @@
-# Tables: $zones, $subzones (from, to, number), $sub_impacts (from, to), $striker, $kinetic,
-# $elastic, $plastic, $contact (energies) and $struck_point, $striker_path (x, y).
-# Variables: end, time_unit, energy_unit, length_unit.
+# Tables: $zones, $subzones (from, to, number), $sub_impacts, $sub_impacts_undecided (from, to),
+# $striker, $kinetic, $elastic, $plastic, $contact (energies) and $struck_point, $striker_path (x,
+# y). Variables: end, time_unit, energy_unit, length_unit, n_undecided.
 middle(unused) = 0.5*(column('from') + column('to'))
 is_wide(unused) = column('to') - column('from') > 0.012*end
 set multiplot title marks font ',12'
@@ -21,6 +21,8 @@ plot $zones using (middle(0)):(2.5):'from':'to':(2.08):(2.92) with boxxyerror \
        lc rgb '#BDBDBD' notitle, \
      $sub_impacts using (middle(0)):(0.5):'from':'to':(0.08):(0.92) with boxxyerror \
        lc rgb '#E69F00' notitle, \
+     $sub_impacts_undecided using (middle(0)):(0.5):'from':'to':(0.08):(0.92) with boxxyerror \
+       lc rgb '#F6DDAA' notitle, \
      $zones using (is_wide(0) ? middle(0) : NaN):(2.5):'number' with labels font ',12' notitle, \
      $subzones using (is_wide(0) ? middle(0) : NaN):(1.5):'number' with labels font ',12' notitle
 set border 3
@@ -37,7 +39,9 @@ plot $striker with lines title 'striker U_m', \
      $kinetic with lines title 'beam, kinetic U_k', \
      $elastic with lines title 'bending, elastic U_e', \
      $plastic with lines title 'bending, plastic U_p', \
-     $contact with lines title 'contact, plastic D_c'
+     $contact with lines title 'contact, plastic D_c', \
+     keyentry with boxes fillstyle solid noborder linecolor rgb '#F6DDAA' \
+       title n_undecided > 0 ? 'sub-impacts not decided' : ''
 
 eval placed(0.15, 0.97, 0.1, 0.43)
 set ylabel 'deformation, '.length_unit

@@ -19,7 +19,10 @@ placed(left, right, bottom, top) = sprintf( \
   'set lmargin at screen %g; set rmargin at screen %g; set bmargin at screen %g; '.\
   'set tmargin at screen %g', left, right, panels*bottom, panels*top)
 # eval shaded('$table', colour): bands behind the panels that follow, from columns "from" and "to".
-shaded(table, colour) = 'unset object; n = |'.table.'| - 1; array from[n]; array to[n]; '.\
+# eval hatched('$table', colour): more of them, hatched.
+shaded(table, colour) = 'unset object; '.bands(table, colour, 1, 'solid')
+hatched(table, colour) = bands(table, colour, 100001, 'transparent pattern 4')
+bands(table, colour, first, fill) = 'n = |'.table.'| - 1; array from[n]; array to[n]; '.\
   'stats '.table.' using (from[int($0) + 1] = column("from"), to[int($0) + 1] = column("to"), 0) '.\
-  'nooutput; do for [i=1:n] { set object i rectangle from first from[i], graph 0 '.\
-  'to first to[i], graph 1 behind fillcolor rgb "'.colour.'" fillstyle solid noborder }'
+  'nooutput; do for [i=1:n] { set object i + '.first.' - 1 rectangle from first from[i], graph 0 '.\
+  'to first to[i], graph 1 behind fillcolor rgb "'.colour.'" fillstyle '.fill.' noborder }'

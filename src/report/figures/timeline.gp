@@ -1,6 +1,6 @@
 # Tables: $columns (from, to, left, right: what a column of panels shows and where), $sub_impacts
 # (column, number, start, duration_us, impulse_mNs; label_duration_us, label_impulse_mNs: whether
-# there is room for the number). Variables: titles of the columns, time_unit.
+# there is room for the number; decided: 1 or 0). Variables: titles of the columns, time_unit.
 n = |$columns| - 1
 array from[n]
 array to[n]
@@ -9,6 +9,8 @@ array right[n]
 stats $columns using (k = int($0) + 1, from[k] = column('from'), to[k] = column('to'), \
                       left[k] = column('left'), right[k] = column('right'), 0) nooutput
 of(c, name) = column('column') == c ? column(name) : NaN
+decided(c, name) = column('decided') == 1 ? of(c, name) : NaN
+undecided(c, name) = column('decided') == 0 ? of(c, name) : NaN
 number(c, name) = column('label_'.name) == 1 ? of(c, name) : NaN
 
 set multiplot title marks font ',12'
@@ -33,8 +35,12 @@ do for [name in 'duration_us impulse_mNs'] {
     set ylabel (c > 1 ? '' : first ? 'duration, µs' : 'impulse, mN s')
     set format y (c > 1 ? '' : '%g')
     set xlabel (first ? '' : 'start, '.time_unit)
-    plot $sub_impacts using 'start':(of(c, name)) with impulses lc (first ? 1 : 2) lw 2, \
-         $sub_impacts using 'start':(of(c, name)) with points lc (first ? 1 : 2) pt 7 ps 0.8, \
+    dark = first ? '#0072B2' : '#D55E00'
+    pale = first ? '#8CBEDF' : '#EFB58C'
+    plot $sub_impacts using 'start':(decided(c, name)) with impulses lc rgb dark lw 2, \
+         $sub_impacts using 'start':(undecided(c, name)) with impulses lc rgb pale lw 1.5, \
+         $sub_impacts using 'start':(decided(c, name)) with points lc rgb dark pt 7 ps 0.8, \
+         $sub_impacts using 'start':(undecided(c, name)) with points lc rgb pale pt 6 ps 0.9, \
          $sub_impacts using 'start':(number(c, name)):'number' with labels center offset 0, 0.8 \
            font ',11'
   }
