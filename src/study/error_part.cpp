@@ -103,13 +103,17 @@ ErrorEstimate::Part judge(const Result& result, const ErrorPart& part) {
   return estimate;
 }
 
-// The error of the gap at the events beside a near miss, m: differences in time, each times the
+// The error of the gap at the event nearest to a near miss, m: the difference in time, times the
 // rate of the indentation.
 double gap_error_beside(const Result& here, const Result& there, const NearMiss& near_miss) {
   const std::size_t doubted = first_in_doubt(here, near_miss);
+  double nearest = std::numeric_limits<double>::infinity();
   double error = 0.0;
   const auto consider = [&](double a, double b, double rate) {
-    error = std::max(error, std::abs(rate * (a - b)));
+    const double distance = std::abs(a - near_miss.time);
+    if (!(distance < nearest)) return;
+    nearest = distance;
+    error = std::abs(rate * (a - b));
   };
   const auto start = [&](std::size_t i) {
     if (i >= here.sub_impacts.size() || i >= there.sub_impacts.size()) return;

@@ -23,8 +23,8 @@ struct ErrorPart {
 /// zero is not taken for accuracy.
 ///
 /// The error of the gap at each near miss: `factor` times the difference of the two runs' margins.
-/// Where the other run has no such near miss, it is `factor` times the larger of the differences of
-/// the two events beside the near miss, each times the rate of the indentation there.
+/// Where the other run has no such near miss, it is `factor` times the difference of the nearest
+/// start or end in time, times the rate of the indentation there.
 ErrorPart compare_events(const Result& result, const Result& refined_run, std::string name,
                          std::string description, double factor);
 

@@ -126,17 +126,21 @@ TEST(ANearMiss, LeavesUndecidedWhatFollowsOnlyIfItsMarginIsBelowTheGapsError) {
   EXPECT_EQ(first_unresolved(run, with_margin(1.6 * um, 1.0 * um), 2.0), 0u);
 }
 
-TEST(ANearMissWithoutACounterpart, IsJudgedByTheErrorsAndRatesOfTheEventsBesideIt) {
+TEST(ANearMissWithoutACounterpart, IsJudgedByErrorAndRateOfTheNearestEvent) {
   // Half a microsecond at an end of 1 m/s: 0.5 um; at a start of 2 m/s: 1 um.
   const Result other = two_contacts({}, 0.5 * us);
   const auto with = [](NearMiss near_miss) { return two_contacts({near_miss}); };
   const auto judged = [&](double time, double margin, NearMissKind kind) {
     return first_unresolved(with({time, margin, kind}), other, 1.0);
   };
-  EXPECT_EQ(judged(50 * us, 0.49 * um, NearMissKind::opening), 0u);
-  EXPECT_EQ(judged(50 * us, 0.51 * um, NearMissKind::opening), std::nullopt);
-  EXPECT_EQ(judged(150 * us, 0.99 * um, NearMissKind::closing), 1u);
-  EXPECT_EQ(judged(150 * us, 1.01 * um, NearMissKind::closing), std::nullopt);
+  EXPECT_EQ(judged(80 * us, 0.49 * um, NearMissKind::opening), 0u);
+  EXPECT_EQ(judged(80 * us, 0.51 * um, NearMissKind::opening), std::nullopt);
+  EXPECT_EQ(judged(210 * us, 0.99 * um, NearMissKind::opening), 1u);
+  EXPECT_EQ(judged(210 * us, 1.01 * um, NearMissKind::opening), std::nullopt);
+  EXPECT_EQ(judged(110 * us, 0.49 * um, NearMissKind::closing), 1u);
+  EXPECT_EQ(judged(110 * us, 0.51 * um, NearMissKind::closing), std::nullopt);
+  EXPECT_EQ(judged(190 * us, 0.99 * um, NearMissKind::closing), 1u);
+  EXPECT_EQ(judged(190 * us, 1.01 * um, NearMissKind::closing), std::nullopt);
   EXPECT_EQ(judged(350 * us, 0.49 * um, NearMissKind::closing), 2u);
   EXPECT_EQ(judged(350 * us, 0.51 * um, NearMissKind::closing), std::nullopt);
 }
