@@ -260,6 +260,7 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
     result.outcome = {outcome_kind(outcome.at("kind").get<std::string>()),
                       number(outcome.at("time_s")), outcome.at("message").get<std::string>(),
                       interval_from(outcome.value("first_failure_s", Json()))};
+    result.choice = json.value("choice", std::string());
     result.warnings = json.value("warnings", std::vector<std::string>());
     result.n_history_rows = json.at("counts").at("history_rows").get<std::size_t>();
     result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();

@@ -215,6 +215,7 @@ std::string run_summary(const Case& input, const Result& result) {
   line("model", fmt::format("{}; section {}; {}", result.used.mesh,
                             to_text(*find_case_key("model.section")->get(input)),
                             counted(result.used.n_unknowns, "unknown")));
+  if (!result.choice.empty()) line("chosen because", printable(result.choice));
   line("masses", fmt::format("beam {}, striker {}", mass_text(input.scene.beam.mass()),
                              mass_text(input.scene.striker.mass)));
   line("sub-impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),

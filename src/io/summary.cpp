@@ -225,6 +225,7 @@ std::string summary_json(const Case& input, const Result& result) {
         {"first_failure_s", interval(result.outcome.first_failure)}}},
       {"wish_met", result.wish ? Json(result.wish->met) : Json(nullptr)},
       {"wish", wish_or_null(result.wish)},
+      {"choice", result.choice},
       {"warnings", result.warnings},
       {"counts", counts(result, zones)},
       {"zones", zone_list(zones)},

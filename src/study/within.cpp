@@ -254,6 +254,7 @@ WithinRun Ladder::climb() {
 void Ladder::report(WithinRun& run) const {
   Result& result = run.result;
   result.choice = model_.reason;
+  if (!obstacle_.empty() && !input_.accuracy.event_times) result.choice += "; " + obstacle_;
   if (!input_.accuracy.event_times) return;
   WishOutcome outcome;
   outcome.wished = wish_;
