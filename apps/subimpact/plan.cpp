@@ -35,12 +35,12 @@ int run_plan(const PlanCommand& command) {
   });
   status.clear();
   print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-        mesh_limit_table(result.limit), "\n" + plan_table(result));
+        plan_reference_table(result), plan_table(result));
   if (directory) {
     write_plan(directory->staging(), result);
     directory->commit();
     print_warnings(directory->notes());
-    print("meshes.csv, mesh_limit.csv and plan.csv in {}\n", command.directory);
+    print("reference.csv and plan.csv in {}\n", command.directory);
   }
   if (!result.interrupted) return done;
   print_error("subimpact: interrupted; the combinations above are those that were tried\n");
@@ -59,12 +59,12 @@ void add_plan(CLI::App& program, int& status) {
                   "together, with its unit: 1us")
       ->required();
   command->add_option("--out", options->directory,
-                      "Directory for meshes.csv, mesh_limit.csv and plan.csv; made if missing. "
+                      "Directory for reference.csv and plan.csv; made if missing. "
                       "Without it nothing is written");
   command->footer(
-      "The limit of fine meshes and its uncertainty come from meshes of a quarter to four times "
-      "the case's size; every combination is compared with that limit. Runs are timed one at a "
-      "time: leave the machine otherwise idle.\n"
+      "The reference is what run --within makes of the case for a fifth of the error. Sequences of "
+      "meshes and methods are judged by it; a mesh is admitted only if all finer ones of its "
+      "sequence are within the error too.\n"
       "Examples:\n"
       "  subimpact plan case.toml --within 1us\n"
       "  subimpact plan case.toml --within 0.05us --set model.section=elastic --out out/plan\n"

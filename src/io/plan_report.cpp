@@ -16,46 +16,34 @@ constexpr double us = 1e6;  // per second
 
 std::string settings_text(const PlanPoint& point) {
   const ModelOptions& model = point.input.model;
-  const auto [method, table, events] = parse_method_name(point.run.setting.method);
-  std::string text = fmt::format("--method {}", method);
-  if (table) text += fmt::format(" --set solver.table={}", *table);
-  if (events) text += fmt::format(" --set solver.events={}", *events);
   const MeshDescriptor& mesh = descriptor_of(model.mesh);
-  text += fmt::format(" --set model.mesh={} --set {}={}", mesh.name, mesh.refinement->key,
-                      model.*(mesh.refinement->count));
+  std::string text = fmt::format("--method {} --set model.mesh={} --set {}={}", point.method,
+                                 mesh.name, mesh.refinement->key, model.*(mesh.refinement->count));
   if (model.strike_refinement != 1.0 && mesh_uses(point.input, "model.strike_refinement")) {
     text += fmt::format(" --set model.strike_refinement={:g} --set model.refined_length={:g}",
                         model.strike_refinement, model.refined_length);
   }
-  text += fmt::format(" --set model.section={}", name_of(model.section));
-  text += fmt::format(" --set solver.{}={:.6g}", point.run.setting.fixed_step ? "step" : "rtol",
-                      point.run.setting.value);
-  return text;
+  if (point.input.solver.step) {
+    return text + fmt::format(" --set solver.step={:.17g}", *point.input.solver.step);
+  }
+  const bool adaptive = point.input.solver.method != Method::central_difference;
+  return adaptive ? text + fmt::format(" --set solver.rtol={:.17g}", point.input.solver.rtol)
+                  : text;
 }
 
 }  // namespace
 
-std::string mesh_limit_table(const MeshLimit& limit) {
+std::string plan_reference_table(const Plan& plan) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "event times in the limit of fine meshes, from {}\n", limit.description);
-  for (const FirstEndLimit& family : limit.first_end) {
-    fmt::format_to(out, "first separation from {}: {:.5f} +- {:.1e} us, observed order {:.2f}\n",
-                   family.meshes, family.value * us, family.uncertainty * us, family.order);
-  }
+  fmt::format_to(out, "reference: {}, {}\n", plan.reference.result.used.mesh,
+                 name_of(plan.reference.input.solver.method));
   fmt::format_to(out, "{:>4} {:>14} {:>14} {:>11}\n", "no.", "start, us", "end, us", "+- us");
-  for (std::size_t i = 0; i < limit.sub_impacts.size(); ++i) {
-    fmt::format_to(out, "{:>4} {:>14.5f} {:>14.5f} {:>11.1e}\n", i + 1,
-                   limit.sub_impacts[i].start * us, *limit.sub_impacts[i].end * us,
-                   limit.uncertainty[i] * us);
-  }
-  fmt::format_to(out, "horizon: {:.3f} us ({})\n\n", limit.horizon * us, limit.horizon_reason);
-  fmt::format_to(out, "{:>15} {:>20} {:>12} {:>12} {:>12}\n", "mesh", "first separation, us",
-                 "correspond", "median, us", "largest, us");
-  for (const MeshRun& run : limit.runs) {
-    fmt::format_to(out, "{:>15} {:>20.5f} {:>9}/{:<2} {:>12.2e} {:>12.2e}\n", run.mesh,
-                   run.first_end * us, run.errors.n_corresponding, run.errors.n_reference,
-                   run.errors.median * us, run.errors.maximum * us);
+  for (std::size_t i = 0; i < plan.sub_impacts.size(); ++i) {
+    const SubImpact& s = plan.sub_impacts[i];
+    fmt::format_to(out, "{:>4} {:>14.5f} {:>14} {:>11.1e}\n", i + 1, s.start * us,
+                   s.end ? fmt::format("{:.5f}", *s.end * us) : "(open)",
+                   us * s.end_error.value_or(s.start_error.value_or(0.0)));
   }
   return fmt::to_string(text);
 }
@@ -63,53 +51,48 @@ std::string mesh_limit_table(const MeshLimit& limit) {
 std::string plan_table(const Plan& plan) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:>15} {:<20} {:<16} {:<12} {:>13} {:>14} {:>11}\n", "mesh", "method",
-                 "setting", "verdict", "mesh, us", "in all, us", "wall time");
+  fmt::format_to(out, "{:>44} {:<20} {:<12} {:>12} {:>9} {:>11}\n", "mesh", "method", "verdict",
+                 "error, us", "work", "wall time");
   for (const PlanPoint& point : plan.points) {
-    fmt::format_to(out, "{:>15} {:<20} {:<16} {:<12} {:>13.2e} {:>14.2e} {:>11} {}\n", point.mesh,
-                   point.run.setting.method, point.run.setting.text(), to_string(point.run.verdict),
-                   point.mesh_error * us, point.run.errors.maximum * us,
-                   duration_text(point.run.seconds),
-                   point.run.reaches(plan.wanted) ? "" : "not within");
+    fmt::format_to(out, "{:>44} {:<20} {:<12} {:>12.2e} {:>9.1e} {:>11} {}\n", point.mesh,
+                   point.method, to_string(point.verdict), point.errors.maximum * us, point.work,
+                   duration_text(point.seconds),
+                   point.admitted ? "within, as are all finer ones"
+                   : point.within ? "within by chance: a finer one is not"
+                                  : "not within");
   }
   if (plan.cheapest) {
     const PlanPoint& best = plan.points[*plan.cheapest];
-    fmt::format_to(
-        out, "\ncheapest within {:g} us in all: {}, {} at {}: {}, error {:.1e} us\n  {}\n",
-        plan.wanted * us, best.mesh, best.run.setting.method, best.run.setting.text(),
-        duration_text(best.run.seconds), best.run.errors.maximum * us, settings_text(best));
+    fmt::format_to(out,
+                   "\ncheapest within {:g} us in all: {}, {}: {}, error {:.1e} us beside a "
+                   "reference known to {:.1e} us\n  {}\n",
+                   plan.wanted * us, best.mesh, best.method, duration_text(best.seconds),
+                   best.errors.maximum * us, plan.reference_error * us, settings_text(best));
   } else {
-    fmt::format_to(out, "\nno combination that was tried is within {:g} us\n", plan.wanted * us);
+    fmt::format_to(out, "\nno mesh that was tried is within {:g} us together with all finer ones\n",
+                   plan.wanted * us);
   }
+  fmt::format_to(out, "judged up to {:.3f} us ({})\n", plan.horizon * us, plan.horizon_reason);
   return fmt::to_string(text);
 }
 
 void write_plan(const std::filesystem::path& directory, const Plan& plan) {
-  const Columns<MeshRun> meshes = {
-      {"mesh", &MeshRun::mesh},
-      {"first_separation_s", &MeshRun::first_end},
-      {"reference_sub_impacts", [](const MeshRun& run) { return run.errors.n_reference; }},
-      {"corresponding", [](const MeshRun& run) { return run.errors.n_corresponding; }},
-      {"median_error_s", [](const MeshRun& run) { return run.errors.median; }},
-      {"max_error_s", [](const MeshRun& run) { return run.errors.maximum; }}};
-  write_file(directory / "meshes.csv", csv_text(meshes, plan.limit.runs));
-  const Columns<SubImpact> limit = {
+  const Columns<SubImpact> reference = {
       {"index", [](const SubImpact&, std::size_t i) { return i + 1; }},
       {"start_s", &SubImpact::start},
       {"end_s", &SubImpact::end},
-      {"uncertainty_s",
-       [&](const SubImpact&, std::size_t i) { return plan.limit.uncertainty[i]; }}};
-  write_file(directory / "mesh_limit.csv", csv_text(limit, plan.limit.sub_impacts));
+      {"start_error_s", &SubImpact::start_error},
+      {"end_error_s", &SubImpact::end_error}};
+  write_file(directory / "reference.csv", csv_text(reference, plan.sub_impacts));
   const Columns<PlanPoint> points = {
       {"mesh", &PlanPoint::mesh},
-      {"method", [](const PlanPoint& p) { return p.run.setting.method; }},
-      {"kind", [](const PlanPoint& p) { return p.run.setting.fixed_step ? "step" : "rtol"; }},
-      {"setting", [](const PlanPoint& p) { return p.run.setting.value; }},
-      {"verdict", [](const PlanPoint& p) { return p.run.verdict; }},
-      {"mesh_error_s", &PlanPoint::mesh_error},
-      {"total_error_s", [](const PlanPoint& p) { return p.run.errors.maximum; }},
-      {"wall_s", [](const PlanPoint& p) { return p.run.seconds; }},
-      {"right_hand_sides", [](const PlanPoint& p) { return p.run.work.right_hand_sides; }}};
+      {"method", &PlanPoint::method},
+      {"verdict", &PlanPoint::verdict},
+      {"error_s", [](const PlanPoint& p) { return p.errors.maximum; }},
+      {"within", [](const PlanPoint& p) { return p.within ? 1 : 0; }},
+      {"admitted", [](const PlanPoint& p) { return p.admitted ? 1 : 0; }},
+      {"counted_work", &PlanPoint::work},
+      {"wall_s", &PlanPoint::seconds}};
   write_file(directory / "plan.csv", csv_text(points, plan.points));
 }
 

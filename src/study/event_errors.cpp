@@ -1,5 +1,7 @@
 #include "subimpact/study/event_errors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +29,14 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
   for (std::size_t i = 0; i < errors.n_corresponding; ++i) {
     const SubImpact& there = reference[i];
     const SubImpact& here = run[i];
+    if (there.end && !here.end) {
+      errors.n_corresponding = i;
+      errors.unmatched = {here.start, *there.end - there.start,
+                          fmt::format("at {:.3f} us the contact of the reference ends, and it is "
+                                      "still open here",
+                                      1e6 * *there.end)};
+      break;
+    }
     if (i > 0) times.push_back(std::abs(here.start - there.start));
     if (here.end && there.end) times.push_back(std::abs(*here.end - *there.end));
     errors.peak_force =

@@ -1,4 +1,5 @@
 #include "subimpact/io/report.h"
+#include "subimpact/io/plan.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -260,6 +261,27 @@ TEST(Wish, NotMetNamesTheErrorReachedOrThatItIsNotKnown) {
 
 TEST(Wish, IsNotMentionedWhereNoneWasMade) {
   EXPECT_EQ(run_summary(paper_case(), sample_result()).find("wish"), std::string::npos);
+}
+
+TEST(PlanTable, EndsWithItsHorizonAndNamesTheAdmittedMesh) {
+  Plan plan;
+  plan.wanted = 1e-6;
+  plan.horizon = 285e-6;
+  plan.horizon_reason = "the case's end";
+  PlanPoint point;
+  point.mesh = "96 elements";
+  point.method = "exponential";
+  point.input.model.mesh = MeshKind::hermite;
+  point.input.model.elements = 96;
+  point.verdict = Verdict::right;
+  point.within = point.admitted = true;
+  plan.points = {point};
+  plan.cheapest = 0;
+  const std::string table = plan_table(plan);
+  EXPECT_NE(table.find("--method exponential --set model.mesh=hermite --set model.elements=96"),
+            std::string::npos)
+      << table;
+  EXPECT_TRUE(table.ends_with("\njudged up to 285.000 us (the case's end)\n")) << table;
 }
 
 std::string explanation_of(const Case& input) {

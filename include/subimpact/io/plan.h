@@ -7,13 +7,13 @@
 
 namespace subimpact {
 
-/// Extrapolated times with their uncertainty, and every mesh's error against them.
-std::string mesh_limit_table(const MeshLimit& limit);
+/// The reference's event times with their errors.
+std::string plan_reference_table(const Plan& plan);
 
-/// What was tried on which mesh, and the cheapest combination with the options that select it.
+/// What was tried, the cheapest that is admitted with the options that select it, and the horizon.
 std::string plan_table(const Plan& plan);
 
-/// Writes meshes.csv, mesh_limit.csv and plan.csv. Throws OutputError.
+/// Writes reference.csv and plan.csv. Throws OutputError.
 void write_plan(const std::filesystem::path& directory, const Plan& plan);
 
 }  // namespace subimpact
