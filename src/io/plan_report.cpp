@@ -87,7 +87,7 @@ void write_plan(const std::filesystem::path& directory, const Plan& plan) {
   const Columns<PlanPoint> points = {
       {"mesh", &PlanPoint::mesh},
       {"method", &PlanPoint::method},
-      {"verdict", &PlanPoint::verdict},
+      {"verdict", [](const PlanPoint& p) { return p.verdict; }},
       {"error_s", [](const PlanPoint& p) { return p.errors.maximum; }},
       {"within", [](const PlanPoint& p) { return p.within ? 1 : 0; }},
       {"admitted", [](const PlanPoint& p) { return p.admitted ? 1 : 0; }},

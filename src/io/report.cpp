@@ -115,7 +115,8 @@ std::string outcome_caveat(const Result& result) {
 }
 
 std::string error_words(const Case& input, const Result& result) {
-  if (!result.error_estimate) return "not known; --error-bars estimates the error of every time";
+  if (!result.error_estimate)
+    return "not known; without --error-bars=off a companion run estimates it";
   const ErrorEstimate& estimate = *result.error_estimate;
   const std::string text = valid_times_text(result, estimate.largest_error,
                                             estimate.first_unresolved, undecided_reason(result));

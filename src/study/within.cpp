@@ -25,6 +25,8 @@ namespace {
 constexpr double least_refinement = 1.25;
 constexpr double usual_refinement = 2.0;
 constexpr double half_refinement = 1.4142135623730951;
+// An error that a finer mesh leaves larger than this share of what it was is not the mesh's.
+constexpr double stalled = 0.8;
 // Of the refinement that the stated error asks for.
 constexpr double margin = 1.05;
 // Of the time scale of the shortest contacts, where nothing is wished.
@@ -101,6 +103,7 @@ class Ladder {
   std::optional<Level> level_, coarser_;
   Reach reach_;
   double work_ = 0.0;           // of all runs so far
+  double last_error_ = 0.0;     // s, of the decided events of the level before
   bool last_was_half_ = false;  // doubling, see finer_case()
   std::string obstacle_;        // why no finer mesh is run
   std::string key_;             // that stands in the way
@@ -182,6 +185,13 @@ std::optional<Case> Ladder::finer_case() {
     obstacle_ = fmt::format("{} is fixed by the case", key);
     return std::nullopt;
   }
+  if (!open_.tolerance && last_error_ > 0.0 && reach_.error_decided > stalled * last_error_) {
+    key_ = level_->input.solver.step ? "solver.step" : "solver.rtol";
+    obstacle_ =
+        fmt::format("the error no longer falls with the mesh, and {} is fixed by the case", key_);
+    return std::nullopt;
+  }
+  last_error_ = reach_.error_decided;
   double ratio = usual_refinement;
   if (reach_.error_decided > wish_) {
     ratio = margin * std::pow(reach_.error_decided / wish_, 1.0 / refinement_->order());

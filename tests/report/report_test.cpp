@@ -152,7 +152,7 @@ TEST(ErrorWords, OfNothingDecidedNameTheSettingToTry) {
 
 TEST(ErrorWords, OfARunWithoutErrorBarsSayHowToGetThem) {
   EXPECT_EQ(error_words(paper_case(), sample_result()),
-            "not known; --error-bars estimates the error of every time");
+            "not known; without --error-bars=off a companion run estimates it");
   expect_in(run_summary(paper_case(), sample_result()), "  error               not known; ");
 }
 

@@ -144,6 +144,19 @@ TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
   EXPECT_EQ(run.input.model.segments, 101);
 }
 
+TEST(AWish, ThatAFixedToleranceCannotMeetNamesThatKey) {
+  Case input = elastic_case(1e-3);
+  input.model.mesh = MeshKind::hermite;
+  input.solver.method = Method::erk;
+  input.solver.rtol = 1e-4;
+  input.accuracy.event_times = 1e-9;
+  OpenChoices open;
+  open.method = open.tolerance = false;
+  const WithinRun run = simulate_within(input, open);
+  EXPECT_FALSE(run.result.wish->met);
+  EXPECT_EQ(run.result.wish->key, "solver.rtol") << run.result.wish->reason;
+}
+
 TEST(AWish, StopsAtTheLimitOfWork) {
   Case input = paper_case(1e-3);
   input.accuracy.event_times = 1e-10;
