@@ -15,8 +15,8 @@ namespace subimpact {
 ///
 /// With h the size of the cells or elements and p the order of the mesh, a difference d between the
 /// run and its companion stands for an error of the run of d/(2^p - 1). Stated is 2.1 times that, 5
-/// times where p = 4, 4 times where hinges make the convergence uneven, and at least what free ends
-/// leave.
+/// times where p = 4, 3 times where sections of cells yield and 4 times where those of elements do,
+/// and at least what free ends leave.
 struct Companion {
   Case input;
   std::string name;         ///< what it is coarser in: "mesh and time", "time"
