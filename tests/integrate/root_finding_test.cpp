@@ -139,7 +139,7 @@ TEST_P(RootFinding, FindsTwoRootsWithinOneStepWhereTheRateIsKnown) {
     options.max_step = 0.04;
     if (GetParam().has_fixed_steps()) options.fixed_step = 0.04;
     const auto integrator = GetParam().with(system, options);
-    integrator->restart(1.0, system.exact(1.0));
+    integrator->restart(1.02, system.exact(1.02));  // no step of 0.04 ends near 2 pi
     const bool found = next_root(*integrator, 7.0);
     EXPECT_EQ(found, with_rate);
     if (found) {
