@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "interrupt.h"
 #include "print.h"
 #include "status_line.h"
 #include "subimpact/io/report.h"
@@ -26,12 +27,20 @@ int run_comparison(const CompareOptions& options) {
   check_method_names(options.methods);
   std::optional<OutputDirectory> directory;
   if (!options.directory.empty()) directory.emplace(options.directory, "compare");
+  InterruptListener listener;
   StatusLine status;
   const Comparison comparison = with_places(loaded, [&] {
-    return compare(loaded.value, options.methods,
-                   [&](const std::string& name) { status.show("running " + name); });
+    return compare(
+        loaded.value, options.methods,
+        [&](const std::string& name) { status.show("running " + name); },
+        [&](double) { return !listener.interrupted(); });
   });
   status.clear();
+  if (comparison.runs.empty()) {
+    print_error("subimpact: interrupted before a method was compared; nothing is written\n");
+    return listener.exit_status();
+  }
+  listener.hold_back();
   if (directory) {
     write_comparison(directory->staging(), comparison);
     directory->commit();
@@ -41,6 +50,10 @@ int run_comparison(const CompareOptions& options) {
         comparison_table(comparison));
   if (!options.directory.empty()) {
     print("\ncomparison.csv and matches.csv in {}\n", options.directory);
+  }
+  if (comparison.interrupted) {
+    print_error("subimpact: interrupted; the methods above are those that had ended\n");
+    return listener.exit_status();
   }
   for (const ComparedRun& run : comparison.runs) {
     if (!run.result.outcome.completed()) return failed;
@@ -72,7 +85,8 @@ void add_compare(CLI::App& program, int& status) {
       "  subimpact compare case.toml --methods erk:dop853,erk:dormand-prince --out out/tables\n"
       "  subimpact compare case.toml --methods erk,erk+library,erk+interpolated\n"
       "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
-      "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed.");
+      "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed; "
+      "130 stopped by Ctrl-C, with the methods that had ended.");
   command->callback([options, &status] { status = run_comparison(*options); });
 }
 

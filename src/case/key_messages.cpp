@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "case/other_names.h"
 #include "subimpact/case/case_keys.h"
@@ -141,18 +142,21 @@ std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
 // Insertions, deletions, replacements and swaps of neighbours that turn one word into the other
 // (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  // Distances of the first i letters of `a`, and of i - 1 and i - 2, from the first j of `b`.
+  std::vector<std::size_t> now(b.size() + 1), before(b.size() + 1), two_before(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) now[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::swap(two_before, before);
+    std::swap(before, now);
+    now[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replaced});
+      const std::size_t replaced = before[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      now[j] = std::min({before[j] + 1, now[j - 1] + 1, replaced});
       const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      if (swapped) now[j] = std::min(now[j], two_before[j - 2] + 1);
     }
   }
-  return d[a.size()][b.size()];
+  return now[b.size()];
 }
 
 std::string remedy(const CaseKey& key) {

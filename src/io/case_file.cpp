@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <regex>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "case/meshes.h"
@@ -75,9 +75,8 @@ std::string unknown_table(const std::string& name) {
                      near.empty() ? "correct or remove it" : "did you mean [" + near + "]?");
 }
 
-constexpr std::size_t largest_case = 1'000'000;   // bytes
-constexpr std::size_t most_problems = 100;        // reported at once
-constexpr std::size_t longest_number_line = 200;  // a line on which a decimal comma is looked for
+constexpr std::size_t largest_case = 1'000'000;  // bytes
+constexpr std::size_t most_problems = 100;       // reported at once
 
 /// Gathers the values of a case and everything that is wrong with them.
 class Reader {
@@ -99,8 +98,10 @@ class Reader {
     return fmt::format("{}:{}:{}", name_, at.line, at.column);
   }
   void complain(const std::string& where, const std::string& message) {
-    if (problems_.size() < most_problems) problems_.push_back(where + ": " + message);
+    if (!is_full()) problems_.push_back(where + ": " + message);
   }
+  // Further problems are not looked for: their messages take longer than reading the file.
+  bool is_full() const { return problems_.size() >= most_problems; }
   void read_table(const std::string& table, const toml::table& content);
   void read_value(const CaseKey& key, const toml::node& node, const std::string& where);
   void complain_of_missing_keys();
@@ -117,6 +118,7 @@ class Reader {
 
 void Reader::read(const toml::table& root) {
   for (const auto& [key, node] : root) {
+    if (is_full()) return;
     const std::string name(key.str());
     const std::string where = place(key.source().begin);
     if (const CaseKey* known = find_case_key(name)) {
@@ -141,6 +143,7 @@ void Reader::read(const toml::table& root) {
 
 void Reader::read_table(const std::string& table, const toml::table& content) {
   for (const auto& [key, node] : content) {
+    if (is_full()) return;
     const std::string leaf(key.str());
     const std::string where = place(key.source().begin);
     if (const CaseKey* known = find_case_key(full_name(table, leaf))) {
@@ -344,29 +347,53 @@ Override parse_override(const std::string& setting) {
 
 namespace {
 
-// The number with a decimal comma in a line such as "mass = 0,201"; empty if there is none. Lists
-// are left alone: in [0,5] there are two numbers.
-std::string decimal_comma_in(const std::string& line) {
-  static const std::regex pattern(R"(=\s*([-+]?[0-9]+,[0-9]+(?:[eE][-+]?[0-9]+)?))");
-  std::smatch found;
-  return std::regex_search(line, found, pattern) ? found[1].str() : std::string();
+// The text after leading digits; nothing if it begins with none.
+std::optional<std::string_view> after_digits(std::string_view text) {
+  const std::size_t n = std::min(text.find_first_not_of("0123456789"), text.size());
+  if (n == 0) return std::nullopt;
+  return text.substr(n);
 }
 
-std::string line_of(const std::string& text, std::size_t number) {
-  std::istringstream lines(text);
-  std::string line;
-  for (std::size_t i = 0; i < number && std::getline(lines, line); ++i) {
+std::string_view after_any_of(std::string_view characters, std::string_view text) {
+  const bool is_there = !text.empty() && characters.find(text.front()) != std::string_view::npos;
+  return text.substr(is_there ? 1 : 0);
+}
+
+// "0,201" of the text "0,201 # kg"; empty for a text that does not begin so.
+std::string_view leading_decimal_comma(std::string_view text) {
+  const auto fraction = after_digits(after_any_of("+-", text));
+  if (!fraction || !fraction->starts_with(',')) return {};
+  auto rest = after_digits(fraction->substr(1));
+  if (!rest) return {};
+  if (rest->starts_with('e') || rest->starts_with('E')) {
+    rest = after_digits(after_any_of("+-", rest->substr(1))).value_or(*rest);
   }
-  return line;
+  return text.substr(0, text.size() - rest->size());
+}
+
+// The number with a decimal comma in a line such as "mass = 0,201"; empty if there is none. Lists
+// are left alone: in [0,5] there are two numbers.
+std::string decimal_comma_in(std::string_view line) {
+  for (std::size_t at = line.find('='); at < line.size(); at = line.find('=', at + 1)) {
+    const std::size_t start = std::min(line.find_first_not_of(" \t", at + 1), line.size());
+    const std::string_view number = leading_decimal_comma(line.substr(start));
+    if (!number.empty()) return std::string(number);
+  }
+  return {};
+}
+
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (std::size_t i = 1; i < number && !text.empty(); ++i) {
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  }
+  return text.substr(0, text.find('\n'));
 }
 
 std::string malformed(const std::string& text, const std::string& name,
                       const toml::parse_error& error) {
   const toml::source_position at = error.source().begin;
   const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
-  // std::regex calls itself for every character.
-  const std::string number =
-      decimal_comma_in(line_of(text, at.line).substr(0, longest_number_line));
+  const std::string number = decimal_comma_in(line_of(text, at.line));
   if (!number.empty()) {
     return fmt::format("{}{} has a decimal comma{}", place, number, decimal_comma_hint(number));
   }

@@ -69,7 +69,10 @@ void RowChecks::check_finite(const char* column, double value) const {
 void RowChecks::check_time(const char* column, double time) {
   ++line_;
   if (!std::isfinite(time) || time < 0.0) refuse(column, time, "a finite number, 0 or above");
-  if (time < last_time_) refuse(column, time, "the time of the row above, or later");
+  if (time < last_time_)
+    refuse(column, time,
+           "the time of the row above, or later (older versions of this program wrote other rows "
+           "with central-difference)");
   last_time_ = time;
 }
 

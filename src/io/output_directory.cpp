@@ -74,6 +74,13 @@ bool is_sealed(const fs::path& file, const std::string& name,
   return fs::file_size(file, error) == found->second.bytes && seal_of(file) == found->second;
 }
 
+// The place that a staged file will have.
+fs::path place_of(const fs::path& path) {
+  const fs::path directory = path.parent_path();
+  const bool is_staged = directory.filename().string().starts_with(".subimpact-");
+  return is_staged ? directory.parent_path() / path.filename() : path;
+}
+
 }  // namespace
 
 std::string new_identity() {
@@ -89,7 +96,7 @@ void write_file(const fs::path& path, const std::string& content) {
     throw OutputError(
         fmt::format("{}: cannot be written ({}); free the disk or choose another "
                     "directory with --out",
-                    path.string(), std::strerror(cause)));
+                    place_of(path).string(), std::strerror(cause)));
   };
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (file < 0) fail(errno);
@@ -209,20 +216,24 @@ void OutputDirectory::settle() {
     const fs::path waiting = staging_of(path_, manifest->commit);
     if (fs::exists(fs::symlink_status(waiting))) {
       for (const std::string& name : files_in(waiting)) put_in_place(name, *manifest);
-    }
-    for (const auto& [name, seal] : manifest->replaced) {
-      if (manifest->files.contains(name)) continue;
-      if (is_sealed(path_ / name, name, manifest->replaced)) {
-        fs::remove(path_ / name);
-      } else if (fs::exists(fs::symlink_status(path_ / name))) {
-        notes_.push_back(fmt::format("{}: is of an earlier run and was changed since; kept",
-                                     (path_ / name).string()));
+      for (const auto& [name, seal] : manifest->replaced) {
+        if (!manifest->files.contains(name)) remove_replaced(name, *manifest);
       }
     }
   }
   for (const auto& entry : fs::directory_iterator(path_)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with(".subimpact-") && name != ".subimpact-lock") fs::remove_all(entry.path());
+  }
+}
+
+void OutputDirectory::remove_replaced(const std::string& name, const Manifest& manifest) {
+  const fs::path file = path_ / name;
+  if (is_sealed(file, name, manifest.replaced)) {
+    fs::remove(file);
+  } else if (fs::exists(fs::symlink_status(file))) {
+    notes_.push_back(
+        fmt::format("{}: is of an earlier run and was changed since; kept", file.string()));
   }
 }
 

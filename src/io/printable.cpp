@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 
@@ -31,17 +32,28 @@ std::size_t utf8_length(std::string_view text) {
   return n;
 }
 
+// Of characters that are not plain.
 bool is_control(std::string_view character) {
-  const unsigned first = byte_at(character, 0);
-  if (character.size() == 2) return first == 0xc2 && byte_at(character, 1) < 0xa0;
-  return character.size() == 1 && first != '\n' && first != '\t' && (first < 0x20 || first == 0x7f);
+  if (character.size() == 2) return byte_at(character, 0) == 0xc2 && byte_at(character, 1) < 0xa0;
+  return character.size() == 1;
+}
+
+// Characters at the start of the text that are ASCII and no control characters.
+std::size_t plain_length(std::string_view text) {
+  const auto is_plain = [](char c) { return (c >= 0x20 && c < 0x7f) || c == '\n' || c == '\t'; };
+  return static_cast<std::size_t>(
+      std::distance(text.begin(), std::find_if_not(text.begin(), text.end(), is_plain)));
 }
 
 }  // namespace
 
 std::string printable(std::string_view text) {
   std::string result;
-  while (!text.empty()) {
+  for (;;) {
+    const std::size_t n_plain = plain_length(text);
+    result += text.substr(0, n_plain);
+    text.remove_prefix(n_plain);
+    if (text.empty()) return result;
     const std::size_t n = utf8_length(text);
     const std::string_view character = text.substr(0, n == 0 ? 1 : n);
     if (n > 0 && !is_control(character)) {
@@ -53,7 +65,6 @@ std::string printable(std::string_view text) {
     }
     text.remove_prefix(character.size());
   }
-  return result;
 }
 
 }  // namespace subimpact

@@ -105,7 +105,7 @@ Finished run_gnuplot(const fs::path& directory, std::vector<std::string> argumen
 // gnuplot draws into a pipe, and the figure is written when it is complete.
 void draw(const fs::path& directory, const std::string& name, const std::string& ending,
           const std::string& terminal) {
-  const fs::path figure = directory / (name + "." + ending);
+  const std::string figure = name + "." + ending;  // the directory is that of staged files
   const Finished gnuplot = run_gnuplot(
       directory, {"-e", fmt::format("set terminal {}; set encoding utf8", terminal), name + ".gp"});
   if (gnuplot.start_error == ENOENT) {
@@ -113,18 +113,17 @@ void draw(const fs::path& directory, const std::string& name, const std::string&
         fmt::format("{}: cannot be drawn, because gnuplot is not installed; install it (Debian: "
                     "apt-get install gnuplot-nox) and repeat the command; the other files are "
                     "complete",
-                    figure.string()));
+                    figure));
   }
   if (gnuplot.start_error != 0) {
     throw GnuplotMissing(fmt::format("{}: cannot be drawn, because gnuplot cannot be started ({})",
-                                     figure.string(), std::strerror(gnuplot.start_error)));
+                                     figure, std::strerror(gnuplot.start_error)));
   }
   if (gnuplot.status != 0) {
-    throw FigureError(fmt::format("{}: gnuplot failed with status {} on {}: {}", figure.string(),
-                                  gnuplot.status, (directory / (name + ".gp")).string(),
-                                  gnuplot.errors));
+    throw FigureError(fmt::format("{}: gnuplot failed with status {} on {}.gp: {}", figure,
+                                  gnuplot.status, name, gnuplot.errors));
   }
-  write_file(figure, gnuplot.output);
+  write_file(directory / figure, gnuplot.output);
 }
 
 }  // namespace

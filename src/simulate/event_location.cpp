@@ -16,7 +16,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // Rounding of the velocity at which the contact closes, as part of the striker's: it is the
 // difference of two velocities, each a sum over the stages of a step.
 constexpr double velocity_rounding = 1e-12;
-// Section events cut a step a few times at most, where the tolerance can be met at all.
+// Section events cut a step a few times at most, where the tolerance can be met at all: at most
+// twice in the 1e6 steps of validation/, three times in 40 random scenes and in the example of the
+// paper at rtol 1e-2 to 1e-8. Where a step is cut over and over, the search does not end.
 constexpr int most_cuts = 100;
 
 // Roots are found to rounding.

@@ -7,38 +7,57 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace subimpact {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 // The number in a file that holds nothing else; nothing for "max" or where there is no such file.
-std::optional<double> number_in(const std::string& file) {
+std::optional<double> number_in(const fs::path& file) {
   std::ifstream stream(file);
   double number = 0.0;
   if (stream >> number) return number;
   return {};
 }
 
-double free_on_the_machine() {
-  std::ifstream file("/proc/meminfo");
-  for (std::string word; file >> word;) {
-    double kilobytes = 0.0;
-    if (word == "MemAvailable:" && file >> kilobytes) return 1024.0 * kilobytes;
+// The number that follows a word in a file; nothing where there is none.
+std::optional<double> number_after(std::string_view wanted, const fs::path& file) {
+  std::ifstream stream(file);
+  for (std::string word; stream >> word;) {
+    double number = 0.0;
+    if (word == wanted && stream >> number) return number;
   }
-  return unlimited;
+  return {};
 }
 
-// Of version 2 of control groups: "0::/path".
-double free_in_control_group() {
-  std::ifstream file("/proc/self/cgroup");
+double free_on_the_machine(const fs::path& root) {
+  const auto kilobytes = number_after("MemAvailable:", root / "proc/meminfo");
+  return kilobytes ? 1024.0 * *kilobytes : unlimited;
+}
+
+double free_in_group(const fs::path& group) {
+  const auto most = number_in(group / "memory.max");
+  const auto now = number_in(group / "memory.current");
+  const double pages_of_files = number_after("file", group / "memory.stat").value_or(0.0);
+  return most && now ? *most - (*now - pages_of_files) : unlimited;
+}
+
+// Of version 2 of control groups: "0::/path". A group has the limits of those above, too.
+double free_in_control_groups(const fs::path& root) {
+  std::ifstream file(root / "proc/self/cgroup");
   std::string line;
   if (!std::getline(file, line) || !line.starts_with("0::/")) return unlimited;
-  const std::string group = "/sys/fs/cgroup" + line.substr(3);
-  const auto most = number_in(group + "/memory.max");
-  const auto now = number_in(group + "/memory.current");
-  return most && now ? *most - *now : unlimited;
+  fs::path group = root / "sys/fs/cgroup";
+  double least = free_in_group(group);
+  for (const fs::path& name : fs::path(line.substr(4))) {
+    group /= name;
+    least = std::min(least, free_in_group(group));
+  }
+  return least;
 }
 
 double limit_of_process() {
@@ -49,8 +68,8 @@ double limit_of_process() {
 
 }  // namespace
 
-double available_memory() {
-  return std::min({free_on_the_machine(), free_in_control_group(), limit_of_process()});
+double available_memory(const fs::path& root) {
+  return std::min({free_on_the_machine(root), free_in_control_groups(root), limit_of_process()});
 }
 
 }  // namespace subimpact

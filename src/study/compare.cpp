@@ -52,7 +52,8 @@ void set_beside(ComparedRun& run, const Result& reference) {
 }  // namespace
 
 Comparison compare(const Case& input, const std::vector<std::string>& methods,
-                   const std::function<void(const std::string&)>& announce) {
+                   const std::function<void(const std::string&)>& announce,
+                   const Progress& progress) {
   // Refused before anything is run.
   std::vector<ComparedRun> runs;
   for (const std::string& name : methods) {
@@ -66,11 +67,17 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
   comparison.reference_input = with_method(input, "nystrom");
   comparison.reference_input.solver.step.reset();
   comparison.reference_input.solver.rtol = reference_tolerance;
+  const Progress watched = [&](double time) {
+    if (progress && !progress(time)) comparison.interrupted = true;
+    return !comparison.interrupted;
+  };
   if (announce) announce("reference");
-  comparison.reference = simulate_with_error_bars(comparison.reference_input);
+  comparison.reference = simulate_with_error_bars(comparison.reference_input, watched);
   for (ComparedRun& run : runs) {
     if (announce) announce(run.name);
-    run.result = simulate(run.input);
+    if (!watched(0.0)) break;  // runs of few steps do not look
+    run.result = simulate(run.input, watched);
+    if (comparison.interrupted) break;
     set_beside(run, comparison.reference);
     comparison.runs.push_back(std::move(run));
   }

@@ -24,7 +24,9 @@ constexpr double shortest_cut = 1e-3;
 #ifndef NDEBUG
 bool is_committed(const StruckBeam& beam, const State& y) {
   const std::size_t section = beam.mesh().struck_section();
-  const double kappa = beam.mesh().curvature(section, beam.beam_positions(y));
+  SectionMotion motion(beam.sections().size());  // as at the commit, to the last digit
+  beam.read_motion(y, motion);
+  const double kappa = motion.curvatures[section];
   const double committed = beam.committed_motion().curvatures[section];
   return std::abs(kappa - committed) <= 1e-9 * (std::abs(kappa) + std::abs(committed)) + 1e-12;
 }

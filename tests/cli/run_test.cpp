@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
 #include "process.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
+#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {
@@ -213,6 +217,71 @@ TEST(Memory, OfExplainIsSmallAndThatOfTheRunIsForetold) {
   expect_in(finished.output, "memory                about 8.5e+02 MB");
   EXPECT_LT(finished.megabytes, 100.0);
   printf("explain of 20,001 cells in modes: %.0f MB\n", finished.megabytes);
+}
+
+// A sanitizer reserves more addresses than the limit allows.
+#if defined(__SANITIZE_ADDRESS__)
+#define SUBIMPACT_HAS_ADDRESS_SANITIZER 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SUBIMPACT_HAS_ADDRESS_SANITIZER 1
+#endif
+#endif
+#ifndef SUBIMPACT_HAS_ADDRESS_SANITIZER
+TEST(Memory, ThatARunMayNotTakeIsNamedBeforeItBegins) {
+  const TemporaryDirectory directory;
+  const std::string refused = "(ulimit -v 2000000; '" SUBIMPACT_PROGRAM "' run '" +
+                              std::string(SUBIMPACT_PAPER_CASE) +
+                              "' --out here --method exponential --set model.section=elastic --set "
+                              "model.segments=40001) 2> errors";
+  const int status = std::system(("cd '" + directory.path.string() + "' && " + refused).c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  const std::string errors = read_file(directory.path / "errors");
+  expect_in(errors, "solver.method takes some 3.3 GB of memory on this mesh of 20001 unknowns");
+  expect_in(errors, "and the machine has 2 GB free; use a coarser mesh");
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "here"));
+}
+#endif
+
+TEST(Run, WhoseRowsTheDiskCannotHoldIsRefusedBeforeItBegins) {
+  const TemporaryDirectory directory;
+  std::string sections = "sections = [0.5";
+  for (int i = 1; i < 100'000; ++i) sections += ", 0.5";
+  std::string text = read_file(SUBIMPACT_PAPER_CASE);
+  const auto output = text.find("[output]");
+  text.insert(output == std::string::npos ? text.size() : output + 8,
+              (output == std::string::npos ? "\n[output]\n" : "\n") + sections + "]\n");
+  directory.write("case.toml", text);
+  const Finished finished = run_program(
+      {"run", "case.toml", "--out", "here", "--set", "time.end=1", "--set", "output.interval=2e-7"},
+      directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "here: the rows of this run take some 4.9e+04 GB, and the disk has");
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "here" / "manifest.json"));
+}
+
+TEST(Run, TakesTheDiskThatIsForetold) {
+  const TemporaryDirectory directory;
+  const Finished finished = run_program(short_run({"--out", "here", "--set", "output.interval=1e-8",
+                                                   "--set", "output.sections=0.5,0.4,0.3"}),
+                                        directory.path);
+  ASSERT_EQ(finished.status, 0) << finished.errors;
+  const std::filesystem::path here = directory.path / "here";
+  const auto taken = static_cast<double>(std::filesystem::file_size(here / "history.csv") +
+                                         std::filesystem::file_size(here / "sections.csv"));
+  const double foreseen = foreseen_bytes(read_results(here).input);
+  EXPECT_GT(foreseen, 0.8 * taken);
+  EXPECT_LT(foreseen, 1.3 * taken);
+}
+
+TEST(Compare, ThatIsToldToEndPrintsTheMethodsThatHadEnded) {
+  const TemporaryDirectory directory;
+  const Finished early = run_program({"compare", SUBIMPACT_PAPER_CASE, "--methods", "erk", "--out",
+                                      "tables", "--set", "time.end=1"},
+                                     directory.path, 2000, SIGTERM);
+  EXPECT_EQ(early.status, 128 + SIGTERM);
+  expect_in(early.errors, "interrupted before a method was compared; nothing is written");
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "tables" / "manifest.json"));
 }
 
 TEST(Run, ThatIsToldToEndKeepsWhatItHasComputed) {

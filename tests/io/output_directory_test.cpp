@@ -11,6 +11,7 @@
 #include "io/write_file.h"
 #include "read_file.h"
 #include "subimpact/io/read_results.h"
+#include "subimpact/io/results.h"
 #include "temporary_directory.h"
 
 namespace subimpact {
@@ -113,6 +114,24 @@ TEST(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
   EXPECT_TRUE(fs::is_symlink(directory.path / "summary.json.kept"));
   EXPECT_EQ(read_file(directory.path / "summary.json"), "new");
   EXPECT_EQ(files.notes().size(), 4u);
+}
+
+TEST(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory files(directory.path, "run", "1");
+    write_file(files.staging() / "figure.gp", "drawn");
+    commit(files, "events.csv", "old");
+  }
+  std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
+  {
+    OutputDirectory files(directory.path, "run", "2");
+    commit(files, "events.csv", "new");
+    EXPECT_EQ(files.notes().size(), 1u);
+  }
+  const OutputDirectory later(directory.path, "figures", "2");
+  EXPECT_EQ(later.notes(), Names());
+  EXPECT_EQ(read_file(directory.path / "figure.gp"), "drawn and my colours");
 }
 
 TEST(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
@@ -253,6 +272,42 @@ TEST(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
   }
   setrlimit(RLIMIT_FSIZE, &before);
   expect_in(message, "events.csv: cannot be written (File too large); free the disk");
+}
+
+// Rows of 485 TB.
+TEST(ADiskTooSmall, IsFoundBeforeTheRunAndTheOlderFilesStay) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory files(directory.path, "run", "1");
+    commit(files, "events.csv", "old");
+  }
+  const Names before = names_in(directory.path);
+  Case input;
+  input.end_time = 1.0;
+  input.output.interval = 2e-7;
+  input.output.sections.assign(1'000'000, 0.5);
+  EXPECT_GT(foreseen_bytes(input), 4.8e14);
+  std::string message;
+  try {
+    const ResultWriter files(directory.path, input);
+  } catch (const OutputError& error) {
+    message = error.what();
+  }
+  expect_in(message, directory.path.string() + ": the rows of this run take some 4.9e+05 GB, and");
+  expect_in(message, "use a longer output.interval, or choose another directory with --out");
+  EXPECT_EQ(names_in(directory.path), before);
+}
+
+TEST(FilesBeingMade, AreNamedByTheirPlaceInMessages) {
+  const TemporaryDirectory directory;
+  OutputDirectory files(directory.path, "run");
+  fs::create_directory(files.staging() / "events.csv");
+  try {
+    write_file(files.staging() / "events.csv", "new");
+    ADD_FAILURE() << "written";
+  } catch (const OutputError& error) {
+    expect_in(error.what(), (directory.path / "events.csv").string() + ": cannot be written");
+  }
 }
 
 }  // namespace

@@ -52,6 +52,23 @@ TEST(ATreatmentOfEvents, IsNamedAfterAPlusSign) {
   EXPECT_THROW(compare(input, {"erk+librari"}), InvalidCase);
 }
 
+TEST(AnInterruptedComparison, HasTheMethodsThatHadEnded) {
+  std::string running;
+  const auto note = [&](const std::string& name) { running = name; };
+  const Case input = elastic_case(1e-4);
+  const Comparison cut_short = compare(input, {"erk", "nystrom", "exponential"}, note,
+                                       [&](double) { return running != "nystrom"; });
+  EXPECT_TRUE(cut_short.interrupted);
+  ASSERT_EQ(cut_short.runs.size(), 1u);
+  EXPECT_EQ(cut_short.runs.front().name, "erk");
+  const Comparison whole = compare(input, {"erk"}, note, [](double) { return true; });
+  EXPECT_FALSE(whole.interrupted);
+  EXPECT_EQ(cut_short.runs.front().max_end_difference, whole.runs.front().max_end_difference);
+  const Comparison none = compare(input, {"erk"}, note, [](double) { return false; });
+  EXPECT_TRUE(none.interrupted);
+  EXPECT_TRUE(none.runs.empty());
+}
+
 TEST(AnUnknownMethodOrTable, IsRefusedBeforeAnythingRuns) {
   EXPECT_THROW(compare(elastic_case(1e-5), {"erk", "leapfrog"}), InvalidCase);
   EXPECT_THROW(compare(elastic_case(1e-5), {"erk:dprkn8"}), InvalidCase);

@@ -36,7 +36,9 @@ TEST(APlan, NamesTheCheapestMeshThatIsWithinTheErrorTogetherWithAllFinerOnes) {
         before->input.model.mesh == point.input.model.mesh;
     EXPECT_FALSE(same && admitted && !point.admitted) << point.mesh;
     admitted = point.admitted;
-    if (admitted) EXPECT_GE(point.work, best.work);
+    if (admitted) {
+      EXPECT_GE(point.work, best.work);
+    }
   }
   // The named combination, run as anyone would, is within the error of the reference.
   const EventErrors errors = event_errors(simulate(best.input).sub_impacts, result.sub_impacts);

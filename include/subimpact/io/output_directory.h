@@ -70,6 +70,7 @@ class OutputDirectory {
   void seal();
   void settle();
   void put_in_place(const std::string& name, const Manifest& manifest);
+  void remove_replaced(const std::string& name, const Manifest& manifest);
 
   std::filesystem::path path_, staging_;
   std::string kind_, identity_, commit_;

@@ -29,13 +29,15 @@ struct Comparison {
   Case reference_input;
   Result reference;  ///< with error bars
   std::vector<ComparedRun> runs;
+  bool interrupted = false;  ///< `runs` are those that had ended; none: nor had the reference
 };
 
 /// Runs a scene by several methods ("central-difference", "erk", or with a table "erk:verner"),
 /// each with the case's tolerance or its default step, beside a reference run: nystrom at rtol =
-/// 1e-11 with its own error bars. History rows are left out. Throws InvalidCase, also for unknown
-/// methods.
+/// 1e-11 with its own error bars. History rows are left out. `progress`, if any, can end the
+/// comparison. Throws InvalidCase, also for unknown methods.
 Comparison compare(const Case& input, const std::vector<std::string>& methods,
-                   const std::function<void(const std::string& name)>& announce = {});
+                   const std::function<void(const std::string& name)>& announce = {},
+                   const Progress& progress = {});
 
 }  // namespace subimpact
