@@ -226,7 +226,7 @@ TEST(Figures, SetUndecidedSubImpactsApart) {
   EXPECT_EQ(table_in(response, "$bands_undecided").size(), 2u);
   expect_in(timeline_figure(input, result).text(), ",0\nEOD");
   const DrawnFigures figures = draw_figures(directory.path, input, result);
-  EXPECT_TRUE(figures.failed.empty());
+  EXPECT_TRUE(figures.failed.empty()) << figures.failed.front();
   expect_in(content(directory.path / "response.svg"), "not decided");
 }
 

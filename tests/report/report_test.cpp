@@ -135,7 +135,7 @@ TEST(ErrorWords, NameTheLastDecidedSubImpactItsEndAndTheReason) {
   expect_in(summary, "3 in 2 zones, 2 decided\n");
   expect_in(summary,
             "zone 2              1 sub-impact in 1 sub-zone, 5000.0 to (open) us, not decided\n");
-  EXPECT_EQ(summary.find("0.0e+00"), std::string::npos);
+  EXPECT_EQ(summary.find("times to 0.0e+00"), std::string::npos);
 }
 
 TEST(ErrorWords, OfNothingDecidedNameTheSettingToTry) {
@@ -252,7 +252,7 @@ TEST(Wish, MetToTheEndSaysNoMore) {
 TEST(Wish, NotMetNamesTheErrorReachedOrThatItIsNotKnown) {
   const WishOutcome missed{1e-6, false, 2.5e-6, 8e-3, "model.segments is fixed", "model.segments"};
   EXPECT_EQ(wish_words(missed, sample_result()),
-            "event times within 1 us: not met; 2.5 us reached to the end; model.segments is fixed; "
+            "event times within 1 us: not met; 3 us reached to the end; model.segments is fixed; "
             "free model.segments");
   const WishOutcome unknown{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, "", ""};
   EXPECT_EQ(wish_words(unknown, sample_result()),

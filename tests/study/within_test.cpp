@@ -144,17 +144,17 @@ TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
   EXPECT_EQ(run.input.model.segments, 101);
 }
 
-TEST(AWish, ThatAFixedToleranceCannotMeetNamesThatKey) {
-  Case input = elastic_case(1e-3);
-  input.model.mesh = MeshKind::hermite;
-  input.solver.method = Method::erk;
-  input.solver.rtol = 1e-4;
+TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
+  Case input = elastic_case(0.4e-3);
+  input.solver.method = Method::central_difference;
+  input.solver.step = 1e-7;
   input.accuracy.event_times = 1e-9;
   OpenChoices open;
   open.method = open.tolerance = false;
   const WithinRun run = simulate_within(input, open);
   EXPECT_FALSE(run.result.wish->met);
-  EXPECT_EQ(run.result.wish->key, "solver.rtol") << run.result.wish->reason;
+  EXPECT_EQ(run.result.wish->key, "solver.step") << run.result.wish->reason;
+  EXPECT_EQ(run.input.solver.step, 1e-7);
 }
 
 TEST(AWish, StopsAtTheLimitOfWork) {
