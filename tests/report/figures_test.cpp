@@ -225,8 +225,7 @@ TEST(Figures, SetUndecidedSubImpactsApart) {
   EXPECT_EQ(table_in(response, "$bands").size(), 1u);
   EXPECT_EQ(table_in(response, "$bands_undecided").size(), 2u);
   expect_in(timeline_figure(input, result).text(), ",0\nEOD");
-  const DrawnFigures figures = draw_figures(directory.path, input, result);
-  EXPECT_TRUE(figures.failed.empty()) << figures.failed.front();
+  draw_figure(directory.path, "response", response);
   expect_in(content(directory.path / "response.svg"), "not decided");
 }
 
@@ -237,7 +236,7 @@ TEST(Figures, OfARunWithoutErrorBarsSetNoSubImpactApart) {
   }
   const std::string response = response_figure(input, sample_result()).text();
   EXPECT_EQ(table_in(response, "$bands").size(), 3u);
-  expect_in(response, "n_undecided = 0\n");
+  expect_in(response, "n_undecided = 0.000000\n");
 }
 
 TEST(SpacingOfTics, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {
