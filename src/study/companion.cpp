@@ -13,6 +13,7 @@
 #include "simulate/methods.h"
 #include "study/error_part.h"
 #include "study/free_end_error.h"
+#include "study/refinement.h"
 #include "subimpact/study/mesh_error_bars.h"
 
 namespace subimpact {
@@ -43,6 +44,20 @@ double error_factor(const Companion& companion, bool yielded) {
                         : order > 2 ? safety_of_high_order
                                     : safety;
   return factor / (std::pow(companion.ratio, order) - 1.0);
+}
+
+// A contact that lasts to the end has no event time that would show an error. On a mesh that does
+// not resolve the waves of short contacts, two runs may both have missed that it opens.
+void doubt_open_contact(Result& result, const Case& input) {
+  if (result.sub_impacts.empty() || result.sub_impacts.back().end || !mesh_order(input)) return;
+  ErrorEstimate& estimate = *result.error_estimate;
+  const int needed = parts_that_resolve(input, result.used.contact_time);
+  if (estimate.first_unresolved || mesh_count(input) >= needed) return;
+  estimate.first_unresolved = result.sub_impacts.size() - 1;
+  estimate.reason = fmt::format(
+      "it lasts to the end, and {} parts of the mesh do not resolve the bending waves of contacts "
+      "as short as {:.2g} us, as {} would",
+      mesh_count(input), 1e6 * result.used.contact_time, needed);
 }
 
 // Twice the step, or the largest that is stable.
@@ -104,6 +119,7 @@ void add_companion_errors(Result& result, const Case& input, const Companion& co
                                   error_factor(companion, yielded));
   include_free_ends(part, input, result);
   set_error_bars(result, {part});
+  doubt_open_contact(result, input);
 }
 
 Result simulate_with_companion(const Case& input, Jobs jobs, const Progress& progress,

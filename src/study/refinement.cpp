@@ -21,17 +21,6 @@ constexpr double tightest_tolerance = 1e-12;
 constexpr double digits_per_doubling = 1.0;
 constexpr double least_step_ratio = 1.4;  // of a step that the mesh limits, per doubling
 
-// Cells over the length that resolve bending waves of the shortest contacts.
-int parts_that_resolve(const Case& input, double contact_time) {
-  const Beam& beam = input.scene.beam;
-  const double density = beam.mass() / beam.length;
-  const double frequency = M_PI / contact_time;
-  const double wave =
-      2.0 * M_PI / std::sqrt(frequency) * std::pow(beam.bending_stiffness() / density, 0.25);
-  const double parts = parts_per_wave * beam.length / wave;
-  return static_cast<int>(std::clamp<double>(parts, fewest_parts, most_parts_at_first));
-}
-
 Case with_count(const Case& input, double count) {
   const std::optional<RefinedRun> sized = on_other_mesh(input, count / mesh_count(input));
   Case other = input;
@@ -50,12 +39,21 @@ double step_by_default(Case input) {
 
 }  // namespace
 
+int parts_that_resolve(const Case& input, double contact_time) {
+  const Beam& beam = input.scene.beam;
+  const double density = beam.mass() / beam.length;
+  const double frequency = M_PI / contact_time;
+  const double wave =
+      2.0 * M_PI / std::sqrt(frequency) * std::pow(beam.bending_stiffness() / density, 0.25);
+  const double cells =
+      std::clamp<double>(parts_per_wave * beam.length / wave, fewest_parts, most_parts_at_first);
+  return static_cast<int>(input.model.mesh == MeshKind::hermite ? 0.5 * cells : cells);
+}
+
 Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(input), open_(open) {
   order_ = mesh_order(input).value_or(1);
-  const bool elements = input.model.mesh == MeshKind::hermite;
   if (open_.size && mesh_order(input)) {
-    const double parts = parts_that_resolve(input, resolve(input).settings().contact_time);
-    first_ = with_count(input, elements ? 0.5 * parts : parts);
+    first_ = with_count(input, parts_that_resolve(input, resolve(input).settings().contact_time));
   }
   if (!open_.tolerance) return;
   if (!is_fixed_step(input)) {
