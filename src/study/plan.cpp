@@ -102,7 +102,10 @@ class Planner {
 
 // False if interrupted.
 bool Planner::run_point(const Case& input) {
-  PlanPoint point{input, mesh_words(input), descriptor_of(input.solver.method).name};
+  PlanPoint point;
+  point.input = input;
+  point.mesh = mesh_words(input);
+  point.method = descriptor_of(input.solver.method).name;
   if (announce_) announce_(point.mesh + ", " + point.method);
   const auto start = std::chrono::steady_clock::now();
   const Result result = simulate(input, progress_);
