@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "numerics/bracketed_root.h"
@@ -10,6 +11,7 @@ namespace subimpact {
 namespace {
 
 using std::numbers::pi;
+constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
 
 // What a wave number theta brings with it.
 struct Wave {
@@ -87,8 +89,9 @@ NaturalModes free_cell_modes(const CellChain& chain, bool symmetric_only, std::s
     const bool symmetric = symmetric_only || number % 2 == 1;
     const double k = static_cast<double>(symmetric_only ? number : (number + 1) / 2);
     const double low = symmetric ? (k - 0.5) * pi : k * pi;
-    const double y = root_in([&](double at) { return end_condition(at, c, rho, symmetric); }, low,
-                             low + 0.5 * pi);
+    // Where rotary inertia outweighs all else, the root is at the lower end to rounding.
+    const double y = root_in([&](double at) { return end_condition(at, c, rho, symmetric); },
+                             (1.0 - rounding) * low, low + 0.5 * pi);
     const Wave wave(y / c, rho);
     modes.frequencies[next] = unit * wave.s / std::sqrt(wave.stretch);
     const std::span<double> shape(modes.shapes.data() + next * n_kept, n_kept);
