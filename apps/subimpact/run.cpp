@@ -193,7 +193,7 @@ void add_run(CLI::App& program, int& status) {
       ->add_option("--jobs", options->jobs,
                    "Runs beside one another at most; results do not depend on it. Default: the "
                    "number of processors")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1u, 1024u));
   command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
   command->footer(
       "Examples:\n"
