@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <utility>
 
 #include "case/meshes.h"
@@ -14,6 +12,7 @@
 #include "study/error_part.h"
 #include "study/free_end_error.h"
 #include "study/refinement.h"
+#include "study/run_beside.h"
 #include "subimpact/study/mesh_error_bars.h"
 
 namespace subimpact {
@@ -127,21 +126,9 @@ Result simulate_with_companion(const Case& input, Jobs jobs, const Progress& pro
   resolve(input);  // whatever is wrong with the case itself
   const std::optional<Companion> companion = companion_of(input);
   if (!companion) return simulate(input, progress, nullptr, rows);
-  std::atomic<bool> stop = false;
-  const auto run_companion = [&] {
-    return simulate(companion->input, [&stop](double) { return !stop; });
-  };
-  std::future<Result> beside;
-  if (jobs > 1) beside = std::async(std::launch::async, run_companion);
-  Result result = simulate(input, progress, nullptr, rows);
-  stop = result.outcome.kind == OutcomeKind::stopped;
-  if (beside.valid() || !stop) {
-    const Result other = beside.valid() ? beside.get() : run_companion();
-    if (!stop) {
-      add_companion_errors(result, input, *companion, other);
-    }
-  }
-  return result;
+  RunPair pair = run_beside(input, &companion->input, jobs, progress, rows);
+  if (pair.other) add_companion_errors(pair.run, input, *companion, *pair.other);
+  return std::move(pair.run);
 }
 
 }  // namespace subimpact

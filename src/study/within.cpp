@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
-#include <iterator>
-#include <limits>
 #include <utility>
 
 #include "case/meshes.h"
@@ -15,6 +11,7 @@
 #include "simulate/methods.h"
 #include "study/error_part.h"
 #include "study/refinement.h"
+#include "study/run_beside.h"
 #include "subimpact/study/mesh_error_bars.h"
 
 namespace subimpact {
@@ -131,26 +128,18 @@ bool Ladder::run(const Case& next) {
       companion && level_ && Refinement::is_same_setting(companion->input, level_->input);
   std::optional<Level> below;
   if (known) below = std::move(level_);
-  std::atomic<bool> stop = false;
-  const auto run_below = [&] {
-    return simulate(companion->input, [&stop](double) { return !stop; });
-  };
-  std::future<Result> beside;
-  if (companion && !known && options_.jobs > 1) {
-    beside = std::async(std::launch::async, run_below);
+  RunPair pair = run_beside(next, companion && !known ? &companion->input : nullptr, options_.jobs,
+                            options_.progress, options_.rows ? options_.rows() : nullptr);
+  const bool stopped = pair.run.outcome.kind == OutcomeKind::stopped;
+  count(pair.run);
+  if (pair.other) {
+    count(*pair.other);
+    below = Level{companion->input, std::move(*pair.other)};
   }
-  Result result =
-      simulate(next, options_.progress, nullptr, options_.rows ? options_.rows() : nullptr);
-  stop = result.outcome.kind == OutcomeKind::stopped;
-  count(result);
-  if (companion && !known && !stop) {
-    below = Level{companion->input, beside.valid() ? beside.get() : run_below()};
-    count(below->result);
-  }
-  if (companion && !stop) add_companion_errors(result, next, *companion, below->result);
-  level_ = Level{next, std::move(result)};
+  if (companion && !stopped) add_companion_errors(pair.run, next, *companion, below->result);
+  level_ = Level{next, std::move(pair.run)};
   coarser_ = std::move(below);
-  return !stop;
+  return !stopped;
 }
 
 // Whether the beam turned out to bend elastically though it could yield, or the other way round.
