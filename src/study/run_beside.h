@@ -16,8 +16,8 @@ struct RunPair {
 
 /// Runs a case and, if `other` is given, that one too: in a thread of its own with more than one
 /// job. `progress` and `rows` are those of the first; a run that is stopped stops the other.
-inline RunPair run_beside(const Case& input, const Case* other, Jobs jobs,
-                          const Progress& progress, RowSink* rows) {
+inline RunPair run_beside(const Case& input, const Case* other, Jobs jobs, const Progress& progress,
+                          RowSink* rows) {
   std::atomic<bool> stop = false;
   const auto run_other = [&] { return simulate(*other, [&stop](double) { return !stop; }); };
   std::future<Result> beside;
