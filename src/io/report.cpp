@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "case/counted.h"
 #include "case/meshes.h"
@@ -88,14 +89,54 @@ std::string mass_text(double mass) {
   return fmt::format("{:.6g} kg", mass);
 }
 
-// What each refined run shows.
+// What each refined run shows. A part's reason that stands above already is left out.
 void add_error_parts(const Result& result, fmt::memory_buffer& text) {
-  for (const ErrorEstimate::Part& part : result.error_estimate->parts) {
+  const ErrorEstimate& estimate = *result.error_estimate;
+  for (const ErrorEstimate::Part& part : estimate.parts) {
+    const bool is_repeated = part.first_unresolved == estimate.first_unresolved &&
+                             part.reason == estimate.reason && !part.reason.empty();
+    const std::string words = is_repeated ? std::string("as above")
+                                          : valid_times_text(result, part.largest_error,
+                                                             part.first_unresolved, part.reason);
     fmt::format_to(std::back_inserter(text), "  {:<19} {} (refined run: {})\n",
-                   "error of " + part.name,
-                   valid_times_text(result, part.largest_error, part.first_unresolved, part.reason),
-                   part.refined_run);
+                   "error of " + part.name, words, part.refined_run);
   }
+}
+
+// 8800 for 8796.3, 5.8 for 5.7933.
+std::string with_two_digits(double value) {
+  const double size = std::abs(value);
+  return with_decimals(value, size > 0.0 ? 1 - static_cast<int>(std::floor(std::log10(size))) : 0);
+}
+
+// "8796.3 +- 0.8 N"; "8800 N (error not known)" where it is infinite; without an error estimate
+// so many decimals.
+std::string final_value(const Result& result, double value, double error, int decimals,
+                        const char* unit) {
+  if (!result.error_estimate) return fmt::format("{:.{}f} {}", value, decimals, unit);
+  const std::optional<Rounding> rounding = rounding_of(error, decimals);
+  if (!rounding) return fmt::format("{} {} (error not known)", with_two_digits(value), unit);
+  return fmt::format("{} +- {} {}", with_decimals(value, rounding->decimals), rounding->error,
+                     unit);
+}
+
+std::string maxima_text(const Result& result, const FinalErrors& errors) {
+  return fmt::format(
+      "force {}, indentation {}", final_value(result, result.max_force, errors.max_force, 2, "N"),
+      final_value(result, result.max_indentation * mm, errors.max_indentation * mm, 6, "mm"));
+}
+
+std::string final_velocities_text(const Case& input, const Result& result,
+                                  const FinalErrors& errors) {
+  // By the conservation of momentum, where no support takes part of it.
+  const double beam_error =
+      result.max_momentum_error
+          ? errors.striker_velocity * input.scene.striker.mass / input.scene.beam.mass()
+          : std::numeric_limits<double>::infinity();
+  return fmt::format(
+      "striker {}, beam (mean) {}",
+      final_value(result, result.striker_velocity, errors.striker_velocity, 6, "m/s"),
+      final_value(result, result.beam_mean_velocity, beam_error, 6, "m/s"));
 }
 
 }  // namespace
@@ -227,10 +268,9 @@ std::string run_summary(const Case& input, const Result& result) {
                    time_or_never(result.first_contact_yield)));
   line("yielded sections",
        fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
-  line("maxima", fmt::format("force {:.2f} N, indentation {:.6f} mm", result.max_force,
-                             result.max_indentation * mm));
-  line("final velocities", fmt::format("striker {:.6f} m/s, beam (mean) {:.6f} m/s",
-                                       result.striker_velocity, result.beam_mean_velocity));
+  const FinalErrors errors = final_errors(result);
+  line("maxima", maxima_text(result, errors));
+  line("final velocities", final_velocities_text(input, result, errors));
   line("conservation",
        result.max_momentum_error
            ? fmt::format("energy to {:.1e}, momentum to {:.1e}, relative", result.max_energy_error,

@@ -214,6 +214,31 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
   return table;
 }
 
+FinalErrors final_errors(const Result& result) {
+  const std::vector<SubImpact>& all = result.sub_impacts;
+  const std::size_t n_decided = result.n_decided().value_or(0);
+  FinalErrors errors;
+  double force = 0.0, indentation = 0.0;
+  Sums sums;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Numbers row = numbers_of(all[i], result.end_of(all[i]), sums);
+    const auto error = [&](Quantity q) { return i < n_decided ? row[q].error : unknown; };
+    if (all[i].peak_force > force) {
+      force = all[i].peak_force;
+      errors.max_force = error(peak);
+    }
+    if (all[i].max_indentation > indentation) {
+      indentation = all[i].max_indentation;
+      errors.max_indentation = error(Quantity::indentation) / mm;
+    }
+    errors.striker_velocity = error(velocity);
+  }
+  if (!result.error_estimate || result.error_estimate->first_unresolved) {
+    errors.striker_velocity = unknown;
+  }
+  return errors;
+}
+
 std::string undecided_reason(const Result& result) {
   if (!result.error_estimate || !result.error_estimate->first_unresolved) return {};
   const std::string& reason = result.error_estimate->reason;

@@ -38,6 +38,15 @@ struct SubImpactRows {
 /// `plus_minus`: what stands between a time and its error.
 SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus = "+-");
 
+/// Errors of what a run ends with, by the same rule; infinite where it is not decided, or where the
+/// run has no error estimate.
+struct FinalErrors {
+  double max_force = 0.0;         ///< N
+  double max_indentation = 0.0;   ///< m
+  double striker_velocity = 0.0;  ///< m/s
+};
+FinalErrors final_errors(const Result& result);
+
 /// Why the sub-impacts from the first undecided one on are not decided; empty if all are, or if
 /// there is no error estimate.
 std::string undecided_reason(const Result& result);

@@ -33,16 +33,23 @@ double difference(const SubImpact& here, const SubImpact& there) {
 std::string unresolved_reason(const std::vector<SubImpact>& all, std::size_t i, double error,
                               double share) {
   const SubImpact& here = all[i];
-  if (here.end && error > share * (*here.end - here.start)) {
-    return "its estimated error is not small beside its duration";
+  const auto reason = [&](const char* what, double length) {
+    return error > share * length
+               ? fmt::format(
+                     "the estimated error of sub-impact {}, {:.2g} us, is not small beside {}, "
+                     "{:.2g} us",
+                     i + 1, us * error, what, us * length)
+               : std::string();
+  };
+  std::string text;
+  if (here.end) text = reason("its duration", *here.end - here.start);
+  if (text.empty() && i > 0 && all[i - 1].end) {
+    text = reason("the separation before it", here.start - *all[i - 1].end);
   }
-  if (i > 0 && all[i - 1].end && error > share * (here.start - *all[i - 1].end)) {
-    return "its estimated error is not small beside the separation before it";
+  if (text.empty() && i + 1 < all.size() && here.end) {
+    text = reason("the separation after it", all[i + 1].start - *here.end);
   }
-  if (i + 1 < all.size() && here.end && error > share * (all[i + 1].start - *here.end)) {
-    return "its estimated error is not small beside the separation after it";
-  }
-  return {};
+  return text;
 }
 
 struct Doubt {

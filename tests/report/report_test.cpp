@@ -120,6 +120,40 @@ TEST(SubImpactTable, WithErrorsLargerThanTheTimesStillHasARowPerSubImpact) {
   expect_in(row_of(sub_impact_table(result), "2"), "0 +- 7000000");
 }
 
+// The line of a summary with that label.
+std::string line_of(const std::string& summary, const std::string& label) {
+  const auto begin = summary.find("  " + label);
+  if (begin == std::string::npos) return {};
+  return summary.substr(begin, summary.find('\n', begin) - begin);
+}
+
+TEST(RunSummary, GivesLargestForceAndFinalVelocitiesTheirErrors) {
+  Result result = sample_result_with_errors(3);
+  result.sub_impacts[2].end = result.sub_impacts[2].start + 1e-3;
+  result.sub_impacts[2].start_error = result.sub_impacts[2].end_error = 0.5e-6;
+  result.max_momentum_error = 1e-14;
+  const std::string summary = run_summary(paper_case(), result);
+  // 0.0163 us of 333.3 us: 0.0049 % of 8796 N, rounded up
+  expect_in(line_of(summary, "maxima"), "force 8796.3 +- 0.5 N");
+  EXPECT_EQ(line_of(summary, "final velocities").find("not known"), std::string::npos) << summary;
+  expect_in(line_of(summary, "final velocities"), "+-");
+}
+
+TEST(RunSummary, DoesNotGiveDigitsToFinalVelocitiesAfterAnUndecidedSubImpact) {
+  Result result = sample_result_with_errors(2);
+  result.striker_velocity = 5.793326;
+  expect_in(line_of(run_summary(paper_case(), result), "final velocities"),
+            "striker 5.8 m/s (error not known)");
+}
+
+TEST(RunSummary, GivesAReasonOnce) {
+  const std::string summary = run_summary(paper_case(), sample_result_with_errors(2));
+  const auto first = summary.find("they part");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(summary.find("they part", first + 1), std::string::npos) << summary;
+  expect_in(line_of(summary, "error of mesh"), "as above (refined run: the same, finer)");
+}
+
 TEST(ErrorWords, OfDecidedTimesNameTheErrorAndTheEnd) {
   EXPECT_EQ(error_words(paper_case(), sample_result_with_errors(3)),
             "all times to 0.3 us up to 8 ms");
