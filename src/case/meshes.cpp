@@ -10,6 +10,7 @@
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
 #include "model/rigid_mesh.h"
+#include "model/timoshenko_mesh.h"
 
 namespace subimpact {
 namespace {
@@ -27,6 +28,11 @@ CellMesh::Spacing spacing_of(const Case& input) {
 }
 
 void check_points(const Case& input) {
+  if (input.scene.beam.shears()) {
+    throw InvalidCase("model.spacing",
+                      "is \"points\", which is the published run's and has no shear; allowed with "
+                      "beam.theory = \"timoshenko\": \"cells\"; leave it out");
+  }
   if (input.scene.beam.is_free()) return;
   throw InvalidCase(
       "model.spacing",
@@ -60,6 +66,11 @@ void check_cells(const Case& input) {
 // There is a node at the strike, and an element much shorter than the others would determine the
 // time step.
 void check_elements(const Case& input) {
+  if (input.scene.beam.shears()) {
+    throw InvalidCase("model.mesh",
+                      "is \"hermite\", whose elements do not shear; allowed with beam.theory = "
+                      "\"timoshenko\": \"cells\"");
+  }
   const double elements = input.model.elements;
   const double at = input.scene.striker.position;
   const double length = input.scene.beam.length;
@@ -131,6 +142,11 @@ bool uses_half(const Case& input, const char* key, int count, bool odd, const ch
 Mesh make_cell_mesh(const Case& input) {
   const int segments = input.model.segments;
   const bool half = uses_half(input, "model.segments", segments, true, "cell");
+  if (input.scene.beam.shears()) {
+    return std::make_shared<TimoshenkoMesh>(
+        input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(segments),
+        half ? TimoshenkoMesh::Extent::half : TimoshenkoMesh::Extent::whole);
+  }
   return std::make_shared<CellMesh>(
       input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(segments),
       half ? CellMesh::Extent::half : CellMesh::Extent::whole, spacing_of(input));

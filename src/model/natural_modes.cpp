@@ -59,6 +59,7 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
     mesh.curvatures(unit, kappa);
     for (double& k : kappa) k *= bending_stiffness;
     mesh.bending_forces(kappa, force);
+    mesh.add_shear_forces(unit, force);
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto row = static_cast<std::size_t>(i);
       stiffness(i, j) = -force[row];
@@ -76,7 +77,7 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
   const double highest = std::sqrt(solver.eigenvalues()(n - 1));
   for (std::size_t k = 0; k < modes.size(); ++k) {
     mesh.curvatures(modes.shape(k), kappa);
-    double twice_energy = 0.0;
+    double twice_energy = 2.0 * mesh.shear_energy(modes.shape(k));
     for (std::size_t i = 0; i < kappa.size(); ++i) {
       twice_energy += mesh.section_weights()[i] * bending_stiffness * kappa[i] * kappa[i];
     }

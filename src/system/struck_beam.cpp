@@ -16,6 +16,7 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       striker_mass_(parts.striker_mass),
       striker_velocity_(parts.striker_velocity),
       outer_stiffness_(parts.outer_stiffness),
+      shears_(mesh_->shears()),
       highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
@@ -59,6 +60,7 @@ void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces
     sections_.moments(curvatures_, moments_);
   }
   mesh_->bending_forces(moments_, forces);
+  if (shears_) mesh_->add_shear_forces(unknowns, forces);
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {

@@ -35,12 +35,12 @@ struct SectionMotion {
 ///
 /// State y = [w_1..w_n, w_m, v_1..v_n, v_m] (m, m/s): the mesh's unknowns, then the striker.
 ///
-///     Mass w'' = -B^T W M(kappa, history) + S F,   m w_m'' = -F,   F = F(lambda, history),
+///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F,   m w_m'' = -F,   F = F(lambda, history),
 ///     kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) of the sign of the curvature. Other classes treat changes of branch within a step:
-/// ContactState and find_crossing for the contact, SectionCorrector for the sections. Accounts
-/// computes energies and momenta.
+/// with M (N m) of the sign of the curvature and K_s the stiffness of shear, if any. Other classes
+/// treat changes of branch within a step: ContactState and find_crossing for the contact,
+/// SectionCorrector for the sections. Accounts computes energies and momenta.
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
@@ -102,7 +102,7 @@ class StruckBeam final : public MechanicalSystem {
   long n_forces() const { return n_forces_; }
 
  private:
-  // forces = -B^T W M.
+  // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   void use_modes();
   BeamJacobian& jacobian() const;
@@ -115,6 +115,7 @@ class StruckBeam final : public MechanicalSystem {
   double striker_mass_;
   double striker_velocity_;
   double outer_stiffness_;
+  bool shears_;
   // Of an elastic beam in natural modes, else empty: stiffnesses, and what a mode's acceleration is
   // made of.
   std::span<const double> modal_stiffness_;
