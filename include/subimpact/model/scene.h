@@ -30,9 +30,9 @@ struct Beam {
   double youngs_modulus = 0.0;  ///< E, Pa
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Y, Pa; infinite: never yields
   BeamTheory theory = BeamTheory::rayleigh;
-  std::optional<double> poisson;  ///< nu; needed by Timoshenko's theory
+  std::optional<double> poisson = {};  ///< nu; needed by Timoshenko's theory
   /// k; by default Cowper's for a rectangle.
-  std::optional<double> shear_coefficient;
+  std::optional<double> shear_coefficient = {};
   std::array<EndSupport, 2> ends{EndSupport::free, EndSupport::free};  ///< at x = 0 and x = l
 
   double area() const { return width * thickness; }                               ///< A, m2
