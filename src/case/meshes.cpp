@@ -10,7 +10,9 @@
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
 #include "model/rigid_mesh.h"
+#include "model/spectral_mesh.h"
 #include "model/timoshenko_mesh.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -69,7 +71,7 @@ void check_elements(const Case& input) {
   if (input.scene.beam.shears()) {
     throw InvalidCase("model.mesh",
                       "is \"hermite\", whose elements do not shear; allowed with beam.theory = "
-                      "\"timoshenko\": \"cells\"");
+                      "\"timoshenko\": \"cells\" or \"spectral\"");
   }
   const double elements = input.model.elements;
   const double at = input.scene.striker.position;
@@ -163,6 +165,40 @@ Mesh make_hermite_mesh(const Case& input) {
                            input.model.hinges == HingeUse::automatic && may_yield(input)});
 }
 
+void check_spectral(const Case& input) {
+  check_is_not_graded(input);
+  check_has_no_points(input);
+  if (!input.scene.beam.shears()) {
+    throw InvalidCase("model.mesh",
+                      fmt::format("is \"spectral\", which is for beams that shear; allowed with "
+                                  "beam.theory = \"{}\": \"cells\" or \"hermite\"; or set "
+                                  "beam.theory = \"timoshenko\"",
+                                  to_text(*find_case_key("beam.theory")->get(input))));
+  }
+  const double at = input.scene.striker.position;
+  const double elements = input.model.elements;
+  const bool on_support =
+      (at == 0.0 || at == 1.0) && input.scene.beam.ends[at == 0.0 ? 0 : 1] != EndSupport::free;
+  const bool near_end = at > 0.0 && at < 1.0 && std::min(at, 1.0 - at) * elements < 0.5;
+  if (!on_support && !near_end) return;
+  throw InvalidCase(
+      "striker.position",
+      fmt::format("is {}, {}; allowed with {} elements: from {:.6g} to {:.6g}, or a "
+                  "free end itself; move the strike inwards or use more elements",
+                  at, on_support ? "on a support" : "closer to an end than half an element",
+                  input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements));
+}
+
+Mesh make_spectral_mesh(const Case& input) {
+  const int elements = input.model.elements;
+  const bool half = uses_half(input, "model.elements", elements, false, "node");
+  return std::make_shared<SpectralMesh>(
+      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
+      half ? SpectralMesh::Extent::half : SpectralMesh::Extent::whole);
+}
+
+int order_of_spectral_elements(const Case&) { return 2; }
+
 double size_of_cells(const Case& input) {
   return CellMesh::spacing_of(input.scene.beam, static_cast<std::size_t>(input.model.segments),
                               spacing_of(input));
@@ -183,6 +219,8 @@ constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "mod
 constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
                                             "model.hinges",         "model.strike_refinement",
                                             "model.refined_length", "model.symmetry"};
+
+constexpr const char* keys_of_spectral[] = {"model.elements", "model.symmetry"};
 
 constexpr MeshDescriptor rows[] = {
     {.kind = MeshKind::cells,
@@ -211,6 +249,15 @@ constexpr MeshDescriptor rows[] = {
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(HermiteMesh::fewest_elements), false, size_of_elements,
                      order_of_elements}}},
+    {.kind = MeshKind::spectral,
+     .name = "spectral",
+     .note = "elements of degree 4 for beams that shear",
+     .keys = keys_of_spectral,
+     .check = check_spectral,
+     .make = make_spectral_mesh,
+     .refinement = {{&ModelOptions::elements, "model.elements", "elements",
+                     static_cast<int>(SpectralMesh::fewest_elements), false, size_of_elements,
+                     order_of_spectral_elements}}},
     {.kind = MeshKind::rigid,
      .name = "rigid",
      .note = "the beam as a rigid body, for impacts of two bodies",

@@ -44,11 +44,41 @@ void free_of_translation(NaturalModes& modes, const BeamMesh& mesh) {
   normalise(modes, mesh.mass());
 }
 
+struct Decomposition {
+  Eigen::VectorXd squared_frequencies;  // ascending
+  Eigen::MatrixXd shapes;
+};
+
+template <class Solver>
+void check(const Solver& solver) {
+  if (solver.info() == Eigen::Success) return;
+  throw std::runtime_error("natural modes: the eigenvalue decomposition did not converge");
+}
+
+// K phi = omega^2 Mass phi. A diagonal mass makes it a standard problem, at some half the cost.
+Decomposition decompose(Eigen::MatrixXd stiffness, const BandedMatrix& mass) {
+  const Eigen::Index n = stiffness.rows();
+  const auto entry = [&](Eigen::Index i, Eigen::Index j) {
+    return mass(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  };
+  if (mass.half_bandwidth() == 0) {
+    Eigen::VectorXd scale(n);
+    for (Eigen::Index i = 0; i < n; ++i) scale(i) = 1.0 / std::sqrt(entry(i, i));
+    stiffness = scale.asDiagonal() * stiffness * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
+    check(solver);
+    return {solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors()};
+  }
+  const Eigen::MatrixXd dense = Eigen::MatrixXd::NullaryExpr(n, n, entry);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, dense);
+  check(solver);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 }  // namespace
 
 NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness) {
   const auto n = static_cast<Eigen::Index>(mesh.n_unknowns());
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd stiffness(n, n);
   std::vector<double> unit(mesh.n_unknowns());
   std::vector<double> kappa(mesh.n_sections());
@@ -60,21 +90,14 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
     for (double& k : kappa) k *= bending_stiffness;
     mesh.bending_forces(kappa, force);
     mesh.add_shear_forces(unit, force);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      stiffness(i, j) = -force[row];
-      mass(i, j) = mesh.mass()(row, column);
-    }
+    for (Eigen::Index i = 0; i < n; ++i) stiffness(i, j) = -force[static_cast<std::size_t>(i)];
     unit[column] = 0.0;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-  if (solver.info() != Eigen::Success) {
-    throw std::runtime_error("natural modes: the eigenvalue decomposition did not converge");
-  }
+  const Decomposition found = decompose(std::move(stiffness), mesh.mass());
   NaturalModes modes;
   modes.frequencies.resize(mesh.n_unknowns());
-  modes.shapes.assign(solver.eigenvectors().data(), solver.eigenvectors().data() + n * n);
-  const double highest = std::sqrt(solver.eigenvalues()(n - 1));
+  modes.shapes.assign(found.shapes.data(), found.shapes.data() + n * n);
+  const double highest = std::sqrt(found.squared_frequencies(n - 1));
   for (std::size_t k = 0; k < modes.size(); ++k) {
     mesh.curvatures(modes.shape(k), kappa);
     double twice_energy = 2.0 * mesh.shear_energy(modes.shape(k));

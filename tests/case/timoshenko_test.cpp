@@ -53,6 +53,43 @@ TEST(Timoshenko, HasTheTimesOfOtherDiscretisationsInTheLimitOfFineCells) {
   }
 }
 
+TEST(Timoshenko, HasTheSameTimesOnSpectralElements) {
+  Case input = shearing_case(SectionKind::elastic, 0.66e-3, 501);
+  input.model.mesh = MeshKind::spectral;
+  input.model.elements = 60;
+  input.scene.striker.velocity = 0.1;
+  const std::vector<double> times = times_us(simulate(input), 5);
+  ASSERT_EQ(times.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    std::printf("%.2f us expected, %.4f us found\n", times_at_low_speed_us[i], times[i]);
+    EXPECT_NEAR(times[i], times_at_low_speed_us[i], 0.05);
+  }
+}
+
+TEST(Timoshenko, ConvergesOnSpectralElementsAtLowSpeedFasterThanSecondOrder) {
+  const auto times = [](int elements) {
+    Case input = shearing_case(SectionKind::elastic, 0.66e-3, 501);
+    input.model.mesh = MeshKind::spectral;
+    input.model.elements = elements;
+    input.scene.striker.velocity = 0.1;
+    input.solver.rtol = 1e-11;
+    return times_us(simulate(input), 5);
+  };
+  const std::vector<double> expected = times(160);
+  OrderTable table("largest error of five times, us, over elements");
+  for (const int elements : {20, 40, 80}) {
+    const std::vector<double> found = times(elements);
+    ASSERT_EQ(found.size(), 5u);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 5; ++i) {
+      largest = std::max(largest, std::abs(found[i] - expected[i]));
+    }
+    table.add(elements, largest);
+  }
+  table.print();
+  table.expect_overall_order_within(2.5, 8.5);
+}
+
 TEST(Timoshenko, LeavesTheContactOfAYieldingBeamClosedUntil259Microseconds) {
   const auto first_end = [](int cells) {
     return end_us(simulate(shearing_case(SectionKind::exact, 0.27e-3, cells)).sub_impacts.at(0));

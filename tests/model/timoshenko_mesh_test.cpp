@@ -10,6 +10,7 @@
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
+#include "model/spectral_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
@@ -50,12 +51,37 @@ std::vector<TimoshenkoMesh> meshes() {
   return all;
 }
 
+// The same shapes of spectral elements.
+std::vector<SpectralMesh> spectral_meshes() {
+  std::vector<SpectralMesh> all;
+  for (const EndSupport first : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+    for (const EndSupport second : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+      const Beam beam = shearing_beam({first, second});
+      for (const std::size_t n : {2u, 5u, 12u}) {
+        for (const double position : {0.27, 0.5, 0.71}) {
+          all.emplace_back(beam, position, n, SpectralMesh::Extent::whole);
+        }
+        if (first == second && n % 2 == 0)
+          all.emplace_back(beam, 0.5, n, SpectralMesh::Extent::half);
+      }
+    }
+  }
+  return all;
+}
+
+// Calls check(mesh) on all of both kinds.
+template <class Check>
+void on_every_mesh(Check check) {
+  for (const TimoshenkoMesh& mesh : meshes()) check(mesh);
+  for (const SpectralMesh& mesh : spectral_meshes()) check(mesh);
+}
+
 double dot(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-TEST(TimoshenkoMesh, BendingForcesAreTheExactTransposeOfCurvatures) {
-  for (const TimoshenkoMesh& mesh : meshes()) {
+TEST(MeshesThatShear, BendingForcesAreTheExactTransposeOfCurvatures) {
+  on_every_mesh([](const BeamMesh& mesh) {
     const std::vector<double> q = random_numbers(1, mesh.n_unknowns());
     const std::vector<double> moments = random_numbers(2, mesh.n_sections());
     std::vector<double> kappa(mesh.n_sections()), forces(mesh.n_unknowns(), 1.0);
@@ -67,22 +93,22 @@ TEST(TimoshenkoMesh, BendingForcesAreTheExactTransposeOfCurvatures) {
       size += std::abs(mesh.section_weights()[i] * moments[i] * kappa[i]);
     }
     EXPECT_NEAR(work, -dot(forces, q), 1e-13 * size) << mesh.description();
-  }
+  });
 }
 
-TEST(TimoshenkoMesh, StencilsAreTheRowsOfTheCurvatures) {
-  for (const TimoshenkoMesh& mesh : meshes()) {
+TEST(MeshesThatShear, StencilsAreTheRowsOfTheCurvatures) {
+  on_every_mesh([](const BeamMesh& mesh) {
     const std::vector<double> q = random_numbers(3, mesh.n_unknowns());
     std::vector<double> kappa(mesh.n_sections());
     mesh.curvatures(q, kappa);
     for (std::size_t i = 0; i < kappa.size(); ++i) {
       EXPECT_NEAR(mesh.curvature(i, q), kappa[i], 1e-13 * (1.0 + std::abs(kappa[i])));
     }
-  }
+  });
 }
 
-TEST(TimoshenkoMesh, ShearForcesAreThoseOfTheStiffnessMatrixAndItsEnergy) {
-  for (const TimoshenkoMesh& mesh : meshes()) {
+TEST(MeshesThatShear, ShearForcesAreThoseOfTheStiffnessMatrixAndItsEnergy) {
+  on_every_mesh([](const BeamMesh& mesh) {
     const std::vector<double> q = random_numbers(4, mesh.n_unknowns());
     std::vector<double> forces(mesh.n_unknowns(), 0.0), by_matrix(mesh.n_unknowns(), 0.0);
     mesh.add_shear_forces(q, forces);
@@ -92,7 +118,7 @@ TEST(TimoshenkoMesh, ShearForcesAreThoseOfTheStiffnessMatrixAndItsEnergy) {
       EXPECT_NEAR(forces[i], by_matrix[i], 1e-13 * size) << mesh.description() << ", " << i;
     }
     EXPECT_NEAR(mesh.shear_energy(q), -0.5 * dot(forces, q), 1e-12 * mesh.shear_energy(q));
-  }
+  });
 }
 
 TEST(TimoshenkoMesh, RigidMotionsOfAFreeBeamStrainNothing) {
@@ -109,11 +135,11 @@ TEST(TimoshenkoMesh, RigidMotionsOfAFreeBeamStrainNothing) {
   }
 }
 
-TEST(TimoshenkoMesh, HasANodeUnderTheStrike) {
-  for (const TimoshenkoMesh& mesh : meshes()) {
-    ASSERT_EQ(mesh.struck_point().terms.size(), 1u);
+TEST(MeshesThatShear, HaveANodeUnderTheStrike) {
+  on_every_mesh([](const BeamMesh& mesh) {
+    ASSERT_EQ(mesh.struck_point().terms.size(), 1u) << mesh.description();
     EXPECT_EQ(mesh.struck_point().terms.front().coefficient, 1.0);
-  }
+  });
   const TimoshenkoMesh mesh(shearing_beam(), 0.317, 60, Extent::whole);
   EXPECT_NEAR(mesh.section_positions()[mesh.struck_section()], 0.317 * shearing_beam().length,
               1e-12);
@@ -288,6 +314,79 @@ TEST(TimoshenkoMesh, InNaturalModesHasTheSameForcesAndEnergies) {
   const double work = dot(forces, virtual_q);
   EXPECT_NEAR(dot(modal_forces, virtual_z), work,
               1e-10 * std::sqrt(dot(forces, forces) * dot(virtual_q, virtual_q)));
+}
+
+// --- spectral elements ---------------------------------------------------------------------------
+
+std::vector<double> spectral_frequencies(const Beam& beam, double position, std::size_t n) {
+  const SpectralMesh mesh(beam, position, n, SpectralMesh::Extent::whole);
+  return mesh.natural_modes(beam.bending_stiffness()).frequencies;
+}
+
+TEST(SpectralMesh, PinnedFrequenciesOfBothBranchesConvergeAtEighthOrder) {
+  Beam stubby = shearing_beam(pinned_ends);
+  stubby.length = 10.0 * stubby.thickness;
+  for (const int mode : {3, 5}) {
+    for (const std::size_t branch : {0u, 1u}) {
+      OrderTable table("relative error of mode " + std::to_string(mode) + ", branch " +
+                       std::to_string(branch) + ", over elements");
+      const double exact = pinned_frequencies(stubby, mode)[branch];
+      for (const std::size_t n : {6u, 8u, 12u}) {
+        const double found = nearest(spectral_frequencies(stubby, 0.5, n), exact);
+        table.add(static_cast<double>(n), std::abs(found / exact - 1.0));
+      }
+      table.expect_every_order_within(7.0, 9.0);
+    }
+  }
+}
+
+TEST(SpectralMesh, DoesNotLockAsTheBeamBecomesSlender) {
+  Beam slender = shearing_beam(pinned_ends);
+  slender.length = 1000.0 * slender.thickness;
+  OrderTable table("relative error of mode 5 at l/h = 1000");
+  const double exact = pinned_frequencies(slender, 5)[0];
+  for (const std::size_t n : {3u, 5u, 8u}) {
+    table.add(static_cast<double>(n),
+              std::abs(spectral_frequencies(slender, 0.5, n)[4] / exact - 1.0));
+  }
+  table.expect_every_order_within(6.0, 10.0);
+}
+
+// Two discretisations that have nothing in common but the continuum.
+TEST(SpectralMesh, HasTheFrequenciesThatCellsTendToForAllEnds) {
+  for (const Ends& ends : {free_ends, clamped_ends, Ends{EndSupport::clamped, EndSupport::free},
+                           Ends{EndSupport::pinned, EndSupport::clamped}}) {
+    Beam beam = shearing_beam(ends);
+    beam.length = 20.0 * beam.thickness;
+    const std::size_t mode = beam.is_free() ? 4 : 2;
+    const double coarse = frequencies(beam, 0.5, 161)[mode];
+    const double fine = frequencies(beam, 0.5, 321)[mode];
+    const double limit = fine + (fine - coarse) / (std::pow(321.0 / 161.0, 2) - 1.0);
+    const double found = spectral_frequencies(beam, 0.37, 16)[mode];
+    std::printf("relative difference %.1e\n", std::abs(found / limit - 1.0));
+    EXPECT_NEAR(found / limit, 1.0, 2e-6);
+  }
+}
+
+TEST(SpectralMesh, HighestFrequencyIsABoundAndClose) {
+  for (const Ends& ends : {free_ends, pinned_ends, clamped_ends}) {
+    const Beam beam = shearing_beam(ends);
+    for (const double position : {0.5, 0.13}) {
+      const SpectralMesh mesh(beam, position, 12, SpectralMesh::Extent::whole);
+      const double highest = spectral_frequencies(beam, position, 12).back();
+      const double bound = mesh.highest_frequency(beam.bending_stiffness());
+      EXPECT_GE(bound, highest * (1.0 - 1e-12));
+      EXPECT_LE(bound, 1.2 * highest);
+    }
+  }
+}
+
+TEST(SpectralMesh, RefusesWhatItCannotModel) {
+  using Whole = SpectralMesh::Extent;
+  EXPECT_THROW(SpectralMesh(paper_beam(), 0.5, 8, Whole::whole), std::invalid_argument);
+  EXPECT_THROW(SpectralMesh(shearing_beam(), 0.5, 1, Whole::whole), std::invalid_argument);
+  EXPECT_THROW(SpectralMesh(shearing_beam(), 0.5, 7, Whole::half), std::invalid_argument);
+  EXPECT_THROW(SpectralMesh(shearing_beam(), 0.4, 8, Whole::half), std::invalid_argument);
 }
 
 }  // namespace
