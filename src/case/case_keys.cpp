@@ -242,10 +242,10 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.striker_poisson)),
     row("contact.beam_poisson", "", poisson, "the same as beam.poisson", "beam.poisson", AT(scene.contact.beam_poisson)),
 
-    row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\", or \"hermite\" if model.elements is given", AT(model.mesh)),
+    row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\"; if model.elements is given, \"hermite\", with shear \"spectral\"", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
     row("model.spacing", "", any_value, "length of the cells, with mesh = \"cells\"", as_in_case, AT(model.spacing)),
-    row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
+    row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\" or \"spectral\"", as_in_case, AT(model.elements)),
     row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points per element, where the bending law is evaluated", as_in_case, AT(model.sections_per_element)),
     row("model.hinges", "", any_value, "sections of elements where the slope may jump", as_in_case, AT(model.hinges)),
     row("model.strike_refinement", "", refinement_range, "size of the elements far from the strike over the size of those at the strike, with mesh = \"hermite\"", as_in_case, AT(model.strike_refinement)),
@@ -378,7 +378,7 @@ void check(const Case& input) {
   }
   check_scales(input);
   check_contact(input);
-  if (!input.parts.mesh) descriptor_of(input.model.mesh).check(input);
+  if (!input.parts.mesh) check_mesh(input);
   check_history_size(input);
   check_shear(input);
   check_gaps(input);

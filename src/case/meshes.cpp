@@ -1,10 +1,12 @@
 #include "case/meshes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "case/problem.h"
 #include "model/cell_mesh.h"
@@ -68,11 +70,6 @@ void check_cells(const Case& input) {
 // There is a node at the strike, and an element much shorter than the others would determine the
 // time step.
 void check_elements(const Case& input) {
-  if (input.scene.beam.shears()) {
-    throw InvalidCase("model.mesh",
-                      "is \"hermite\", whose elements do not shear; allowed with beam.theory = "
-                      "\"timoshenko\": \"cells\" or \"spectral\"");
-  }
   const double elements = input.model.elements;
   const double at = input.scene.striker.position;
   const double length = input.scene.beam.length;
@@ -168,13 +165,6 @@ Mesh make_hermite_mesh(const Case& input) {
 void check_spectral(const Case& input) {
   check_is_not_graded(input);
   check_has_no_points(input);
-  if (!input.scene.beam.shears()) {
-    throw InvalidCase("model.mesh",
-                      fmt::format("is \"spectral\", which is for beams that shear; allowed with "
-                                  "beam.theory = \"{}\": \"cells\" or \"hermite\"; or set "
-                                  "beam.theory = \"timoshenko\"",
-                                  to_text(*find_case_key("beam.theory")->get(input))));
-  }
   const double at = input.scene.striker.position;
   const double elements = input.model.elements;
   const bool on_support =
@@ -238,8 +228,9 @@ constexpr MeshDescriptor rows[] = {
                      order_of_cells}}},
     {.kind = MeshKind::hermite,
      .name = "hermite",
-     .note = "cubic Hermite elements, fourth order",
+     .note = "cubic Hermite elements, fourth order, for beams that do not shear",
      .keys = keys_of_elements,
+     .suits = [](const Beam& beam) { return !beam.shears(); },
      .check =
          [](const Case& input) {
            check_has_no_points(input);
@@ -253,6 +244,7 @@ constexpr MeshDescriptor rows[] = {
      .name = "spectral",
      .note = "elements of degree 4 for beams that shear",
      .keys = keys_of_spectral,
+     .suits = [](const Beam& beam) { return beam.shears(); },
      .check = check_spectral,
      .make = make_spectral_mesh,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
@@ -280,6 +272,22 @@ const MeshDescriptor& descriptor_of(MeshKind kind) {
     if (row.kind == kind) return row;
   }
   throw std::logic_error("a mesh has no descriptor: add a row in meshes.cpp");
+}
+
+void check_mesh(const Case& input) {
+  const MeshDescriptor& mesh = descriptor_of(input.model.mesh);
+  if (!mesh.suits(input.scene.beam)) {
+    std::vector<std::string> suitable;
+    for (const MeshDescriptor& row : rows) {
+      if (row.suits(input.scene.beam)) suitable.push_back(fmt::format("\"{}\"", row.name));
+    }
+    throw InvalidCase("model.mesh",
+                      fmt::format("is \"{}\", which does not model beam.theory = {}; allowed with "
+                                  "it: {}; use one of these, or another theory",
+                                  mesh.name, to_text(*find_case_key("beam.theory")->get(input)),
+                                  fmt::join(suitable, ", ")));
+  }
+  mesh.check(input);
 }
 
 bool mesh_uses(const Case& input, const char* key) {

@@ -245,6 +245,7 @@ void Reader::choose_mesh(Case& read) {
   for (const bool in_file : {false, true}) {
     const MeshDescriptor* chosen = nullptr;
     for (const MeshDescriptor& mesh : meshes()) {
+      if (!mesh.suits(read.scene.beam)) continue;
       if (!mesh.refinement || !is_given(mesh.refinement->key, in_file)) continue;
       if (chosen != nullptr) {
         const char* first = chosen->refinement->key;
