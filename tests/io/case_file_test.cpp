@@ -113,8 +113,12 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   linear.scene.contact = {ContactKind::linear, 1e7, {}, {}, {}};
   Case sphere = foundation;
   sphere.scene.contact = {ContactKind::hertz, {}, 2e11, 0.3, 0.25};
+  Case sheared = foundation;
+  sheared.scene.beam.theory = BeamTheory::timoshenko;
+  sheared.scene.beam.poisson = 0.3;
+  sheared.scene.beam.shear_coefficient = 0.85;
   std::set<std::string> covered;
-  for (const Case& original : {foundation, linear, sphere}) {
+  for (const Case& original : {foundation, linear, sphere, sheared}) {
     std::vector<Override> all;
     for (const CaseKey& key : case_keys()) {
       const std::optional<KeyValue> value = key.get(original);
