@@ -89,11 +89,13 @@ class StruckBeam final : public MechanicalSystem {
   Evaluation section_evaluation() const { return section_evaluation_; }
   /// Accepts y: advances the histories of contact and sections. Returns whether any section flowed.
   bool commit(const State& y);
+  /// The same for a state of which acceleration() was computed last.
+  bool commit_evaluated(const State& y);
   /// Commits the curvature (1/m) at which a section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature) {
     sections_.commit_reversal(section, curvature);
   }
-  /// The sections at the last committed state; empty motion if they cannot yield.
+  /// The sections at the last state committed while their evaluation was smooth.
   const SectionMotion& committed_motion() const { return committed_; }
 
   /// Evaluations of the acceleration: of the forces, each with a mass solve.
@@ -126,8 +128,9 @@ class StruckBeam final : public MechanicalSystem {
   mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first needs it
   long n_accelerations_ = 0;
   long n_forces_ = 0;
-  AlignedVector curvatures_, moments_;  // of the last evaluation
-  std::vector<double> trial_;           // accelerations
+  AlignedVector curvatures_, moments_;          // work space
+  std::vector<SectionField::Outside> outside_;  // at the last evaluation
+  std::vector<double> trial_;                   // accelerations
   SectionMotion committed_;
 };
 
