@@ -29,6 +29,9 @@ constexpr double margin = 1.05;
 // Of the time scale of the shortest contacts, where nothing is wished.
 constexpr double default_share_of_contact = 0.1;
 
+// A step that moves every mode in closed form takes as long as these evaluations.
+constexpr double evaluations_per_step_in_modes = 3.0;
+
 double default_wish(const Case& input) {
   return default_share_of_contact * resolve(input).settings().contact_time;
 }
@@ -273,8 +276,13 @@ void Ladder::report(WithinRun& run) const {
 }  // namespace
 
 double counted_work(const Result& result) {
-  return static_cast<double>(result.work.right_hand_sides) *
-             static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
+  const Work& work = result.work;
+  auto evaluations = static_cast<double>(work.right_hand_sides);
+  if (result.given.solver.method == Method::exponential) {
+    evaluations +=
+        evaluations_per_step_in_modes * static_cast<double>(work.steps + work.rejected_steps);
+  }
+  return evaluations * static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
          result.used.decomposition;
 }
 
