@@ -6,6 +6,8 @@
 #include "case/meshes.h"
 #include "io/csv_columns.h"
 #include "io/write_file.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/report.h"
 
@@ -14,21 +16,41 @@ namespace {
 
 constexpr double us = 1e6;  // per second
 
-std::string settings_text(const PlanPoint& point) {
+// What an advised run has though its case leaves it open.
+std::optional<KeyValue> resolved_value(const std::string& key, const ResolvedSettings& settings) {
+  if (key == "solver.step" && settings.step) return *settings.step;
+  if (key == "solver.table" && settings.table) return *settings.table;
+  if (key == "solver.events") return std::string(to_string(settings.events));
+  return std::nullopt;
+}
+
+// The options that make of the case that was asked about the run that is advised.
+std::string settings_text(const Case& asked, const Case& advised) {
+  const ResolvedSettings settings = resolve(advised).settings();
+  std::string text = fmt::format("--method {}", name_of(advised.solver.method));
+  std::string left_out;
+  for (const CaseKey& key : case_keys()) {
+    const std::string table = key.table();
+    if (table == "output" || table == "accuracy" || key.name == "solver.method") continue;
+    const std::optional<KeyValue> before = key.get(asked);
+    std::optional<KeyValue> value = key.get(advised);
+    if (value == before) continue;
+    if (!value) value = resolved_value(key.name, settings);
+    if (value) {
+      const auto* word = std::get_if<std::string>(&*value);
+      text += fmt::format(" --set {}={}", key.name, word ? *word : to_text(*value));
+    } else {
+      left_out += (left_out.empty() ? "; without " : ", ") + key.name;
+    }
+  }
+  return text + left_out;
+}
+
+// "nystrom/graded-elements"
+std::string sequence_of(const PlanPoint& point) {
   const ModelOptions& model = point.input.model;
-  const MeshDescriptor& mesh = descriptor_of(model.mesh);
-  std::string text = fmt::format("--method {} --set model.mesh={} --set {}={}", point.method,
-                                 mesh.name, mesh.refinement->key, model.*(mesh.refinement->count));
-  if (model.strike_refinement != 1.0 && mesh_uses(point.input, "model.strike_refinement")) {
-    text += fmt::format(" --set model.strike_refinement={:g} --set model.refined_length={:g}",
-                        model.strike_refinement, model.refined_length);
-  }
-  if (point.input.solver.step) {
-    return text + fmt::format(" --set solver.step={:.17g}", *point.input.solver.step);
-  }
-  const bool adaptive = point.input.solver.method != Method::central_difference;
-  return adaptive ? text + fmt::format(" --set solver.rtol={:.17g}", point.input.solver.rtol)
-                  : text;
+  return fmt::format("{}/{}{}", point.method, model.strike_refinement != 1.0 ? "graded-" : "",
+                     descriptor_of(model.mesh).refinement->parts);
 }
 
 }  // namespace
@@ -65,9 +87,10 @@ std::string plan_table(const Plan& plan) {
     const PlanPoint& best = plan.points[*plan.cheapest];
     fmt::format_to(out,
                    "\ncheapest within {:g} us in all: {}, {}: {}, error {:.1e} us beside a "
-                   "reference known to {:.1e} us\n  {}\n",
+                   "reference known to {:.1e} us; with this case, run\n  {}\n",
                    plan.wanted * us, best.mesh, best.method, duration_text(best.seconds),
-                   best.errors.maximum * us, plan.reference_error * us, settings_text(best));
+                   best.errors.maximum * us, plan.reference_error * us,
+                   settings_text(plan.asked, best.input));
   } else {
     fmt::format_to(out, "\nno mesh that was tried is within {:g} us together with all finer ones\n",
                    plan.wanted * us);
@@ -85,12 +108,14 @@ void write_plan(const std::filesystem::path& directory, const Plan& plan) {
       {"end_error_s", &SubImpact::end_error}};
   write_file(directory / "reference.csv", csv_text(reference, plan.sub_impacts));
   const Columns<PlanPoint> points = {
+      {"sequence", [](const PlanPoint& p) { return sequence_of(p); }},
       {"mesh", &PlanPoint::mesh},
       {"method", &PlanPoint::method},
       {"verdict", [](const PlanPoint& p) { return p.verdict; }},
       {"error_s", [](const PlanPoint& p) { return p.errors.maximum; }},
       {"within", [](const PlanPoint& p) { return p.within ? 1 : 0; }},
       {"admitted", [](const PlanPoint& p) { return p.admitted ? 1 : 0; }},
+      {"cheapest", [&](const PlanPoint&, std::size_t i) { return plan.cheapest == i ? 1 : 0; }},
       {"counted_work", &PlanPoint::work},
       {"wall_s", &PlanPoint::seconds}};
   write_file(directory / "plan.csv", csv_text(points, plan.points));
