@@ -7,7 +7,6 @@
 #include "io/csv_columns.h"
 #include "io/write_file.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/report.h"
 
@@ -16,34 +15,21 @@ namespace {
 
 constexpr double us = 1e6;  // per second
 
-// What an advised run has though its case leaves it open.
-std::optional<KeyValue> resolved_value(const std::string& key, const ResolvedSettings& settings) {
-  if (key == "solver.step" && settings.step) return *settings.step;
-  if (key == "solver.table" && settings.table) return *settings.table;
-  if (key == "solver.events") return std::string(to_string(settings.events));
-  return std::nullopt;
-}
-
 // The options that make of the case that was asked about the run that is advised.
 std::string settings_text(const Case& asked, const Case& advised) {
-  const ResolvedSettings settings = resolve(advised).settings();
   std::string text = fmt::format("--method {}", name_of(advised.solver.method));
-  std::string left_out;
   for (const CaseKey& key : case_keys()) {
     const std::string table = key.table();
     if (table == "output" || table == "accuracy" || key.name == "solver.method") continue;
-    const std::optional<KeyValue> before = key.get(asked);
-    std::optional<KeyValue> value = key.get(advised);
-    if (value == before) continue;
-    if (!value) value = resolved_value(key.name, settings);
-    if (value) {
-      const auto* word = std::get_if<std::string>(&*value);
-      text += fmt::format(" --set {}={}", key.name, word ? *word : to_text(*value));
-    } else {
-      left_out += (left_out.empty() ? "; without " : ", ") + key.name;
-    }
+    const std::optional<KeyValue> value = key.get(advised);
+    if (value == key.get(asked)) continue;
+    const auto* word = value ? std::get_if<std::string>(&*value) : nullptr;
+    text += fmt::format(" --set {}={}", key.name,
+                        word    ? *word
+                        : value ? to_text(*value)
+                                : "default");
   }
-  return text + left_out;
+  return text;
 }
 
 // "nystrom/graded-elements"

@@ -74,11 +74,11 @@ void judge(Request& request) {
   request.of_reference = counted_work(plan.reference.result) / advice.work;
 }
 
-Case papers_beam(double work_limit) {
+// With the default limit of work.
+Case papers_beam() {
   Case input = read_case_file(SUBIMPACT_PAPER_CASE).value;
   input.model.section = SectionKind::exact;
   input.end_time = 0.84e-3;
-  input.accuracy.work_limit = work_limit;
   input.output.keep_no_rows();
   return input;
 }
@@ -86,7 +86,7 @@ Case papers_beam(double work_limit) {
 std::vector<Request> requests_of(const WishStudy& study) {
   std::vector<Request> requests(1);
   requests[0].scene = "paper";
-  requests[0].input = papers_beam(study.work_limit);
+  requests[0].input = papers_beam();
   requests[0].wish = 0.1e-6;
   for (int number = 0; number < study.n_scenes; ++number) {
     const Case input = open_scene(study.seed, number, study.budget, study.work_limit);
