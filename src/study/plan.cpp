@@ -22,8 +22,9 @@ constexpr double reference_share = 0.2;
 constexpr int enough_in_a_row = 3;
 constexpr int enough_beside_reference = 2;
 constexpr int bisections = 2;
-constexpr double coarsest_share = 0.25;  // of the parts that resolve the shortest contacts
 constexpr int fewest_parts = 16;
+// Of a duration or separation, up to which an error leaves it what it is.
+constexpr double recognisable = 0.5;
 constexpr double grading = 4.0;  // length of far elements over that of those at the strike
 
 struct Family {
@@ -87,6 +88,32 @@ void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
                   wish.reason.empty() ? "the first contact lasts to the end" : wish.reason));
 }
 
+double error_of(const SubImpact& s) {
+  return std::max(s.start_error.value_or(0.0), s.end_error.value_or(0.0));
+}
+
+// Whether the errors of all sub-impacts are small beside their durations and the separations about
+// them, those of the reference included. A wish may be larger.
+bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubImpact>& reference) {
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const SubImpact& s = reference[i];
+    double error = std::abs(run[i].start - s.start);
+    double shortest = std::numeric_limits<double>::infinity();
+    if (s.end && run[i].end) {
+      error = std::max(error, std::abs(*run[i].end - *s.end));
+      shortest = *s.end - s.start;
+    }
+    if (i > 0 && reference[i - 1].end) {
+      shortest = std::min(shortest, s.start - *reference[i - 1].end);
+    }
+    if (i + 1 < reference.size() && s.end) {
+      shortest = std::min(shortest, reference[i + 1].start - *s.end);
+    }
+    if (error + error_of(s) > recognisable * shortest) return false;
+  }
+  return true;
+}
+
 class Planner {
  public:
   Planner(Plan& plan, const PlanOptions& options) : plan_(plan), options_(options) {}
@@ -124,7 +151,8 @@ bool Planner::run_point(const Case& input) {
   point.verdict = judge(result, point.errors);
   point.work = counted_work(result);
   point.within = point.verdict == Verdict::right &&
-                 point.errors.maximum + plan_.reference_error <= plan_.wanted;
+                 point.errors.maximum + plan_.reference_error <= plan_.wanted &&
+                 are_recognisable(result.sub_impacts, plan_.sub_impacts);
   plan_.points.push_back(std::move(point));
   return true;
 }
@@ -151,7 +179,7 @@ double Planner::work_of_next(std::size_t first) const {
 }
 
 // Whether the sequence from `first` need not go on: its finest runs are within the wanted error, or
-// the next can no longer be the cheapest.
+// neither they nor the next can be the cheapest.
 bool Planner::is_enough(std::size_t first, int in_a_row) const {
   const PlanPoint& last = plan_.points.back();
   const Case& reference = plan_.reference.input;
@@ -159,9 +187,11 @@ bool Planner::is_enough(std::size_t first, int in_a_row) const {
                                 last.input.solver.method == reference.solver.method &&
                                 last.input.model.strike_refinement == 1.0;
   if (in_a_row >= (beside_reference ? enough_beside_reference : enough_in_a_row)) return true;
-  const double next = work_of_next(first);
-  if (!plan_.cheapest) return next > reference.accuracy.work_limit;
-  return in_a_row == 0 && next > plan_.points[*plan_.cheapest].work;
+  const double cheapest_left =
+      in_a_row == 0 ? work_of_next(first)
+                    : plan_.points[plan_.points.size() - static_cast<std::size_t>(in_a_row)].work;
+  return cheapest_left >
+         (plan_.cheapest ? plan_.points[*plan_.cheapest].work : reference.accuracy.work_limit);
 }
 
 void Planner::run(const Family& family) {
@@ -172,20 +202,19 @@ void Planner::run(const Family& family) {
   base.solver.method = family.method;
   base.end_time = plan_.horizon;
   const std::size_t first = plan_.points.size();
-  int in_a_row = 0;
-  try {
-    const Refinement sequence(base, {});
-    const double share =
-        std::max(coarsest_share, static_cast<double>(fewest_parts) / mesh_count(sequence.first()));
-    std::optional<Case> next = sequence.resized(sequence.first(), share);
-    while (next && run_point(*next)) {
-      in_a_row = plan_.points.back().within ? in_a_row + 1 : 0;
-      if (is_enough(first, in_a_row)) break;
-      next = sequence.finer(*next, std::sqrt(2.0));
+  const Refinement sequence(base, {});
+  std::optional<Case> next = sequence.resized(
+      sequence.first(), static_cast<double>(fewest_parts) / mesh_count(sequence.first()));
+  for (int in_a_row = 0; next; next = sequence.finer(*next, std::sqrt(2.0))) {
+    try {
+      if (!run_point(*next)) return;
+    } catch (const InvalidCase&) {  // a mesh too coarse for the strike
+      continue;
     }
-    if (!plan_.interrupted) admit(sequence, first);
-  } catch (const InvalidCase&) {  // a mesh on which the scene cannot be struck
+    in_a_row = plan_.points.back().within ? in_a_row + 1 : 0;
+    if (is_enough(first, in_a_row)) break;
   }
+  admit(sequence, first);
 }
 
 // Tries meshes between the cheapest and the next coarser one of its sequence.
@@ -227,7 +256,10 @@ Plan plan(const Case& input, double wanted, const PlanOptions& options) {
   if (result.interrupted) return result;
   Planner planner(result, options);
   for (const Family& family : families_of(input)) {
-    planner.run(family);
+    try {
+      planner.run(family);
+    } catch (const InvalidCase&) {  // no mesh of the kind suits the scene
+    }
     if (result.interrupted) return result;
   }
   planner.bisect();

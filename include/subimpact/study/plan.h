@@ -22,7 +22,8 @@ struct PlanPoint {
   EventErrors errors;    ///< total ones, against the reference
   double work = 0.0;     ///< counted (counted_work)
   double seconds = 0.0;  ///< wall time of the run
-  bool within = false;   ///< right, and its errors and those of the reference within the wanted one
+  bool within = false;  ///< right, and with the reference's error within the wanted one and half of
+                        ///< what it times
   /// Whether it and all finer runs of its sequence are within: not a mesh that is right by chance.
   bool admitted = false;
 };
