@@ -16,12 +16,12 @@ namespace {
 constexpr double us = 1e6;  // per second
 
 // The options that make of the case that was asked about the run that is advised.
-std::string settings_text(const Case& asked, const Case& advised) {
-  std::string text = fmt::format("--method {}", name_of(advised.solver.method));
+std::string settings_text(const Case& asked, const PlanPoint& advised) {
+  std::string text = "--method " + advised.method;
   for (const CaseKey& key : case_keys()) {
     const std::string table = key.table();
     if (table == "output" || table == "accuracy" || key.name == "solver.method") continue;
-    const std::optional<KeyValue> value = key.get(advised);
+    const std::optional<KeyValue> value = key.get(advised.input);
     if (value == key.get(asked)) continue;
     const auto* word = value ? std::get_if<std::string>(&*value) : nullptr;
     text += fmt::format(" --set {}={}", key.name,
@@ -76,7 +76,7 @@ std::string plan_table(const Plan& plan) {
                    "reference known to {:.1e} us; with this case, run\n  {}\n",
                    plan.wanted * us, best.mesh, best.method, duration_text(best.seconds),
                    best.errors.maximum * us, plan.reference_error * us,
-                   settings_text(plan.asked, best.input));
+                   settings_text(plan.asked, best));
   } else {
     fmt::format_to(out, "\nno mesh that was tried is within {:g} us together with all finer ones\n",
                    plan.wanted * us);
