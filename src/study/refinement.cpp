@@ -75,9 +75,14 @@ Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(inpu
 }
 
 std::optional<Case> Refinement::finer(const Case& from, double ratio) const {
+  std::optional<Case> next = resized(from, ratio);
+  if (next && mesh_count(*next) <= mesh_count(from)) next.reset();
+  return next;
+}
+
+std::optional<Case> Refinement::resized(const Case& from, double ratio) const {
   Case next = with_count(from, ratio * mesh_count(from));
   const int count = mesh_count(next);
-  if (count <= mesh_count(from)) return std::nullopt;
   const CaseKey& key = *find_case_key(size_key());
   if (key.limits.maximum && count > *key.limits.maximum) return std::nullopt;
   const double size = static_cast<double>(count) / mesh_count(first_);
