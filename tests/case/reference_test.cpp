@@ -58,7 +58,9 @@ INSTANTIATE_TEST_SUITE_P(, AgainstTheReference, testing::ValuesIn(tables),
                          [](const auto& info) { return std::string(info.param.name); });
 
 // The two other treatments of events, with a table of shorter steps: interpolation within the steps
-// of dop853 loses or invents a sub-impact after 5 ms.
+// of dop853 loses or invents a sub-impact after 5 ms. Times that are interpolated scatter with
+// where steps happen to end: over 25 velocities that differ by parts of 1e-13, the largest error
+// with 40 layers lies between 1e-3 and 9e-3 us.
 class WithoutLocation : public testing::TestWithParam<std::tuple<Table, EventHandling>> {};
 
 TEST_P(WithoutLocation, TheWholeStrikeHasAsManySubImpacts) {
@@ -78,7 +80,8 @@ TEST_P(WithoutLocation, TheWholeStrikeHasAsManySubImpacts) {
   }
   printf("%s: %zu sub-impacts, largest time difference before 2 ms %.2e us\n", table.name,
          result.sub_impacts.size(), worst_time);
-  EXPECT_LT(worst_time, table.time_bound_us);
+  const double scatter = events == EventHandling::interpolated ? 4.0 : 1.0;
+  EXPECT_LT(worst_time, scatter * table.time_bound_us);
 }
 
 INSTANTIATE_TEST_SUITE_P(, WithoutLocation,
