@@ -49,6 +49,7 @@ std::string table_head(bool with_name);
 Outcome check_bending();
 Outcome check_conservation();
 Outcome check_contact();
+Outcome check_damped_contact();
 Outcome check_frequencies();
 Outcome check_glued_mass();
 Outcome check_long_beam();
@@ -56,6 +57,7 @@ Outcome check_paper();
 Outcome check_paper_as_computed();
 Outcome check_rigid_bodies();
 Outcome check_rigid_plastic();
+Outcome check_sdnl32();
 Outcome check_spectral_identity();
 Outcome check_timoshenko();
 
