@@ -38,7 +38,7 @@ double balance_error(const Result& result) {
 }  // namespace
 
 Outcome check_sdnl32() {
-  Outcome outcome{"code_aster V5.02", {}, {}};
+  Outcome outcome{"code_aster, VPCS", {}, {}};
   const Result result = simulate(case_of("sdnl32"));
   int ms = 0;
   for (const double published : published_mm) {
