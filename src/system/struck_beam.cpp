@@ -142,7 +142,8 @@ void StruckBeam::add_damping(std::span<const double> velocities, std::span<doubl
 
 double StruckBeam::damping_power(std::span<const double> velocities) {
   if (damping_.is_none()) return 0.0;
-  std::vector<double> forces(n_, 0.0);
+  const std::span<double> forces(trial_.data(), n_);
+  std::fill(forces.begin(), forces.end(), 0.0);
   add_damping(velocities, forces);
   double power = 0.0;
   for (std::size_t i = 0; i < n_; ++i) power -= forces[i] * velocities[i];
