@@ -74,6 +74,9 @@ class Integrator {
     return false;
   }
 
+  /// Whether the acceleration that step() computes last is that at state().
+  virtual bool ends_at_last_evaluation() const { return false; }
+
   virtual WorkCounts work() const = 0;
 
  protected:

@@ -18,6 +18,7 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       outer_stiffness_(parts.outer_stiffness),
       damping_(parts.damping),
       depends_on_velocity_(parts.contact_damping > 0.0 || !parts.damping.is_none()),
+      shears_(mesh_->shears()),
       highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
@@ -67,9 +68,10 @@ void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces
   if (section_evaluation_ == Evaluation::smooth) {
     sections_.smooth_moments(curvatures_, moments_);
   } else {
-    sections_.moments(curvatures_, moments_);
+    sections_.moments(curvatures_, moments_, &outside_);
   }
   mesh_->bending_forces(moments_, forces);
+  if (shears_) mesh_->add_shear_forces(unknowns, forces);
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {
@@ -118,11 +120,13 @@ void StruckBeam::acceleration_at(std::span<const double> y, std::span<double> re
 void StruckBeam::add_stiffness_damping(std::span<const double> velocities,
                                        std::span<double> forces) {
   mesh_->curvatures(velocities, curvatures_);
-  const double factor = damping_.stiffness * sections_.stiffness();
-  for (std::size_t i = 0; i < moments_.size(); ++i) moments_[i] = factor * curvatures_[i];
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    moments_[i] = sections_.stiffness() * curvatures_[i];
+  }
   damping_forces_.resize(n_);
   mesh_->bending_forces(moments_, damping_forces_);
-  for (std::size_t i = 0; i < n_; ++i) forces[i] += damping_forces_[i];
+  if (shears_) mesh_->add_shear_forces(velocities, damping_forces_);
+  for (std::size_t i = 0; i < n_; ++i) forces[i] += damping_.stiffness * damping_forces_[i];
 }
 
 void StruckBeam::add_damping(std::span<const double> velocities, std::span<double> forces) {
@@ -190,12 +194,14 @@ void StruckBeam::stiffness_entries(std::span<const double> y, Part part, std::sp
 }
 
 void StruckBeam::damping_entries(std::span<const double> y, Part part, std::span<double> values) {
-  const bool of_beam = part != Part::rest;
-  const double factor = of_beam ? damping_.stiffness * sections_.stiffness() : 0.0;
-  std::fill(moments_.begin(), moments_.end(), factor);
-  const double slope = part == Part::stiff ? 0.0 : contact_.rate_slope(indentation(y));
-  jacobian().stiffness_entries(moments_, slope, values);
-  if (!of_beam || damping_.mass == 0.0) return;
+  std::fill(values.begin(), values.end(), 0.0);
+  if (part != Part::rest && damping_.stiffness > 0.0) {
+    std::fill(moments_.begin(), moments_.end(), sections_.stiffness());
+    jacobian().stiffness_entries(moments_, 0.0, values);
+    for (double& value : values) value *= damping_.stiffness;
+  }
+  if (part != Part::stiff) jacobian().add_contact(contact_.rate_slope(indentation(y)), values);
+  if (part == Part::rest || damping_.mass == 0.0) return;
   std::vector<double> mass(values.size());
   jacobian().mass_entries(mass);
   mass.back() = 0.0;  // the striker's
@@ -236,10 +242,18 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
 bool StruckBeam::commit(const State& y) {
   if (contact_.loads()) contact_.commit(indentation(y));
   if (!sections_.can_yield()) return false;
-  read_motion(y, committed_);
-  return section_evaluation_ == Evaluation::smooth
-             ? sections_.commit(committed_.curvatures, committed_.rates) > 0
-             : sections_.commit(committed_.curvatures) > 0;
+  if (section_evaluation_ == Evaluation::smooth) {
+    read_motion(y, committed_);
+    return sections_.commit(committed_.curvatures, committed_.rates) > 0;
+  }
+  mesh_->curvatures(beam_positions(y), curvatures_);
+  return sections_.commit(curvatures_) > 0;
+}
+
+bool StruckBeam::commit_evaluated(const State& y) {
+  if (section_evaluation_ == Evaluation::smooth) return commit(y);
+  if (contact_.loads()) contact_.commit(indentation(y));
+  return sections_.commit(outside_) > 0;
 }
 
 BeamJacobian& StruckBeam::jacobian() const {

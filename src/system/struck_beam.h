@@ -44,11 +44,12 @@ struct SectionMotion {
 ///
 /// State y = [w_1..w_n, w_m, v_1..v_n, v_m] (m, m/s): the mesh's unknowns, then the striker.
 ///
-///     Mass w'' = -B^T W M(kappa, history) + S F,   m w_m'' = -F,   F = F(lambda, history),
+///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F,   m w_m'' = -F,   F = F(lambda, history),
 ///     kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) of the sign of the curvature. With damping the forces depend on velocities too:
-/// -(alpha Mass + beta K) v on the beam, K = B^T W k B with the elastic stiffness k of the
+/// with M (N m) of the sign of the curvature and K_s the stiffness of shear, if any. With damping
+/// the forces depend on velocities too:
+/// -(alpha Mass + beta K) v on the beam, K = B^T W k B + K_s with the elastic stiffness k of the
 /// sections, in natural modes -2 zeta omega Mass v also; and F = F(lambda, lambda') (ContactState).
 /// Other classes treat changes of branch within a step: ContactState and find_crossing for the
 /// contact, SectionCorrector for the sections. Accounts computes energies and momenta.
@@ -119,11 +120,13 @@ class StruckBeam final : public MechanicalSystem {
   Evaluation section_evaluation() const { return section_evaluation_; }
   /// Accepts y: advances the histories of contact and sections. Returns whether any section flowed.
   bool commit(const State& y);
+  /// The same for a state of which acceleration() was computed last.
+  bool commit_evaluated(const State& y);
   /// Commits the curvature (1/m) at which a section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature) {
     sections_.commit_reversal(section, curvature);
   }
-  /// The sections at the last committed state; empty motion if they cannot yield.
+  /// The sections at the last state committed while their evaluation was smooth.
   const SectionMotion& committed_motion() const { return committed_; }
 
   /// Evaluations of the acceleration: of the forces, each with a mass solve.
@@ -132,7 +135,7 @@ class StruckBeam final : public MechanicalSystem {
   long n_forces() const { return n_forces_; }
 
  private:
-  // forces = -B^T W M.
+  // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   // Adds the forces of the beam's damping, all or those of beta.
   void add_stiffness_damping(std::span<const double> velocities, std::span<double> forces);
@@ -151,6 +154,7 @@ class StruckBeam final : public MechanicalSystem {
   BeamDamping damping_;
   bool depends_on_velocity_;
   Losses losses_;
+  bool shears_;
   // Of an elastic beam in natural modes, else empty: stiffnesses, and what a mode's acceleration is
   // made of.
   std::span<const double> modal_stiffness_;
@@ -163,8 +167,9 @@ class StruckBeam final : public MechanicalSystem {
   mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first needs it
   long n_accelerations_ = 0;
   long n_forces_ = 0;
-  AlignedVector curvatures_, moments_;  // of the last evaluation
-  std::vector<double> trial_;           // accelerations
+  AlignedVector curvatures_, moments_;          // work space
+  std::vector<SectionField::Outside> outside_;  // at the last evaluation
+  std::vector<double> trial_;                   // accelerations
   SectionMotion committed_;
 };
 

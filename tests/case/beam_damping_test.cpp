@@ -28,6 +28,7 @@ struct Decay {
   Method method;
   double rtol;
   BeamDamping damping;
+  BeamTheory theory = BeamTheory::rayleigh;
 };
 
 std::ostream& operator<<(std::ostream& out, const Decay& decay) { return out << decay.name; }
@@ -45,7 +46,11 @@ INSTANTIATE_TEST_SUITE_P(, AModeInFreeDecay,
                                          Decay{"dirk", Method::dirk, 1e-12, rayleigh},
                                          Decay{"imex", Method::imex, 1e-12, rayleigh},
                                          Decay{"adams", Method::adams, 1e-13, rayleigh},
-                                         Decay{"bdf", Method::bdf, 1e-13, rayleigh}),
+                                         Decay{"bdf", Method::bdf, 1e-13, rayleigh},
+                                         Decay{"erk_timoshenko", Method::erk, 1e-13, rayleigh,
+                                               BeamTheory::timoshenko},
+                                         Decay{"dirk_timoshenko", Method::dirk, 1e-12, rayleigh,
+                                               BeamTheory::timoshenko}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(AModeInFreeDecay, FollowsTheClosedFormTo1e9OfItsAmplitude) {
@@ -54,6 +59,8 @@ TEST_P(AModeInFreeDecay, FollowsTheClosedFormTo1e9OfItsAmplitude) {
   input.model.segments = 31;
   input.solver.method = decay.method;
   input.solver.rtol = decay.rtol;
+  input.scene.beam.theory = decay.theory;
+  input.scene.beam.poisson = 0.33;
   input.model.symmetry = SymmetryUse::off;
   ResolvedRun run = resolve(input);
   StruckBeam& beam = run.parts().beam;
