@@ -230,10 +230,14 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"hertz\" without stiffness", "none; \"timoshenko\" needs it", AT(scene.beam.poisson)),
     row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's, 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
+    row("beam.damping.ratio", "", between("from 0 to 1", 0.0, 1.0), "damping ratio of all natural modes of a beam that stays elastic", as_in_case, AT(scene.beam.damping.ratio)),
+    row("beam.damping.mass", "1/s", not_negative, "alpha of Rayleigh's damping: force over mass and velocity", as_in_case, AT(scene.beam.damping.mass)),
+    row("beam.damping.stiffness", "s", not_negative, "beta of Rayleigh's damping: force over elastic stiffness and velocity", as_in_case, AT(scene.beam.damping.stiffness)),
 
     row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass)),
     row("striker.nose_radius", "m", positive, "radius of the nose: a cylinder for contact.law = \"foundation\", a sphere for \"hertz\"", "none; \"foundation\" needs one", AT(scene.striker.nose_radius)),
     row("striker.velocity", "m/s", positive, "velocity at the first touch", required, AT(scene.striker.velocity)),
+    row("striker.gap", "m", not_negative, "distance of the nose from the beam at t = 0, which the striker crosses at striker.velocity", as_in_case, AT(scene.striker.gap)),
     row("striker.position", "", fraction, "struck point, as a fraction of the length", as_in_case, AT(scene.striker.position)),
 
     row("contact.law", "", any_value, "relation of contact force and indentation", as_in_case, AT(scene.contact.kind)),
@@ -241,6 +245,7 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.striker_modulus", "Pa", positive_or_infinite, "Young's modulus of a spherical nose, for \"hertz\" without stiffness; inf: rigid", "none; not needed with contact.stiffness", AT(scene.contact.striker_modulus)),
     row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.striker_poisson)),
     row("contact.beam_poisson", "", poisson, "the same as beam.poisson", "beam.poisson", AT(scene.contact.beam_poisson)),
+    row("contact.damping", "s/m", not_negative, "damping chi of the laws \"hertz\" and \"linear\": the force is that of the law times 1 + chi times the rate of the indentation (Hunt and Crossley)", as_in_case, AT(scene.contact.damping)),
 
     row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\"; if model.elements is given, \"hermite\", with shear \"spectral\"", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),

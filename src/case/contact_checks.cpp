@@ -60,6 +60,13 @@ bool uses_key(const ContactConstants& way, const char* key) {
 void check_contact(const Case& input) {
   if (input.parts.contact_law) return;
   const BuiltInContactLaw& law = built_in_contact_law(input.scene.contact.kind);
+  if (input.scene.contact.damping > 0.0 && input.scene.contact.kind == ContactKind::foundation) {
+    throw InvalidCase("contact.damping",
+                      fmt::format("is {:g} s/m, but contact.law = \"foundation\" loses its energy "
+                                  "by yielding; allowed: 0; leave it out, or choose \"hertz\" or "
+                                  "\"linear\"",
+                                  input.scene.contact.damping));
+  }
   const ContactConstants& way = constants_given(input, law);
   for (const char* key : way.keys) require(input, law, key, way.remedy);
   for (const char* key : keys_of_contact) {

@@ -172,12 +172,12 @@ std::string remedy(const CaseKey& key) {
 }  // namespace
 
 std::string CaseKey::table() const {
-  const auto dot = name.find('.');
+  const auto dot = name.rfind('.');
   return dot == std::string::npos ? std::string() : name.substr(0, dot);
 }
 
 std::string CaseKey::leaf() const {
-  const auto dot = name.find('.');
+  const auto dot = name.rfind('.');
   return dot == std::string::npos ? name : name.substr(dot + 1);
 }
 

@@ -71,6 +71,8 @@ constexpr IdleKey idle_keys[] = {
     {"beam.shear_coefficient", "beam.theory", [](const Case& c) { return !c.scene.beam.shears(); }},
     {nose_radius, "contact.law", law_ignores_the_nose},
     {nose_radius, "contact.stiffness", stiffness_replaces_the_nose},
+    {"beam.damping.ratio", "model.mesh", is_rigid},
+    {"beam.damping.stiffness", "model.mesh", is_rigid},
     {"model.hinges", "model.section", has_elastic_sections},
     {"model.hinges", "beam.yield_stress", never_yields},
     {"model.refined_length", "model.strike_refinement", is_equal_mesh},

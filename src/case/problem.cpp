@@ -30,6 +30,7 @@ Problem problem_of(const Case& input) {
   problem.striker = input.scene.striker;
   problem.mesh = input.parts.mesh ? input.parts.mesh : descriptor_of(input.model.mesh).make(input);
   problem.contact_law = contact_law_of(input);
+  problem.contact_damping = input.scene.contact.damping;
   problem.check_contact_law = input.parts.contact_law != nullptr;
   problem.may_yield = may_yield(input);
   problem.section = input.parts.section;

@@ -32,7 +32,8 @@ std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const Integrat
 ///
 ///     (Mass + gamma^2 K) x2 = Mass b2 - gamma K b1,   x1 = b1 + gamma x2,
 ///
-/// which stays sparse: KLU factors it, its pattern analysed once.
+/// (with gamma C beside the mass on the left where forces depend on velocities), which stays
+/// sparse: KLU factors it, its pattern analysed once.
 std::unique_ptr<Integrator> make_cvode_bdf(MechanicalSystem& system,
                                            const IntegratorOptions& options);
 

@@ -79,12 +79,18 @@ void Exponential::step() {
 double Exponential::fourth_derivative_bound() const {
   const auto omega = oscillators_.frequencies();
   const auto c = oscillators_.displacements();
+  const auto decay = oscillators_.decay_rates();
   double sum = 0.0;
   for (std::size_t i = 0; i < n_; ++i) {
     const double w = omega[i];
     const double wq = w * y0_[i];
     const double amplitude_w = std::sqrt(wq * wq + y0_[n_ + i] * y0_[n_ + i]);  // A omega
-    sum += std::abs(c[i]) * amplitude_w * w * w * w;
+    if (decay.empty()) {
+      sum += std::abs(c[i]) * amplitude_w * w * w * w;
+    } else {
+      const double rate = decay[i] + std::hypot(w, decay[i]);
+      sum += std::abs(c[i]) * amplitude_w * rate * rate * rate;
+    }
   }
   return sum;
 }
@@ -225,6 +231,13 @@ void Exponential::forced_step() {
     }
     ++work_.rejected_steps;
   }
+}
+
+bool Exponential::integrate_squared_velocities(double t, std::span<double> result) {
+  if (oscillators_.decay_rates().empty()) return false;
+  subimpact::integrate_squared_velocities(oscillators_, y0_, force_, force_length_, t - t0_,
+                                          result);
+  return true;
 }
 
 void Exponential::state_at(double t, State& y) {

@@ -23,7 +23,9 @@ namespace subimpact {
 /// shows a single crossing with a rate above the error of the cubic's rate. In contact the cubic's
 /// uncertainty comes from its distance to lambda at the Gauss points; in free motion it has a
 /// bound, |lambda''''| <= sum |c_i| A_i omega_i^4 with the constant amplitudes A_i, so that the
-/// cubic is off by at most h^4/384 times that.
+/// cubic is off by at most h^4/384 times that. With damping A_i omega_i falls, and (q', omega q)
+/// changes at most at the rate delta + sqrt(omega^2 + delta^2) of its size, which stands for the
+/// other three factors.
 ///
 /// state_at gives the flow under the step's force: exact but for the cubic. So the order is eight
 /// at the ends of steps (collocation at four Gauss points) and six within them, and for event
@@ -35,6 +37,7 @@ class Exponential final : public Integrator {
   void restart(double t, const State& y) override;
   void step() override;
   void state_at(double t, State& y) override;
+  bool integrate_squared_velocities(double t, std::span<double> result) override;
   WorkCounts work() const override { return work_; }
 
  private:

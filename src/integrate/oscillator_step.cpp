@@ -1,7 +1,9 @@
 #include "integrate/oscillator_step.h"
 
 #include <cmath>
+#include <utility>
 
+#include "integrate/damped_oscillator.h"
 #include "numerics/gauss.h"
 #include "numerics/lanes.h"
 #include "numerics/stumpff.h"
@@ -67,6 +69,20 @@ UnitResponse unit_response(double theta, const StumpffLanes& c) {
   return response;
 }
 
+// Position and velocity of a damped oscillator under the unit force at Gauss point j of a step of
+// length h.
+std::pair<double, double> unit_response(const DampedOscillator& at, std::size_t j, double h) {
+  double position = 0.0;
+  double velocity = 0.0;
+  double scale = 1.0;  // 1/h^m
+  for (std::size_t m = 0; m < s; ++m) {
+    position += basis()[m][j] * scale * at.forced[m];
+    velocity += basis()[m][j] * scale * (m == 0 ? at.response : at.forced[m - 1]);
+    scale /= h;
+  }
+  return {position, velocity};
+}
+
 // Eight at once, the last group filled up with zeros.
 Lanes load(std::span<const double> from, std::size_t i) {
   if (i + n_lanes <= from.size()) return lanes_at(from.data() + i);
@@ -95,16 +111,56 @@ double ForcePolynomial::operator()(double x) const {
 
 OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double length)
     : n_(oscillators.size()), length_(length) {
-  const auto omega = oscillators.frequencies();
-  const auto load_factors = oscillators.loads();
-  const auto displacement = oscillators.displacements();
-  const double h = length;
   for (Column* column : {&cosine_, &sine_over_omega_, &minus_omega_sine_}) column->resize(n_);
   for (std::size_t j = 0; j < s; ++j) {
     for (auto* columns : {&free_position_, &free_velocity_, &position_, &velocity_}) {
       (*columns)[j].resize(n_);
     }
   }
+  if (oscillators.decay_rates().empty()) {
+    make_undamped(oscillators);
+  } else {
+    make_damped(oscillators);
+  }
+}
+
+void OscillatorStep::make_damped(const ForcedOscillators& oscillators) {
+  const double h = length_;
+  rate_cosine_.resize(n_);
+  double response = 0.0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double w = oscillators.frequencies()[k];
+    const double delta = oscillators.decay_rates()[k];
+    const double l = oscillators.loads()[k];
+    const double d = oscillators.displacements()[k];
+    const DampedOscillator end(w, delta, h);
+    cosine_[k] = end.position;
+    rate_cosine_[k] = end.slope;
+    sine_over_omega_[k] = end.response;
+    minus_omega_sine_[k] = -w * w * end.response;
+    for (std::size_t j = 0; j < s; ++j) {
+      const auto [position, velocity] = unit_response(end, j, h);
+      position_[j][k] = l * position;
+      velocity_[j][k] = l * velocity;
+    }
+    response += d * l * end.forced[0];
+    for (std::size_t i = 0; i < s; ++i) {
+      const DampedOscillator node(w, delta, gauss<s>.points[i] * h);
+      free_position_[i][k] = d * node.position;
+      free_velocity_[i][k] = d * node.response;
+      for (std::size_t j = 0; j < s; ++j) {
+        compliance_[i][j] += d * l * unit_response(node, j, h).first;
+      }
+    }
+  }
+  constant_force_compliance_ = std::abs(response);
+}
+
+void OscillatorStep::make_undamped(const ForcedOscillators& oscillators) {
+  const auto omega = oscillators.frequencies();
+  const auto load_factors = oscillators.loads();
+  const auto displacement = oscillators.displacements();
+  const double h = length_;
   Lanes response{};
   Lanes compliance[s][s] = {};
   for (std::size_t k = 0; k < n_; k += n_lanes) {
@@ -167,6 +223,13 @@ void OscillatorStep::advance_freely(std::span<const double> y, std::span<double>
   const double* c = cosine_.data();
   const double* so = sine_over_omega_.data();
   const double* os = minus_omega_sine_.data();
+  if (!rate_cosine_.empty()) {
+    for (std::size_t k = 0; k < n_; ++k) {
+      q1[k] = c[k] * q[k] + so[k] * v[k];
+      v1[k] = os[k] * q[k] + rate_cosine_[k] * v[k];
+    }
+    return;
+  }
 #pragma GCC ivdep
   for (std::size_t k = 0; k < n_; ++k) {
     q1[k] = c[k] * q[k] + so[k] * v[k];
@@ -196,8 +259,63 @@ void OscillatorStep::advance(std::span<const double> y, const NodeForces& forces
   }
 }
 
+namespace {
+
+// Coefficients of t^m/m! in the force over a step of length h.
+std::array<double, s> in_time(const ForcePolynomial& force, double h) {
+  std::array<double, s> scaled{};
+  double scale = 1.0;
+  for (std::size_t m = 0; m < s; ++m) {
+    scaled[m] = scale * force.coefficients()[m];
+    scale /= h;
+  }
+  return scaled;
+}
+
+void flow_damped(const ForcedOscillators& oscillators, std::span<const double> y,
+                 const ForcePolynomial& force, double h, double t, std::span<double> result) {
+  const std::size_t n = oscillators.size();
+  const std::array<double, s> f = in_time(force, h);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double w = oscillators.frequencies()[k];
+    const DampedOscillator at(w, oscillators.decay_rates()[k], t);
+    double position = f[0] * at.forced[0];
+    double velocity = f[0] * at.response;
+    for (std::size_t m = 1; m < s; ++m) {
+      position += f[m] * at.forced[m];
+      velocity += f[m] * at.forced[m - 1];
+    }
+    const double l = oscillators.loads()[k];
+    const double q = y[k];
+    const double v = y[n + k];
+    result[k] = at.position * q + at.response * v + l * position;
+    result[n + k] = -w * w * at.response * q + at.slope * v + l * velocity;
+  }
+}
+
+}  // namespace
+
+void integrate_squared_velocities(const ForcedOscillators& oscillators, std::span<const double> y,
+                                  const ForcePolynomial& force, double h, double t,
+                                  std::span<double> result) {
+  const std::size_t n = oscillators.size();
+  const std::array<double, s> f = in_time(force, h);
+  for (std::size_t k = 0; k < n; ++k) {
+    result[k] = 0.0;
+    const double delta = oscillators.decay_rates()[k];
+    if (delta == 0.0) continue;
+    std::array<double, s> scaled = f;
+    for (double& x : scaled) x *= oscillators.loads()[k];
+    result[k] = integral_of_squared_velocity(oscillators.frequencies()[k], delta, y[k], y[n + k],
+                                             scaled, t);
+  }
+}
+
 void flow(const ForcedOscillators& oscillators, std::span<const double> y,
           const ForcePolynomial& force, double h, double t, std::span<double> result) {
+  if (!oscillators.decay_rates().empty()) {
+    return flow_damped(oscillators, y, force, h, t, result);
+  }
   const std::size_t n = oscillators.size();
   const auto omega = oscillators.frequencies();
   const auto loads = oscillators.loads();

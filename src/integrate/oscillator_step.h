@@ -32,7 +32,8 @@ class ForcePolynomial {
 ///     q(h)  = q cos(omega h) + q' sin(omega h)/omega + sum_j P_j F_j,
 ///     q'(h) = -q omega sin(omega h) + q' cos(omega h) + sum_j V_j F_j
 ///
-/// in closed form for every omega h (variation of constants, Stumpff's functions).
+/// in closed form for every omega h (variation of constants, Stumpff's functions; with damping:
+/// DampedOscillator).
 class OscillatorStep {
  public:
   OscillatorStep(const ForcedOscillators& oscillators, double length);
@@ -49,6 +50,9 @@ class OscillatorStep {
   void advance_freely(std::span<const double> y, std::span<double> end) const;
 
  private:
+  void make_undamped(const ForcedOscillators& oscillators);
+  void make_damped(const ForcedOscillators& oscillators);
+
   std::size_t n_;
   double length_;
   double constant_force_compliance_ = 0.0;
@@ -56,11 +60,17 @@ class OscillatorStep {
   using Column = std::vector<double>;
   std::array<Column, n_force_nodes> free_position_, free_velocity_;  // lambda at the Gauss points
   Column cosine_, sine_over_omega_, minus_omega_sine_;
+  Column rate_cosine_;  // of q'; empty without damping, where it is cosine_
   std::array<Column, n_force_nodes> position_, velocity_;  // P_j, V_j
 };
 
 /// The state a time t after y, t within a step of length h over which the force is the polynomial.
 void flow(const ForcedOscillators& oscillators, std::span<const double> y,
           const ForcePolynomial& force, double h, double t, std::span<double> result);
+
+/// Integral of q_i'^2 over that time, of each damped oscillator; 0 for those without damping.
+void integrate_squared_velocities(const ForcedOscillators& oscillators, std::span<const double> y,
+                                  const ForcePolynomial& force, double h, double t,
+                                  std::span<double> result);
 
 }  // namespace subimpact

@@ -147,8 +147,12 @@ void Reader::read_table(const std::string& table, const toml::table& content) {
     if (is_full()) return;
     const std::string leaf(key.str());
     const std::string where = place(key.source().begin);
-    if (const CaseKey* known = find_case_key(full_name(table, leaf))) {
+    const std::string name = full_name(table, leaf);
+    const toml::table* inner = node.as_table();
+    if (const CaseKey* known = find_case_key(name)) {
       read_value(*known, node, where);
+    } else if (inner != nullptr && is_table(name)) {
+      read_table(name, *inner);  // [beam.damping]
     } else {
       complain(where, unknown_key(table, leaf));
     }
@@ -192,7 +196,7 @@ std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& tex
 void Reader::apply(const Override& setting) {
   const CaseKey* key = find_case_key(setting.key);
   if (key == nullptr) {
-    const auto dot = setting.key.find('.');
+    const auto dot = setting.key.rfind('.');
     const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
     if (!table.empty() && !is_table(table)) {
       complain(setting.origin, unknown_table(table));

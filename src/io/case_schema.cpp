@@ -99,6 +99,16 @@ void require(Json& object, const std::string& name) {
   }
 }
 
+// The object of a table, such as "beam" or "beam.damping", within another one.
+Json& object_of(Json& outer, const std::string& table) {
+  const std::size_t dot = table.find('.');
+  Json& objects = outer["properties"];
+  const std::string first = table.substr(0, dot);
+  if (!objects.contains(first)) objects[first] = object_schema();
+  return dot == std::string::npos ? objects[first]
+                                  : object_of(objects[first], table.substr(dot + 1));
+}
+
 void add_key(Json& object, const CaseKey& key) {
   object["properties"][key.leaf()] = key_schema(key);
   if (key.required) require(object, key.leaf());
@@ -116,9 +126,7 @@ std::string case_schema() {
       add_key(schema, key);
       continue;
     }
-    Json& tables = schema["properties"];
-    if (!tables.contains(key.table())) tables[key.table()] = object_schema();
-    add_key(tables[key.table()], key);
+    add_key(object_of(schema, key.table()), key);
     if (key.required) require(schema, key.table());
   }
   return schema.dump(2) + "\n";

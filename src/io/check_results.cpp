@@ -47,6 +47,7 @@ const Numbers<HistoryRow> numbers_of_history = {{"force_N", &HistoryRow::force},
                                                 {"U_p_J", &HistoryRow::bending_plastic},
                                                 {"U_c_J", &HistoryRow::contact_elastic},
                                                 {"D_c_J", &HistoryRow::contact_plastic},
+                                                {"D_b_J", &HistoryRow::beam_damping},
                                                 {"energy_error", &HistoryRow::energy_error}};
 
 const Numbers<SectionRow> numbers_of_sections = {

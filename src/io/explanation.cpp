@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iterator>
@@ -95,6 +96,17 @@ std::string step_text(const Case& input, const ResolvedSettings& used) {
                      input.solver.step ? "" : " by default", *used.step / used.critical_step);
 }
 
+std::string damping_text(const BeamDamping& damping) {
+  std::vector<std::string> parts;
+  if (damping.ratio > 0.0)
+    parts.push_back(fmt::format("{:.6g} of critical in every mode", damping.ratio));
+  if (damping.mass > 0.0) parts.push_back(fmt::format("by mass {:.6g} 1/s", damping.mass));
+  if (damping.stiffness > 0.0) {
+    parts.push_back(fmt::format("by stiffness {:.6g} s", damping.stiffness));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 std::string count_text(double count) {
   return count < 1e4 ? fmt::format("{:.0f}", count) : fmt::format("{:.1e}", count);
 }
@@ -117,6 +129,11 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   line("striker", fmt::format("{:.6g} kg at {:.6g} m/s, {:.6g} J; struck at {:.6g} of the length",
                               scene.striker.mass, scene.striker.velocity, used.initial_energy,
                               scene.striker.position));
+  if (scene.striker.gap > 0.0) {
+    line("first touch",
+         fmt::format("at {}, after a gap of {:.6g} mm", duration_text(scene.striker.first_touch()),
+                     1e3 * scene.striker.gap));
+  }
   line("first bending period", duration_text(used.first_period));
   line("zones", fmt::format("end after {} of separation, sub-zones after {}",
                             duration_text(input.output.zone_gap * used.first_period),
@@ -124,6 +141,9 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   head("Contact");
   line("law", used.contact_law);
   line("stiffness", contact_stiffness_text(input, used));
+  if (scene.contact.damping > 0.0) {
+    line("damping", fmt::format("{:.6g} s/m", scene.contact.damping));
+  }
   line("stiffest", fmt::format("{:.4g} N/m, as deep as the strike's energy can press; contacts "
                                "then last some {} or more",
                                used.largest_contact_slope, duration_text(used.contact_time)));
@@ -136,6 +156,7 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   line("unknowns", fmt::format("{} of the beam and 1 of the striker; {}", used.n_unknowns,
                                counted(used.n_sections, "section")));
   line("section law", section_text(input, used));
+  if (!scene.beam.damping.is_none()) line("damping", damping_text(scene.beam.damping));
   line("highest frequency", fmt::format("{:.4g} rad/s", used.highest_frequency));
   line("critical step", std::isfinite(used.critical_step)
                             ? duration_text(used.critical_step) +

@@ -64,7 +64,7 @@ KeyValue key_value(const CaseKey& key, const Json& json) {
 
 // The entry of a key by its full name; nullptr if there is none.
 const Json* entry_of(const Json& json, const std::string& name) {
-  const std::size_t dot = name.find('.');
+  const std::size_t dot = name.rfind('.');
   if (dot != std::string::npos && !json.contains(name.substr(0, dot))) return nullptr;
   const Json& place = dot == std::string::npos ? json : json.at(name.substr(0, dot));
   const auto entry = place.find(dot == std::string::npos ? name : name.substr(dot + 1));
@@ -275,6 +275,9 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
     const Json& conservation = json.at("conservation");
     result.max_energy_error = number(conservation.at("max_energy_error_relative"));
     result.max_momentum_error = optional_number(conservation.at("max_momentum_error_relative"));
+    const Json losses = json.value("dissipated_by_damping", Json::object());
+    result.contact_damping_loss = number(losses.value("contact_J", Json(0.0)));
+    result.beam_damping_loss = number(losses.value("beam_J", Json(0.0)));
     result.max_impulse_error = number(conservation.value("max_impulse_error_relative", Json(0.0)));
     result.error_estimate = error_estimate_from(json.at("error_bars"));
     result.wish = wish_from(json);

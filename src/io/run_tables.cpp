@@ -94,8 +94,8 @@ const Columns<Transition>& transitions_columns() {
   return columns;
 }
 
-const Columns<HistoryRow>& history_columns() {
-  static const Columns<HistoryRow> columns = {
+static Columns<HistoryRow> all_history_columns() {
+  Columns<HistoryRow> columns = {
       {"time_s", "time", &HistoryRow::time},
       {"force_N", "contact force", &HistoryRow::force},
       {"indentation_m", "indentation", &HistoryRow::indentation},
@@ -113,9 +113,17 @@ const Columns<HistoryRow>& history_columns() {
       {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
       {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
       {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
-      {"energy_error", "relative error of the sum of these six", &HistoryRow::energy_error},
+      {"energy_error", "relative error of the sum of these six and D_b_J",
+       &HistoryRow::energy_error},
       {"momentum_error", "relative error of the momentum; empty where supports take momentum up",
-       &HistoryRow::momentum_error}};
+       &HistoryRow::momentum_error},
+      {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping}};
+  columns.back().optional = true;  // files of older versions lack it
+  return columns;
+}
+
+const Columns<HistoryRow>& history_columns() {
+  static const Columns<HistoryRow> columns = all_history_columns();
   return columns;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -26,9 +27,9 @@ class IntegrationFailure : public std::runtime_error {
   std::string flag;      ///< name of the error
 };
 
-/// Integrates q'' = a(q) over an interval in which a is smooth, with one method. Integrators
-/// contain nothing about beams or events: the caller examines each step, may request the state at
-/// any time inside the step, and restarts after an event.
+/// Integrates q'' = a(q), or a(q, v), over an interval in which a is smooth, with one method.
+/// Integrators contain nothing about beams or events: the caller examines each step, may request
+/// the state at any time inside the step, and restarts after an event.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -66,6 +67,12 @@ class Integrator {
   /// Whether the integrator has proven that no event happened in the last step, however long:
   /// events need not be looked for in it.
   virtual bool is_event_free() const { return false; }
+
+  /// The integral of the square of each velocity from the start of the last step to t, where the
+  /// method has a closed form of it; false where it has none.
+  virtual bool integrate_squared_velocities(double /*t*/, std::span<double> /*result*/) {
+    return false;
+  }
 
   /// Whether the acceleration that step() computes last is that at state().
   virtual bool ends_at_last_evaluation() const { return false; }

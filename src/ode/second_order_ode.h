@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -10,15 +11,21 @@ namespace subimpact {
 using State = std::vector<double>;
 
 /// q'' = a(q), autonomous: all that an explicit integrator needs. Between two events, and with the
-/// memory of the laws frozen, the acceleration depends on positions alone.
+/// memory of the laws frozen, the acceleration depends on positions alone; in an ODE that
+/// depends_on_velocity(), q'' = a(q, v), v = q', which not every method can integrate.
 class SecondOrderOde {
  public:
   virtual ~SecondOrderOde() = default;
 
   /// n, the number of positions.
   virtual std::size_t n_positions() const = 0;
-  /// a(q) for q of n entries; changes no history.
+  /// a(q) for q of n entries; changes no history. Not for an ODE that depends_on_velocity().
   virtual void acceleration(std::span<const double> positions, std::span<double> result) = 0;
+  virtual bool depends_on_velocity() const { return false; }
+  /// a(q, v) at y = [q, v], of any ODE.
+  virtual void acceleration_at(std::span<const double> y, std::span<double> result) {
+    acceleration(y.first(n_positions()), result);
+  }
   /// Typical sizes of a position and of a velocity in this problem, from which absolute tolerances
   /// are derived.
   struct Scales {
@@ -37,22 +44,28 @@ struct SparsityPattern {
   std::size_t n_entries() const { return rows.size(); }
 };
 
-/// Mass q'' = f(q): what implicit integrators need besides the acceleration. Mass and the tangent
-/// stiffness K = -df/dq share one pattern, which never changes; their entries are arrays in the
-/// order of that pattern.
+/// Mass q'' = f(q, v): what implicit integrators need besides the acceleration. Mass, the tangent
+/// stiffness K = -df/dq and the damping matrix C = -df/dv share one pattern, which never changes;
+/// their entries are arrays in the order of that pattern. Unless the system
+/// depends_on_velocity(), of y = [q, v] only q is read.
 class MechanicalSystem : public SecondOrderOde {
  public:
   /// f is the sum of a stiff part, which only implicit methods can take with long steps, and the
   /// rest.
   enum class Part { all, stiff, rest };
 
-  /// f(q), or one part of it; changes no history.
-  virtual void force(std::span<const double> positions, Part part, std::span<double> result) = 0;
+  /// f at y, or one part of it; changes no history.
+  virtual void force(std::span<const double> y, Part part, std::span<double> result) = 0;
   virtual const SparsityPattern& pattern() const = 0;
   virtual void mass_entries(std::span<double> values) const = 0;
-  /// -d(part of f)/dq at q.
-  virtual void stiffness_entries(std::span<const double> positions, Part part,
+  /// -d(part of f)/dq at y.
+  virtual void stiffness_entries(std::span<const double> y, Part part,
                                  std::span<double> values) = 0;
+  /// -d(part of f)/dv at y; called only of a system that depends_on_velocity().
+  virtual void damping_entries(std::span<const double> /*y*/, Part /*part*/,
+                               std::span<double> values) {
+    std::fill(values.begin(), values.end(), 0.0);
+  }
 };
 
 }  // namespace subimpact

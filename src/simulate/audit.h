@@ -46,6 +46,8 @@ class Audit {
   void check_impulse(double t, double impulse, double force_integral);
   /// Relative to the initial energy.
   double tolerated_energy() const { return limits_.energy; }
+  /// By how much the energy that damping dissipates in a step may be off, J.
+  double tolerated_loss() const { return share_of_losses * limits_.energy * initial_energy_; }
   /// By how much impulse and integrated force may differ, N s.
   double tolerated_impulse() const { return limits_.energy * initial_momentum_; }
   /// Throws RunStopped for a failed check at t.
@@ -72,6 +74,8 @@ class Audit {
   double max_impulse_error() const { return max_impulse_error_; }
 
  private:
+  static constexpr double share_of_losses = 1e-5;
+
   const StruckBeam& beam_;
   Accounts accounts_;
   AuditLimits limits_;

@@ -41,7 +41,7 @@ IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step) {
 
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at) {
-  const double of_value = function.kind == EventKind::contact_unloads
+  const double of_value = function.kind == EventKind::contact_unloads || function.by_rate
                               ? velocity_rounding * beam.scales().velocity
                               : beam.displacement_rounding(y);
   return of_value + epsilon * t * std::abs(at.rate);

@@ -37,7 +37,8 @@ EventLoop::EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& obse
       audit_(&audit),
       options_(options),
       corrector_(beam, options.correction_tolerance),
-      locator_(beam, integrator, corrector_, options.events, options.double_roots) {
+      locator_(beam, integrator, corrector_, options.events, options.double_roots),
+      losses_(audit.tolerated_loss()) {
   const bool located = options.events != EventHandling::interpolated;
   const bool corrects = located && std::isfinite(options.correction_tolerance);
   beam_.contact().set_evaluation(located ? Evaluation::smooth : Evaluation::switching);
@@ -49,16 +50,17 @@ void EventLoop::start() {
   end_state_ = y;
   state_ = &end_state_;
   beam_.commit(y);
-  report({EventKind::contact_begins}, 0.0, y, true);
+  if (options_.first_touch > 0.0) observer_->on_approach(options_.first_touch, beam_);
+  report({EventKind::contact_begins}, options_.first_touch, y, true);
   start_from(y);
 }
 
 void EventLoop::start_from(const State& y) {
-  time_ = 0.0;
+  time_ = options_.first_touch;
   beam_.commit(y);
   end_state_ = y;
   state_ = &end_state_;  // where the run stands if the integrator cannot even begin
-  integrator_.restart(0.0, y);
+  integrator_.restart(time_, y);
   state_ = &integrator_.state();
   read_indentation();
 }
@@ -147,8 +149,12 @@ IndentationStep EventLoop::indentation_of(const StepEnds& piece) const {
 }
 
 void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
-  observer_->on_step(ObservedStep(piece, indentation_of(piece), integrator_, corrector_, from_end),
-                     beam_);
+  const IndentationStep indentation = indentation_of(piece);
+  const ObservedStep step(piece, indentation, integrator_, corrector_, from_end);
+  observer_->on_step(step, beam_);
+  if (beam_.depends_on_velocity()) {
+    beam_.add_losses(losses_.over(step, step.t1(), step.y1(), beam_));
+  }
 }
 
 void EventLoop::locate_events() {
@@ -192,6 +198,11 @@ void EventLoop::report_reversals() {
 
 void EventLoop::report(const EventFunction& function, double time, const State& y,
                        bool changes_branch) {
+  if (function.kind == EventKind::contact_ends && beam_.contact().is_recovering()) {
+    beam_.commit(y);  // the surface has recovered; no force changes
+    beam_.contact().pass(function, beam_.indentation(y));
+    return;
+  }
   Transition event;
   event.time = time;
   event.kind = function.kind;
@@ -204,7 +215,7 @@ void EventLoop::report(const EventFunction& function, double time, const State& 
   observer_->before_event(event, y, beam_);
   if (changes_branch) {
     beam_.commit(y);
-    beam_.contact().pass(function.kind, beam_.indentation(y));
+    beam_.contact().pass(function, beam_.indentation(y));
   } else {
     beam_.contact().set(branch_after(function.kind), beam_.contact().history());
   }
@@ -217,11 +228,13 @@ void EventLoop::check_root(const EventFunction& function, double time, const Sta
   double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
   if (const auto root = integrator_.root()) tolerated += std::abs(at.rate) * root->tolerance;
   if (!(std::abs(at.value) <= tolerated)) {
-    audit_->fail(time, OutcomeKind::inaccurate,
-                 fmt::format("{} was located at {:.6g} us, but its condition is missed there by "
-                             "{:.2e} {}, tolerated are {:.1e}",
-                             to_string(function.kind), us * time, at.value,
-                             function.kind == EventKind::contact_unloads ? "m/s" : "m", tolerated));
+    audit_->fail(
+        time, OutcomeKind::inaccurate,
+        fmt::format("{} was located at {:.6g} us, but its condition is missed there by "
+                    "{:.2e} {}, tolerated are {:.1e}",
+                    to_string(function.kind), us * time, at.value,
+                    function.kind == EventKind::contact_unloads || function.by_rate ? "m/s" : "m",
+                    tolerated));
   }
   if (!(time >= last_event_)) {
     audit_->fail(time, OutcomeKind::inaccurate,

@@ -6,6 +6,7 @@
 #include "ode/integrator.h"
 #include "simulate/audit.h"
 #include "simulate/event_location.h"
+#include "simulate/loss_quadrature.h"
 #include "simulate/observed_step.h"
 #include "subimpact/simulate/options.h"
 #include "system/struck_beam.h"
@@ -17,6 +18,8 @@ namespace subimpact {
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
+  /// The striker's approach to the beam, from t = 0 to the first touch at `end` (s).
+  virtual void on_approach(double /*end*/, StruckBeam& /*beam*/) {}
   /// A step, before its end is corrected and committed. Where events are interpolated, a step with
   /// events is shown in pieces, from event to event.
   virtual void on_step(const ObservedStep& /*step*/, StruckBeam& /*beam*/) {}
@@ -34,6 +37,8 @@ class RunObserver {
 
 struct LoopOptions {
   double end_time = 0.0;  ///< s
+  /// s: when striker and beam first touch. Until then the striker moves uniformly, the beam rests.
+  double first_touch = 0.0;
   EventHandling events = EventHandling::located;
   /// Tolerance of the section correction (m/s, see SectionCorrector); infinite: no correction,
   /// histories of sections advance at step ends only.
@@ -54,9 +59,10 @@ class EventLoop {
   EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
             LoopOptions options);
 
-  /// Puts the beam at t = 0 with the contact just begun.
+  /// Puts the beam at the first touch, with the contact just begun.
   void start();
-  /// Puts the beam at t = 0 in another state, with the contact as it is (see ContactState::set).
+  /// Puts the beam at the time of the first touch in another state, with the contact as it is (see
+  /// ContactState::set).
   void start_from(const State& y);
   /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure
   /// or RunStopped; time() and state() are then those of the last state that was accepted.
@@ -104,6 +110,7 @@ class EventLoop {
   IndentationStep indentation_{};  // of the last step as the method took it
   SectionCorrector corrector_;
   EventLocator locator_;
+  LossQuadrature losses_;
   SectionCorrection correction_;       // of the step being searched
   std::vector<Transition> reversals_;  // in it, in their order
   double last_event_ = 0.0;

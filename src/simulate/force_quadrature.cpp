@@ -19,9 +19,13 @@ double fifth_power(double h) { return h * h * h * h * h; }
 double ForceQuadrature::between(const Node& a, const Node& b, const StruckBeam& beam) {
   const double h = b.time - a.time;
   const HermiteCubic indentation(a.indentation, a.rate, b.indentation, b.rate, h);
+  const ContactState& contact = beam.contact();
+  const bool damped = contact.is_damped();
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    sum += gauss<3>.weights[i] * beam.contact().force(indentation(gauss<3>.points[i]));
+    const double s = gauss<3>.points[i];
+    sum += gauss<3>.weights[i] * (damped ? contact.force(indentation(s), indentation.slope(s) / h)
+                                         : contact.force(indentation(s)));
   }
   return h * sum;
 }

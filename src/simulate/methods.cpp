@@ -41,6 +41,7 @@ IntegratorPointer make_exponential(StruckBeam& beam, const IntegratorOptions& op
 std::vector<MethodDescriptor> make_descriptors() {
   using Steps = MethodDescriptor::Steps;
   using Modes = MethodDescriptor::Modes;
+  using Damping = MethodDescriptor::Damping;
   return {
       {.kind = Method::central_difference,
        .name = "central-difference",
@@ -62,6 +63,7 @@ std::vector<MethodDescriptor> make_descriptors() {
                "times",
        .sundials = true,
        .modes = Modes::where_cheaper,
+       .damping = Damping::any,
        .radians_per_evaluation = erk_radians,
        .tables = explicit_tables,
        .make = make_arkode_erk},
@@ -87,6 +89,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .modes = Modes::always,
        .needs_located_events = true,
        .needs_adaptive_steps_to_yield = true,
+       .damping = Damping::of_modes,
        .make = make_exponential},
       {.kind = Method::dirk,
        .name = "dirk",
@@ -94,6 +97,7 @@ std::vector<MethodDescriptor> make_descriptors() {
                "but damps what it does not resolve",
        .implicit = true,
        .sundials = true,
+       .damping = Damping::any,
        .audit_interval = 4,
        .tables = dirk_tables,
        .make = make_arkode_dirk},
@@ -103,6 +107,7 @@ std::vector<MethodDescriptor> make_descriptors() {
                "systems",
        .implicit = true,
        .sundials = true,
+       .damping = Damping::any,
        .audit_interval = 4,
        .tables = imex_tables,
        .make = make_arkode_imex},
@@ -113,6 +118,7 @@ std::vector<MethodDescriptor> make_descriptors() {
                "of 1e-7 and below",
        .steps = Steps::adaptive_order,
        .sundials = true,
+       .damping = Damping::any,
        .reversals = ReversalHandling::step_end,
        .audit_interval = 64,
        .order = {{adams_order_limit, usual_adams_order}},
@@ -124,6 +130,7 @@ std::vector<MethodDescriptor> make_descriptors() {
                "oscillation",
        .steps = Steps::adaptive_order,
        .sundials = true,
+       .damping = Damping::any,
        .reversals = ReversalHandling::step_end,
        .audit_interval = 64,
        .order = {{bdf_order_limit, usual_bdf_order}},

@@ -42,6 +42,14 @@ struct MethodDescriptor {
   bool needs_located_events = false;
   bool needs_adaptive_steps_to_yield = false;
 
+  /// Forces of damping that the method can integrate.
+  enum class Damping {
+    none,      ///< the scheme needs q'' = a(q)
+    of_modes,  ///< of an elastic beam, mode by mode in closed form
+    any
+  };
+  Damping damping = Damping::none;
+
   EventHandling events = EventHandling::located;           ///< default
   ReversalHandling reversals = ReversalHandling::located;  ///< default
   long audit_interval = 32;  ///< steps between two full checks of energy and momentum

@@ -39,6 +39,10 @@ class ObservedStep {
       integrator_.state_at(t, y);
     }
   }
+  /// See Integrator::integrate_squared_velocities.
+  bool integrate_squared_velocities(double t, std::span<double> result) const {
+    return integrator_.integrate_squared_velocities(t, result);
+  }
   /// The state at a time within the step as if the step ended there, section events included.
   void corrected_state_at(double t, State& y, SectionCorrection& correction) const {
     state_at(t, y);

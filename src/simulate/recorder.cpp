@@ -14,6 +14,19 @@ namespace {
 // Tolerated error of the integral of the force over a step, as a share of that of an impulse.
 constexpr double share_of_step = 1.0 / 128.0;
 
+// Where f has its maximum in [low, high], if it has one local maximum there: by golden section.
+template <class Function>
+double maximum_in(const Function& f, double low, double high) {
+  constexpr double golden = 0.6180339887498949;
+  constexpr int n_sections = 24;
+  for (int i = 0; i < n_sections; ++i) {
+    const double a = high - golden * (high - low);
+    const double b = low + golden * (high - low);
+    (f(a) < f(b) ? low : high) = f(a) < f(b) ? a : b;
+  }
+  return 0.5 * (low + high);
+}
+
 // A tensile force is tolerated within this many roundings of the displacements of the contact's
 // end.
 constexpr double tolerated_rounding = 64.0;
@@ -29,7 +42,17 @@ Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events
       accounts_(beam),
       first_flow_(beam.sections().size()),
       force_(share_of_step * audit.tolerated_impulse()),
+      losses_(audit.tolerated_loss()),
       striker_mass_(beam.striker_mass()) {}
+
+void Recorder::on_approach(double end, StruckBeam& beam) {
+  if (!(interval_ > 0.0)) return;
+  for (;; ++next_row_) {
+    const double t = static_cast<double>(next_row_) * interval_;
+    if (t >= end) return;
+    add_row(t, beam.state_before_touch(end - t), accounts_);
+  }
+}
 
 void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
   if (interval_ > 0.0) add_rows_within(step, beam);
@@ -40,6 +63,7 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
     ++steps_in_contact_.back();
     integrate_force(step, beam);
     follow_peak(step.indentation().lambda1, beam);
+    if (beam.contact().is_damped()) follow_damped_force(step, beam);
     look_for_peak(step, beam);
   }
   near_misses_.follow(step, beam, events_ == EventHandling::located);
@@ -54,7 +78,9 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
       continue;
     }
     step.corrected_state_at(t, state_, correction_);
-    if (correction_.is_empty()) {
+    if (beam.depends_on_velocity()) {
+      add_damped_row(t, step, beam);
+    } else if (correction_.is_empty()) {
       add_row(t, state_, accounts_);
     } else {
       const SectionField reached = correction_.reversed(beam.sections());
@@ -62,6 +88,14 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
       add_row(t, state_, accounts);
     }
   }
+}
+
+void Recorder::add_damped_row(double time, const ObservedStep& step, StruckBeam& beam) {
+  const Losses before = beam.losses();
+  const State y = state_;
+  beam.add_losses(losses_.over(step, time, y, beam));
+  add_row(time, y, accounts_);
+  beam.set_losses(before);
 }
 
 void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
@@ -88,7 +122,27 @@ void Recorder::follow_peak(double indentation, const StruckBeam& beam) {
   SubImpact& now = result_.sub_impacts.back();
   if (!(indentation > now.max_indentation)) return;
   now.max_indentation = indentation;
+  if (beam.contact().is_damped()) return;
   now.peak_force = std::max(now.peak_force, beam.contact().force(indentation));
+  largest_force_ = std::max(largest_force_, now.peak_force);
+}
+
+void Recorder::follow_damped_force(const ObservedStep& step, const StruckBeam& beam) {
+  SubImpact& now = result_.sub_impacts.back();
+  const auto& [t0, t1, lambda0, rate0, lambda1, rate1] = step.indentation();
+  const double h = step.length();
+  if (!(h > 0.0)) return;
+  const HermiteCubic path(lambda0, rate0, lambda1, rate1, h);
+  const ContactState& contact = beam.contact();
+  const auto force = [&](double s) { return contact.force(path(s), path.slope(s) / h); };
+  double peak = std::max(force(0.0), force(1.0));
+  const double at = maximum_in(force, 0.0, 1.0);
+  // The force is stationary there, so that its time need not be exact.
+  if (force(at) > peak && force(at) > (1.0 - 1e-3) * now.peak_force) {
+    step.state_at(t0 + at * h, state_);
+    peak = std::max(peak, beam.contact_force(state_));
+  }
+  now.peak_force = std::max(now.peak_force, peak);
   largest_force_ = std::max(largest_force_, now.peak_force);
 }
 
@@ -192,6 +246,8 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
   result_.n_yielded_sections = beam.sections().n_yielded();
   result_.striker_velocity = y.back();
   result_.beam_mean_velocity = accounts_.beam_momentum(y) / beam.mesh().beam_mass();
+  result_.contact_damping_loss = beam.losses().contact;
+  result_.beam_damping_loss = beam.losses().beam;
   result_.max_energy_error = audit_.max_energy_error();
   result_.max_momentum_error = audit_.max_momentum_error();
   result_.max_impulse_error = audit_.max_impulse_error();
@@ -270,6 +326,7 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   row.contact_plastic = energies.contact_plastic;
   row.energy_error = audit_.energy_error(energies);
   row.momentum_error = audit_.momentum_error(y);
+  row.beam_damping = energies.beam_damping;
   return row;
 }
 

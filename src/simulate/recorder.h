@@ -21,6 +21,7 @@ class Recorder final : public RunObserver {
   /// Rows go to `rows` in place of the result.
   void send_rows_to(RowSink& rows) { rows_ = &rows; }
 
+  void on_approach(double end, StruckBeam& beam) override;
   void on_step(const ObservedStep& step, StruckBeam& beam) override;
   /// Checks that the contact force is compressive wherever the indentation is positive.
   void on_accepted(double time, const State& y, StruckBeam& beam) override;
@@ -44,6 +45,10 @@ class Recorder final : public RunObserver {
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   void integrate_force(const ObservedStep& step, const StruckBeam& beam);
   void follow_peak(double indentation, const StruckBeam& beam);
+  // The peak of a damped force, which comes before that of the indentation.
+  void follow_damped_force(const ObservedStep& step, const StruckBeam& beam);
+  // The state within the step, in state_, with what is lost up to there.
+  void add_damped_row(double time, const ObservedStep& step, StruckBeam& beam);
   void look_for_peak(const ObservedStep& step, StruckBeam& beam);
   // Contact only pushes: a force below zero by no more than the tolerance is none.
   void check_push(HistoryRow& row) const;
@@ -63,6 +68,7 @@ class Recorder final : public RunObserver {
   Accounts accounts_;
   FirstFlow first_flow_;
   ForceQuadrature force_;
+  LossQuadrature losses_;  // within a step
   NearMissSearch near_misses_;
   double striker_mass_;
   long next_row_ = 0;

@@ -88,6 +88,94 @@ std::vector<std::string> methods_of_sundials() {
   return names;
 }
 
+std::vector<std::string> methods_that(bool (*holds)(const MethodDescriptor&)) {
+  std::vector<std::string> names;
+  for (const MethodDescriptor& method : methods()) {
+    if (holds(method)) names.emplace_back(method.name);
+  }
+  return names;
+}
+
+bool takes_any_damping(const MethodDescriptor& method) {
+  return method.damping == MethodDescriptor::Damping::any;
+}
+bool takes_damping_of_modes(const MethodDescriptor& method) {
+  return method.damping != MethodDescriptor::Damping::none;
+}
+bool takes_damping_ratio(const MethodDescriptor& method) {
+  return takes_damping_of_modes(method) && method.modes != MethodDescriptor::Modes::never;
+}
+
+void check_contact_damping(const Problem& problem, const Options& options,
+                           const ResolvedSettings& used) {
+  const double damping = problem.contact_damping;
+  if (damping == 0.0) return;
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidCase("contact.damping", fmt::format("is {:g} s/m, but {}", damping, why));
+  };
+  if (std::isfinite(problem.contact_law->yield_threshold({}))) {
+    refuse("the contact law yields; allowed: 0, or a law that never yields");
+  }
+  if (!takes_any_damping(method)) {
+    refuse(
+        fmt::format("{} cannot integrate a contact force that depends on velocities; allowed "
+                    "solver.method: {}; choose one, or leave the damping out",
+                    method.name, fmt::join(methods_that(takes_any_damping), ", ")));
+  }
+  if (used.events != EventHandling::located) {
+    refuse("a damped contact needs located events; leave solver.events out");
+  }
+}
+
+void check_beam_damping(const BeamDamping& damping, const Options& options, bool can_yield) {
+  if (damping.is_none()) return;
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  const auto [key, value] = damping.ratio > 0.0 ? std::pair("beam.damping.ratio", damping.ratio)
+                            : damping.mass > 0.0
+                                ? std::pair("beam.damping.mass", damping.mass)
+                                : std::pair("beam.damping.stiffness", damping.stiffness);
+  const auto refuse = [&, key = key, value = value](const std::string& why) {
+    throw InvalidCase(key, fmt::format("is {:g}, but {}", value, why));
+  };
+  if (damping.ratio > 0.0 && can_yield) {
+    refuse(
+        "a beam that yields has no natural modes; set model.section = \"elastic\", or give "
+        "beam.damping.mass and beam.damping.stiffness in its place");
+  }
+  if (damping.ratio > 0.0 && !takes_damping_ratio(method)) {
+    refuse(
+        fmt::format("{} does not integrate a damped beam in its natural modes; allowed "
+                    "solver.method: {}; choose one, or give beam.damping.mass and "
+                    "beam.damping.stiffness in its place",
+                    method.name, fmt::join(methods_that(takes_damping_ratio), ", ")));
+  }
+  if (!takes_damping_of_modes(method)) {
+    refuse(
+        fmt::format("{} cannot integrate forces that depend on velocities; allowed "
+                    "solver.method: {}; choose one, or leave the damping out",
+                    method.name, fmt::join(methods_that(takes_damping_of_modes), ", ")));
+  }
+  if (can_yield && !takes_any_damping(method)) {
+    refuse(
+        fmt::format("{} damps beams that stay elastic only; set model.section = \"elastic\", "
+                    "or choose solver.method {}",
+                    method.name, fmt::join(methods_that(takes_any_damping), ", ")));
+  }
+}
+
+// Section events are found on paths of an undamped beam.
+ReversalHandling reversals_used(const Problem& problem, const Options& options, bool can_yield) {
+  const bool damped = problem.contact_damping > 0.0 || !problem.beam.damping.is_none();
+  if (!damped || !can_yield) return reversals_of(options);
+  if (options.solver.reversals == ReversalHandling::located) {
+    throw InvalidCase("solver.reversals",
+                      "is \"located\", but section events of a damped strike are not located; "
+                      "allowed: \"step-end\"; leave it out");
+  }
+  return ReversalHandling::step_end;
+}
+
 // Settings that the method cannot take.
 void check_method(const Options& options, const ResolvedSettings& used, bool can_yield) {
   const MethodDescriptor& method = descriptor_of(options.solver.method);
@@ -193,28 +281,32 @@ double energy_tolerance(const Options& options, const ResolvedSettings& used) {
                     most_tolerated_energy);
 }
 
-// Whether an elastic beam on this mesh is integrated in its natural modes. Explicit methods see the
+// Whether an elastic beam on this mesh is integrated in its natural modes, which a damping ratio
+// needs. Explicit methods see the
 // same motion in either unknowns, but a step in modes needs no mass solve.
-bool in_modes(const Options& options, const BeamMesh& mesh) {
+bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& damping) {
   const MethodDescriptor::Modes modes = descriptor_of(options.solver.method).modes;
   if (modes != MethodDescriptor::Modes::where_cheaper) {
     return modes == MethodDescriptor::Modes::always;
   }
-  return mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded;
+  return damping.ratio > 0.0 ||
+         (mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded);
 }
 
 // Whether resolve() has left a beam in the unknowns of its mesh that is to run in modes.
 bool modes_are_left_out(const Options& options, const StruckBeam& beam) {
   return beam.mesh().modal_stiffness().empty() && !beam.sections().can_yield() &&
-         in_modes(options, beam.mesh());
+         in_modes(options, beam.mesh(), beam.damping());
 }
 
-bool has_modes(const Options& options, const BeamMesh& mesh) {
-  return in_modes(options, mesh) || options.stop == StopRule::no_more_contact;
+bool has_modes(const Options& options, const StruckBeam& beam) {
+  return in_modes(options, beam.mesh(), beam.damping()) ||
+         options.stop == StopRule::no_more_contact;
 }
 
-double decomposition_of(const Options& options, const BeamMesh& mesh) {
-  if (!has_modes(options, mesh)) return 0.0;
+double decomposition_of(const Options& options, const StruckBeam& beam) {
+  if (!has_modes(options, beam)) return 0.0;
+  const BeamMesh& mesh = beam.mesh();
   const auto n = static_cast<double>(mesh.n_unknowns());
   return mesh.has_closed_modes() ? work_per_closed_entry * n * n : work_per_dense_mode * n * n * n;
 }
@@ -223,10 +315,10 @@ double memory_of(const Options& options, const StruckBeam& beam) {
   const BeamMesh& mesh = beam.mesh();
   const auto n = static_cast<double>(mesh.n_unknowns());
   const bool yields = beam.sections().can_yield();
-  const bool flies = yields && in_modes(options, mesh);
+  const bool flies = yields && in_modes(options, mesh, beam.damping());
   const double of_modes = mesh.has_closed_modes() ? matrices_of_modes : matrices_of_dense_modes;
   const double matrices =
-      (has_modes(options, mesh) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
+      (has_modes(options, beam) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
   return memory_of_program + memory_per_unknown * n + sizeof(double) * matrices * n * n;
 }
 
@@ -272,6 +364,14 @@ void check(const Problem& problem, const Options& options) {
   if (!problem.mesh) refuse("model.mesh", "is missing; give Problem::mesh a mesh");
   if (!problem.contact_law) refuse("contact.law", "is missing; give Problem::contact_law a law");
   if (!positive(options.end_time)) refuse("time.end", "is not a time; allowed: above 0 s");
+  if (const double touch = problem.striker.first_touch(); !(touch < options.end_time)) {
+    throw InvalidCase("striker.gap",
+                      fmt::format("is {:g} m, which takes the striker {:.6g} s at {:g} m/s, but "
+                                  "time.end is {:g} s; allowed: below {:g} m; reduce it, or set a "
+                                  "later time.end",
+                                  problem.striker.gap, touch, problem.striker.velocity,
+                                  options.end_time, options.end_time * problem.striker.velocity));
+  }
   if (!positive(options.solver.rtol)) refuse("solver.rtol", "is not positive; allowed: above 0");
 }
 
@@ -303,9 +403,11 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   check_scales(problem.striker, beam);
   used.table = table_used(options);
   used.events = events_of(options);
-  used.reversals = reversals_of(options);
+  used.reversals = reversals_used(problem, options, beam.sections().can_yield());
   used.max_order = max_order_used(options);
   check_method(options, used, beam.sections().can_yield());
+  check_contact_damping(problem, options, used);
+  check_beam_damping(problem.beam.damping, options, beam.sections().can_yield());
   if (descriptor_of(options.solver.method).steps == MethodDescriptor::Steps::fixed) {
     used.step = options.solver.step.value_or(default_central_step(used));
     check_central_step(options, used);
@@ -319,7 +421,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   }
   used.energy_tolerance = energy_tolerance(options, used);
   used.memory = memory_of(options, beam);
-  used.decomposition = decomposition_of(options, beam.mesh());
+  used.decomposition = decomposition_of(options, beam);
   return used;
 }
 
@@ -343,6 +445,7 @@ RunOptions run_options(const Problem& problem, const Options& options, const Res
                        const BeamMesh& mesh) {
   RunOptions run;
   run.loop.end_time = options.end_time;
+  run.loop.first_touch = problem.striker.first_touch();
   run.loop.events = used.events;
   run.loop.double_roots = options.study.pair_detection;
   if (used.reversals == ReversalHandling::located) {
@@ -385,13 +488,15 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
                             SectionField::Storage storage, Coordinates coordinates) {
   std::shared_ptr<const BeamMesh> mesh = problem.mesh;
   SectionField sections = make_sections(problem, storage);
-  if (coordinates == Coordinates::chosen && !sections.can_yield() && in_modes(options, *mesh)) {
+  if (coordinates == Coordinates::chosen && !sections.can_yield() &&
+      in_modes(options, *mesh, problem.beam.damping)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
   }
   std::unique_ptr<MassSolver> solver = make_mass_solver(problem, options, *mesh);
   return StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), problem.contact_law,
                                     problem.striker.mass, problem.striker.velocity,
-                                    outer_stiffness(problem), std::move(solver)});
+                                    outer_stiffness(problem), std::move(solver),
+                                    problem.contact_damping, problem.beam.damping});
 }
 
 RunParts::RunParts(const Problem& of, const Options& options, StruckBeam struck_beam)

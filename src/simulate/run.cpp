@@ -28,6 +28,7 @@ class Observers final : public RunObserver {
  public:
   Observers(RunObserver& recorder, Observer& guest) : recorder_(recorder), guest_(guest) {}
 
+  void on_approach(double end, StruckBeam& beam) override { recorder_.on_approach(end, beam); }
   void on_step(const ObservedStep& step, StruckBeam& beam) override {
     recorder_.on_step(step, beam);
   }

@@ -25,7 +25,7 @@ struct RunOptions {
   std::optional<Beam> stops_without_contact;
 };
 
-/// Runs a struck beam from the first touch at t = 0: the lower half of simulate(Case), for a beam
+/// Runs a struck beam: the lower half of simulate(Case), for a beam
 /// and an integrator made of parts. Result::used stays empty; messages of failures name no remedy.
 Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& options,
                 const Progress& progress = {}, Observer* observer = nullptr,

@@ -4,6 +4,7 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"
+#include "study/method_choice.h"
 #include "subimpact/study/within.h"
 
 namespace subimpact {
@@ -39,7 +40,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
   const bool own_mesh = input.parts.mesh != nullptr;
   const bool bends = own_mesh || descriptor_of(model.mesh).bends;
   if (!bends) {
-    if (open.method) solver.method = Method::nystrom;
+    if (open.method) solver.method = method_for_damping(input, Method::nystrom);
     if (open.tolerance) solver.rtol = tolerance_of_rigid_bodies;
     chosen.reason = "a rigid body has no mesh to refine";
     return chosen;
@@ -56,6 +57,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
     const bool cells = !own_mesh && model.mesh == MeshKind::cells;
     solver.method = cells ? Method::central_difference : Method::nystrom;
   }
+  if (open.method) solver.method = method_for_damping(input, solver.method);
   chosen.reason = yields
                       ? "sections yield, so that kinks, not the order of a method, bound the error"
                       : "the beam bends elastically, so that natural modes are exact in time";

@@ -44,7 +44,8 @@ double free_end_error(const Case& input, double contact_time, double time) {
 void include_free_ends(ErrorPart& part, const Case& input, const Result& result) {
   for (std::size_t i = 0; i < part.errors.size(); ++i) {
     const SubImpact& s = result.sub_impacts[i];
-    const double error = free_end_error(input, result.used.contact_time, s.end.value_or(s.start));
+    const double since_touch = s.end.value_or(s.start) - input.scene.striker.first_touch();
+    const double error = free_end_error(input, result.used.contact_time, since_touch);
     part.errors[i] = std::max(part.errors[i], error);
   }
 }

@@ -1,5 +1,6 @@
 #include "study/method_choice.h"
 
+#include "case/problem.h"
 #include "simulate/methods.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
@@ -40,6 +41,15 @@ Case with_method(const Case& input, const std::string& name) {
   const bool fixed = descriptor_of(chosen.solver.method).steps == MethodDescriptor::Steps::fixed;
   if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
   return chosen;
+}
+
+Method method_for_damping(const Case& input, Method method) {
+  using Damping = MethodDescriptor::Damping;
+  const bool contact = input.scene.contact.damping > 0.0;
+  const bool beam = !input.scene.beam.damping.is_none();
+  const Damping taken = descriptor_of(method).damping;
+  const bool of_modes = taken == Damping::of_modes && !contact && !may_yield(input);
+  return (!contact && !beam) || taken == Damping::any || of_modes ? method : Method::erk;
 }
 
 bool can_run(const Case& input) {

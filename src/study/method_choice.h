@@ -11,6 +11,9 @@ namespace subimpact {
 /// only where the method has them. Throws InvalidCase for an unknown name.
 Case with_method(const Case& input, const std::string& name);
 
+/// `method`, or erk where that method cannot take the damping of the case.
+Method method_for_damping(const Case& input, Method method);
+
 /// Whether resolve() takes the case.
 bool can_run(const Case& input);
 

@@ -10,6 +10,7 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"
+#include "study/method_choice.h"
 #include "study/refinement.h"
 #include "subimpact/study/mesh_error_bars.h"
 
@@ -31,9 +32,11 @@ struct Family {
   MeshKind mesh;
   double refinement;  // at the strike
   Method method;
+
+  bool operator==(const Family&) const = default;
 };
 
-std::vector<Family> families_of(const Case& input) {
+std::vector<Family> families_without_damping(const Case& input) {
   if (may_yield(input)) {
     return {{MeshKind::cells, 1.0, Method::central_difference},
             {MeshKind::hermite, 1.0, Method::nystrom},
@@ -44,6 +47,13 @@ std::vector<Family> families_of(const Case& input) {
           {MeshKind::hermite, grading, Method::exponential},
           {MeshKind::cells, 1.0, Method::exponential},
           {MeshKind::cells, 1.0, Method::central_difference}};
+}
+
+std::vector<Family> families_of(const Case& input) {
+  std::vector<Family> families = families_without_damping(input);
+  for (Family& family : families) family.method = method_for_damping(input, family.method);
+  families.erase(std::unique(families.begin(), families.end()), families.end());
+  return families;
 }
 
 std::string mesh_words(const Case& input) {

@@ -24,12 +24,18 @@ Energies Accounts::energies(const State& y) {
   }
   const ContactState::Energies contact = beam_.contact().energies(beam_.indentation(y));
   sum.contact_elastic = contact.elastic;
-  sum.contact_plastic = contact.plastic;
+  sum.contact_plastic = contact.plastic + beam_.losses().contact;
+  sum.beam_damping = beam_.losses().beam;
   return sum;
 }
 
 double Accounts::momentum(const State& y) const {
-  return beam_.striker_mass() * y.back() + beam_momentum(y);
+  const double sum = beam_.striker_mass() * y.back() + beam_momentum(y);
+  const double alpha = beam_.damping().mass;
+  if (alpha == 0.0) return sum;
+  const std::span<const double> positions = beam_.beam_positions(y);
+  return sum +
+         alpha * dot(beam_.mesh().momentum_functional().data(), positions.data(), positions.size());
 }
 
 double Accounts::beam_momentum(const State& y) const {

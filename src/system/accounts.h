@@ -18,7 +18,9 @@ class Accounts {
   const StruckBeam& beam() const { return beam_; }
 
   Energies energies(const State& y);
-  double momentum(const State& y) const;       ///< kg m/s, of beam and striker
+  /// kg m/s, of beam and striker, with what the damping by mass has taken since the beam, at rest,
+  /// was first touched: alpha times the integral of the beam's momentum.
+  double momentum(const State& y) const;
   double beam_momentum(const State& y) const;  ///< kg m/s
   /// Whether the striker is the only body that acts on the beam: no supports.
   bool conserves_momentum() const { return !beam_.mesh().translation().empty(); }

@@ -55,8 +55,12 @@ void BeamJacobian::stiffness_entries(std::span<const double> tangents, double co
   bending_.set_zero();
   mesh_.add_stiffness(tangents, bending_);
   copy_band(bending_, values);
+  add_contact(contact_slope, values);
+}
+
+void BeamJacobian::add_contact(double slope, std::span<double> values) const {
   for (const ContactEntry& entry : contact_entries_) {
-    values[entry.position] += contact_slope * entry.coefficient;
+    values[entry.position] += slope * entry.coefficient;
   }
 }
 

@@ -24,6 +24,8 @@ class BeamJacobian {
   /// `tangents` = dM/dkappa (N m2) of the sections; `contact_slope` = dF/dlambda (N/m).
   void stiffness_entries(std::span<const double> tangents, double contact_slope,
                          std::span<double> values);
+  /// Adds slope g g^T.
+  void add_contact(double slope, std::span<double> values) const;
 
  private:
   void copy_band(const BandedMatrix& band, std::span<double> values) const;

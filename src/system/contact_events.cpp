@@ -45,11 +45,14 @@ MaybeCrossing find_rise_of(EventKind kind, const IndentationStep& step, const Ev
   return crossing_at(kind, step, lower, path.rise(lower, 1.0));
 }
 
-MaybeCrossing find_unloading(const IndentationStep& step, const EventValue& g0,
-                             const EventValue& g1) {
+// Of a function of the indentation's rate.
+MaybeCrossing find_rise_of_rate(const EventFunction& function, const IndentationStep& step,
+                                const EventValue& g0, const EventValue& g1) {
   if (!(g1.value > 0.0)) return std::nullopt;
   const double guess = g0.value < 0.0 ? g0.value / (g0.value - g1.value) : 0.0;
-  return crossing_at(EventKind::contact_unloads, step, 0.0, guess);
+  MaybeCrossing found = crossing_at(function.kind, step, 0.0, guess);
+  found->function = function;
+  return found;
 }
 
 }  // namespace
@@ -57,14 +60,15 @@ MaybeCrossing find_unloading(const IndentationStep& step, const EventValue& g0,
 std::optional<Crossing> find_crossing(const ContactState& contact, const IndentationStep& step,
                                       const CrossingSearch& search) {
   std::optional<Crossing> earliest;
-  const auto consider = [&](EventKind kind) {
-    const auto is_kind = [&](const EventFunction& function) { return function.kind == kind; };
-    if (std::any_of(search.without.begin(), search.without.end(), is_kind)) return;
-    const EventValue g0 = contact.event_function(kind, step.lambda0, step.rate0);
-    const EventValue g1 = contact.event_function(kind, step.lambda1, step.rate1);
+  const auto consider = [&](const EventFunction& function) {
+    const EventKind kind = function.kind;
+    if (std::find(search.without.begin(), search.without.end(), function) != search.without.end())
+      return;
+    const EventValue g0 = contact.event_function(function, step.lambda0, step.rate0);
+    const EventValue g1 = contact.event_function(function, step.lambda1, step.rate1);
     std::optional<Crossing> found;
-    if (kind == EventKind::contact_unloads) {
-      found = find_unloading(step, g0, g1);
+    if (kind == EventKind::contact_unloads || function.by_rate) {
+      found = find_rise_of_rate(function, step, g0, g1);
     } else if (g1.value > 0.0) {
       found = find_rise_of(kind, step, g0, g1);
     } else if (search.double_roots) {
@@ -72,7 +76,7 @@ std::optional<Crossing> find_crossing(const ContactState& contact, const Indenta
     }
     if (found && !(earliest && earliest->guess <= found->guess)) earliest = found;
   };
-  for (const EventKind kind : event_kinds(contact.branch())) consider(kind);
+  for (const EventFunction& function : contact.event_functions()) consider(function);
   return earliest;
 }
 

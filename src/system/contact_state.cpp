@@ -19,6 +19,28 @@ std::span<const EventKind> event_kinds(ContactBranch branch) {
   return {};
 }
 
+std::span<const EventFunction> ContactState::event_functions() const {
+  static constexpr EventFunction separated[] = {{EventKind::contact_begins}};
+  static constexpr EventFunction elastic[] = {{EventKind::contact_ends},
+                                              {EventKind::contact_yields}};
+  static constexpr EventFunction plastic[] = {{EventKind::contact_unloads}};
+  static constexpr EventFunction damped[] = {{EventKind::contact_ends},
+                                             {EventKind::contact_ends, 1.0, true}};
+  static constexpr EventFunction recovering[] = {{EventKind::contact_begins, 1.0, true},
+                                                 {EventKind::contact_ends}};
+  switch (branch_) {
+    case ContactBranch::separated:
+      if (recovering_) return recovering;
+      return separated;
+    case ContactBranch::elastic:
+      if (is_damped()) return damped;
+      return elastic;
+    case ContactBranch::plastic:
+      return plastic;
+  }
+  return {};
+}
+
 double ContactState::force(double indentation) const {
   if (evaluation_ == Evaluation::switching) return law_->force(history_, indentation);
   return law_->branch_force(branch_, history_, indentation);
@@ -32,7 +54,7 @@ double ContactState::slope(double indentation) const {
 
 ContactState::Energies ContactState::energies(double indentation) const {
   const ContactHistory reached = loads() ? ContactLaw::commit(history_, indentation) : history_;
-  return {is_closed() ? law_->recoverable_energy(reached, indentation) : 0.0,
+  return {is_closed() || recovering_ ? law_->recoverable_energy(reached, indentation) : 0.0,
           law_->dissipated_energy(reached)};
 }
 
@@ -53,12 +75,20 @@ EventValue ContactState::event_function(EventKind kind, double indentation, doub
   return {};
 }
 
+EventValue ContactState::event_function(const EventFunction& function, double indentation,
+                                        double rate) const {
+  if (!function.by_rate) return event_function(function.kind, indentation, rate);
+  const double above = rate + 1.0 / damping_;
+  return {function.kind == EventKind::contact_ends ? -above : above, 0.0};
+}
+
 void ContactState::commit(double indentation) {
   if (loads()) history_ = ContactLaw::commit(history_, indentation);
 }
 
-void ContactState::pass(EventKind event, double indentation) {
-  switch (event) {
+void ContactState::pass(const EventFunction& event, double indentation) {
+  recovering_ = event.kind == EventKind::contact_ends && event.by_rate;
+  switch (event.kind) {
     case EventKind::contact_begins:
       branch_ = law_->first_branch(history_);
       break;

@@ -21,6 +21,12 @@ enum class Evaluation {
 struct EventFunction {
   EventKind kind;
   double sense = 1.0;  ///< sign of the indentation rate before contact_unloads
+  /// Of a damped contact that begins or ends because its rate passes -1/chi.
+  bool by_rate = false;
+
+  friend bool operator==(const EventFunction& a, const EventFunction& b) {
+    return a.kind == b.kind && a.by_rate == b.by_rate;
+  }
 };
 
 /// The events that end a branch.
@@ -35,9 +41,29 @@ std::span<const EventKind> event_kinds(ContactBranch branch);
 ///     elastic     contact_ends      lambda_r - lambda
 ///                 contact_yields    lambda - lambda_y
 ///     plastic     contact_unloads   -lambda'
+///
+/// A damped contact (Hunt and Crossley 1975), for laws that never yield, has the force
+///
+///     F = F_0(lambda) (1 + chi lambda'),   F_0 the law's own,
+///
+/// and ends, before lambda reaches lambda_r, where F would become tensile. Its surface then
+/// recovers by itself: as long as lambda > lambda_r, the contact begins again where F would become
+/// compressive. The law's elastic energy that recovers without a force is dissipated.
+///
+///     elastic                  contact_ends     lambda_r - lambda, or by rate: -(lambda' + 1/chi)
+///     separated, recovering    contact_begins   by rate: lambda' + 1/chi
+///                              contact_ends     lambda_r - lambda: the surface has recovered
 class ContactState {
  public:
-  explicit ContactState(std::shared_ptr<const ContactLaw> law) : law_(std::move(law)) {}
+  /// `damping`: chi, s/m.
+  explicit ContactState(std::shared_ptr<const ContactLaw> law, double damping = 0.0)
+      : law_(std::move(law)), damping_(damping) {}
+
+  bool is_damped() const { return damping_ > 0.0; }
+  /// Whether the striker has left a surface that is still indented, in damped contacts.
+  bool is_recovering() const { return recovering_; }
+  /// The events that end the branch in force.
+  std::span<const EventFunction> event_functions() const;
 
   const ContactLaw& law() const { return *law_; }
   ContactBranch branch() const { return branch_; }
@@ -45,8 +71,20 @@ class ContactState {
   bool is_closed() const { return branch_ != ContactBranch::separated; }
   double residual_indentation() const { return law_->residual_indentation(history_); }
 
-  double force(double indentation) const;  ///< F, N
-  double slope(double indentation) const;  ///< dF/dlambda, N/m
+  double force(double indentation) const;                ///< F_0, N: F without damping
+  double slope(double indentation) const;                ///< dF_0/dlambda, N/m
+  double force(double indentation, double rate) const {  ///< F, N
+    return is_damped() ? (1.0 + damping_ * rate) * force(indentation) : force(indentation);
+  }
+  double slope(double indentation, double rate) const {  ///< dF/dlambda, N/m
+    return is_damped() ? (1.0 + damping_ * rate) * slope(indentation) : slope(indentation);
+  }
+  /// dF/dlambda', N s/m.
+  double rate_slope(double indentation) const { return damping_ * force(indentation); }
+  /// Dissipated by damping while the contact is closed, W.
+  double damping_power(double indentation, double rate) const {
+    return damping_ * rate * rate * force(indentation);
+  }
 
   struct Energies {
     double elastic, plastic;  ///< J
@@ -56,6 +94,9 @@ class ContactState {
   /// Value (m) and rate (m/s) of an event function; for contact_unloads the value is -rate, and the
   /// rate of that value, which needs the acceleration, is left at 0.
   EventValue event_function(EventKind kind, double indentation, double rate) const;
+  /// The same of any event function of the branch in force. The rate of a value that is a rate of
+  /// the indentation (m/s) is left at 0.
+  EventValue event_function(const EventFunction& function, double indentation, double rate) const;
 
   /// Whether the largest indentation grows with the present one.
   bool loads() const {
@@ -70,12 +111,15 @@ class ContactState {
   /// Advances the history to this indentation.
   void commit(double indentation);
   /// Changes the branch at an event of the contact.
-  void pass(EventKind event, double indentation);
+  void pass(EventKind event, double indentation) { pass(EventFunction{event}, indentation); }
+  void pass(const EventFunction& event, double indentation);
   /// For schemes that do not locate events: the branch on which the indentation lies.
   void follow(double indentation) { branch_ = law_->branch(history_, indentation); }
 
  private:
   std::shared_ptr<const ContactLaw> law_;
+  double damping_;
+  bool recovering_ = false;
   Evaluation evaluation_ = Evaluation::smooth;
   ContactBranch branch_ = ContactBranch::separated;
   ContactHistory history_;

@@ -9,6 +9,10 @@ ModalBeam::ModalBeam(const StruckBeam& beam) : beam_(beam) {
     loads_.push_back(term.coefficient / mesh.mass().at(term.unknown, term.unknown));
     displacements_.push_back(-term.coefficient);
   }
+  if (!beam.damping().is_none()) {
+    for (const double damping : beam.modal_damping()) decay_rates_.push_back(0.5 * damping);
+    decay_rates_.push_back(0.0);  // the striker
+  }
   frequencies_.push_back(0.0);
   loads_.push_back(-1.0 / beam.striker_mass());
   displacements_.push_back(1.0);

@@ -16,6 +16,7 @@ class ModalBeam final : public ForcedOscillators {
   explicit ModalBeam(const StruckBeam& beam);
 
   std::span<const double> frequencies() const override { return frequencies_; }
+  std::span<const double> decay_rates() const override { return decay_rates_; }
   std::span<const double> loads() const override { return loads_; }
   std::span<const double> displacements() const override { return displacements_; }
   Force force(double lambda) const override;
@@ -25,7 +26,7 @@ class ModalBeam final : public ForcedOscillators {
 
  private:
   const StruckBeam& beam_;
-  std::vector<double> frequencies_, loads_, displacements_;
+  std::vector<double> frequencies_, decay_rates_, loads_, displacements_;
 };
 
 }  // namespace subimpact

@@ -9,6 +9,7 @@ namespace subimpact {
 
 NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
     : n_(beam.mesh().n_unknowns()),
+      rigid_motion_decays_(beam.damping().mass > 0.0),
       accounts_(beam),
       curvatures_(beam.mesh().n_sections()),
       moments_(beam.mesh().n_sections()) {
@@ -56,6 +57,7 @@ bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
   }
   energy = std::max(energy, 0.0);
   if (!(y.back() <= rigid_rate)) return false;
+  if (rigid_motion_decays_ && y.back() > 0.0) return false;
 
   double plastic = 0.0;
   if (!bar_.empty()) {

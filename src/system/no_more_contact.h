@@ -32,7 +32,9 @@ namespace subimpact {
 ///
 /// d_p the plastic part now: if the striker does not approach the rigid motion, v_m <= R', and the
 /// bracket is below the residual indentation, they never meet. Rigorous for the discrete beam,
-/// whatever its section law and ends. The proof fails until the gap exceeds the deflection that the
+/// whatever its section law and ends. Damping of the beam takes energy, as plastic work does, and
+/// leaves the rigid motion alone, but for damping by mass: R' then falls to zero, and v_m <= 0 is
+/// needed too. The proof fails until the gap exceeds the deflection that the
 /// beam's whole energy could cause.
 class NoMoreContact {
  public:
@@ -46,6 +48,7 @@ class NoMoreContact {
   std::vector<std::vector<double>> rigid_;  // Mass phi of the modes of frequency zero
   std::vector<double> rigid_share_;         // S phi of them
   std::vector<double> bar_;                 // W kbar; empty where the sections cannot yield
+  bool rigid_motion_decays_;                // by damping
   double compliance_ = 0.0;                 // C, m/N
   double plastic_compliance_ = 0.0;         // a, m/J
   Accounts accounts_;

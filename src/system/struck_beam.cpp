@@ -10,12 +10,14 @@ namespace subimpact {
 StruckBeam::StruckBeam(StruckBeamParts parts)
     : mesh_(std::move(parts.mesh)),
       sections_(std::move(parts.sections)),
-      contact_(std::move(parts.contact_law)),
+      contact_(std::move(parts.contact_law), parts.contact_damping),
       mass_solver_(std::move(parts.mass_solver)),
       n_(mesh_->n_unknowns()),
       striker_mass_(parts.striker_mass),
       striker_velocity_(parts.striker_velocity),
       outer_stiffness_(parts.outer_stiffness),
+      damping_(parts.damping),
+      depends_on_velocity_(parts.contact_damping > 0.0 || !parts.damping.is_none()),
       shears_(mesh_->shears()),
       highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
       curvatures_(mesh_->n_sections()),
@@ -39,12 +41,21 @@ void StruckBeam::use_modes() {
     const double mass = mesh_->mass().at(i, i);
     modal_loads_[i] /= mass;
     modal_frequencies_squared_.push_back(modal_stiffness_[i] / mass);
+    const double squared = modal_frequencies_squared_.back();
+    modal_damping_.push_back(2.0 * damping_.ratio * std::sqrt(squared) + damping_.mass +
+                             damping_.stiffness * squared);
   }
 }
 
 State StruckBeam::initial_state() const {
   State y(2 * n_positions(), 0.0);
   y.back() = striker_velocity_;
+  return y;
+}
+
+State StruckBeam::state_before_touch(double time) const {
+  State y = initial_state();
+  y[n_] = -striker_velocity_ * time;
   return y;
 }
 
@@ -84,25 +95,86 @@ void StruckBeam::acceleration(std::span<const double> positions, std::span<doubl
   result[n_] = -contact / striker_mass_;
 }
 
-void StruckBeam::force(std::span<const double> positions, Part part, std::span<double> result) {
-  const auto unknowns = positions.first(n_);
+void StruckBeam::acceleration_at(std::span<const double> y, std::span<double> result) {
+  if (!depends_on_velocity_) return acceleration(y.first(n_ + 1), result);
+  ++n_accelerations_;
+  const auto unknowns = y.first(n_);
+  const auto velocities = beam_velocities(y);
+  const auto forces = result.first(n_);
+  const double contact = contact_.force(indentation(y), indentation_rate(y));
+  result[n_] = -contact / striker_mass_;
+  if (!modal_frequencies_squared_.empty()) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      forces[i] = contact * modal_loads_[i] - modal_frequencies_squared_[i] * unknowns[i] -
+                  modal_damping_[i] * velocities[i];
+    }
+    return;
+  }
+  bend(unknowns, forces);
+  if (damping_.stiffness > 0.0) add_stiffness_damping(velocities, forces);
+  mesh_->struck_point().add_to(forces, contact);
+  mass_solver_->solve(forces);
+  for (std::size_t i = 0; i < n_; ++i) forces[i] -= damping_.mass * velocities[i];
+}
+
+void StruckBeam::add_stiffness_damping(std::span<const double> velocities,
+                                       std::span<double> forces) {
+  mesh_->curvatures(velocities, curvatures_);
+  for (std::size_t i = 0; i < moments_.size(); ++i) {
+    moments_[i] = sections_.stiffness() * curvatures_[i];
+  }
+  damping_forces_.resize(n_);
+  mesh_->bending_forces(moments_, damping_forces_);
+  if (shears_) mesh_->add_shear_forces(velocities, damping_forces_);
+  for (std::size_t i = 0; i < n_; ++i) forces[i] += damping_.stiffness * damping_forces_[i];
+}
+
+void StruckBeam::add_damping(std::span<const double> velocities, std::span<double> forces) {
+  if (!modal_damping_.empty()) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      forces[i] -= modal_damping_[i] * mesh_->mass().at(i, i) * velocities[i];
+    }
+    return;
+  }
+  if (damping_.stiffness > 0.0) add_stiffness_damping(velocities, forces);
+  if (damping_.mass > 0.0) {
+    damping_forces_.resize(n_);
+    mesh_->mass().multiply(velocities, damping_forces_);
+    for (std::size_t i = 0; i < n_; ++i) forces[i] -= damping_.mass * damping_forces_[i];
+  }
+}
+
+double StruckBeam::damping_power(std::span<const double> velocities) {
+  if (damping_.is_none()) return 0.0;
+  const std::span<double> forces(trial_.data(), n_);
+  std::fill(forces.begin(), forces.end(), 0.0);
+  add_damping(velocities, forces);
+  double power = 0.0;
+  for (std::size_t i = 0; i < n_; ++i) power -= forces[i] * velocities[i];
+  return power;
+}
+
+void StruckBeam::force(std::span<const double> y, Part part, std::span<double> result) {
+  const auto unknowns = y.first(n_);
   const auto forces = result.first(n_);
   if (part == Part::rest) {
     std::fill(forces.begin(), forces.end(), 0.0);
   } else {
     ++n_forces_;
     bend(unknowns, forces);
+    if (!damping_.is_none()) add_damping(beam_velocities(y), forces);
   }
   result[n_] = 0.0;
   if (part == Part::stiff) return;
-  const double contact = contact_.force(positions[n_] - mesh_->struck_point()(unknowns));
+  const double lambda = y[n_] - mesh_->struck_point()(unknowns);
+  const double contact =
+      contact_.is_damped() ? contact_.force(lambda, indentation_rate(y)) : contact_.force(lambda);
   mesh_->struck_point().add_to(forces, contact);
   result[n_] = -contact;
 }
 
-void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
-                                   std::span<double> values) {
-  const auto unknowns = positions.first(n_);
+void StruckBeam::stiffness_entries(std::span<const double> y, Part part, std::span<double> values) {
+  const auto unknowns = y.first(n_);
   std::fill(moments_.begin(), moments_.end(), 0.0);
   if (part != Part::rest) {
     mesh_->curvatures(unknowns, curvatures_);
@@ -112,9 +184,28 @@ void StruckBeam::stiffness_entries(std::span<const double> positions, Part part,
                         : sections_.tangent(i, curvatures_[i]);
     }
   }
-  const double slope =
-      part == Part::stiff ? 0.0 : contact_.slope(positions[n_] - mesh_->struck_point()(unknowns));
+  double slope = 0.0;
+  if (part != Part::stiff) {
+    const double lambda = y[n_] - mesh_->struck_point()(unknowns);
+    slope =
+        contact_.is_damped() ? contact_.slope(lambda, indentation_rate(y)) : contact_.slope(lambda);
+  }
   jacobian().stiffness_entries(moments_, slope, values);
+}
+
+void StruckBeam::damping_entries(std::span<const double> y, Part part, std::span<double> values) {
+  std::fill(values.begin(), values.end(), 0.0);
+  if (part != Part::rest && damping_.stiffness > 0.0) {
+    std::fill(moments_.begin(), moments_.end(), sections_.stiffness());
+    jacobian().stiffness_entries(moments_, 0.0, values);
+    for (double& value : values) value *= damping_.stiffness;
+  }
+  if (part != Part::stiff) jacobian().add_contact(contact_.rate_slope(indentation(y)), values);
+  if (part == Part::rest || damping_.mass == 0.0) return;
+  std::vector<double> mass(values.size());
+  jacobian().mass_entries(mass);
+  mass.back() = 0.0;  // the striker's
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] += damping_.mass * mass[k];
 }
 
 double StruckBeam::indentation(std::span<const double> y) const {
@@ -136,10 +227,14 @@ void StruckBeam::read_motion(const State& y, SectionMotion& motion) const {
 }
 
 EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
-  if (function.kind == EventKind::contact_unloads) {
-    acceleration({y.data(), n_ + 1}, trial_);
+  if (function.kind == EventKind::contact_unloads || function.by_rate) {
+    acceleration_at(y, trial_);
     const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
-    return {-function.sense * indentation_rate(y), -function.sense * second};
+    if (function.kind == EventKind::contact_unloads) {
+      return {-function.sense * indentation_rate(y), -function.sense * second};
+    }
+    const EventValue at = contact_.event_function(function, indentation(y), indentation_rate(y));
+    return {at.value, function.kind == EventKind::contact_ends ? -second : second};
   }
   return contact_.event_function(function.kind, indentation(y), indentation_rate(y));
 }

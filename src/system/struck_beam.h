@@ -8,6 +8,7 @@
 #include "numerics/mass_solver.h"
 #include "ode/second_order_ode.h"
 #include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/scene.h"
 #include "system/beam_jacobian.h"
 #include "system/contact_state.h"
 
@@ -22,6 +23,14 @@ struct StruckBeamParts {
   double striker_velocity;  ///< v0, m/s
   double outer_stiffness;   ///< E h/2 of the outermost fibre, N/m, for sections that never yield
   std::unique_ptr<MassSolver> mass_solver;
+  double contact_damping = 0.0;  ///< chi, s/m
+  BeamDamping damping = {};      ///< its ratio for natural modes only
+};
+
+/// Energy (J) that velocity-dependent forces have dissipated since the run began.
+struct Losses {
+  double contact = 0.0;
+  double beam = 0.0;
 };
 
 /// Curvatures (1/m) and their rates (1/(m s)) of all sections, one entry per section.
@@ -38,23 +47,28 @@ struct SectionMotion {
 ///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F,   m w_m'' = -F,   F = F(lambda, history),
 ///     kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) of the sign of the curvature and K_s the stiffness of shear, if any. Other classes
-/// treat changes of branch within a step: ContactState and find_crossing for the contact,
-/// SectionCorrector for the sections. Accounts computes energies and momenta.
+/// with M (N m) of the sign of the curvature and K_s the stiffness of shear, if any. With damping
+/// the forces depend on velocities too:
+/// -(alpha Mass + beta K) v on the beam, K = B^T W k B + K_s with the elastic stiffness k of the
+/// sections, in natural modes -2 zeta omega Mass v also; and F = F(lambda, lambda') (ContactState).
+/// Other classes treat changes of branch within a step: ContactState and find_crossing for the
+/// contact, SectionCorrector for the sections. Accounts computes energies and momenta.
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
 
   std::size_t n_positions() const override { return n_ + 1; }
   void acceleration(std::span<const double> positions, std::span<double> result) override;
+  bool depends_on_velocity() const override { return depends_on_velocity_; }
+  void acceleration_at(std::span<const double> y, std::span<double> result) override;
   Scales scales() const override { return scales_; }
 
   /// Stiff part: the bending forces; the rest: the contact force.
-  void force(std::span<const double> positions, Part part, std::span<double> result) override;
+  void force(std::span<const double> y, Part part, std::span<double> result) override;
   const SparsityPattern& pattern() const override { return jacobian().pattern(); }
   void mass_entries(std::span<double> values) const override { jacobian().mass_entries(values); }
-  void stiffness_entries(std::span<const double> positions, Part part,
-                         std::span<double> values) override;
+  void stiffness_entries(std::span<const double> y, Part part, std::span<double> values) override;
+  void damping_entries(std::span<const double> y, Part part, std::span<double> values) override;
 
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
@@ -67,16 +81,33 @@ class StruckBeam final : public MechanicalSystem {
   double highest_frequency() const { return highest_frequency_; }
   /// Stiffness of each mode of an elastic beam in natural modes; else empty.
   std::span<const double> modal_stiffness() const { return modal_stiffness_; }
+  /// Damping force over velocity and mass of each of these modes, 1/s.
+  std::span<const double> modal_damping() const { return modal_damping_; }
 
-  /// At t = 0: beam at rest, nose just touching.
+  /// At the first touch: beam at rest, displacements zero.
   State initial_state() const;
+  /// A time (s) before it, in the striker's approach.
+  State state_before_touch(double time) const;
   std::span<const double> beam_positions(std::span<const double> y) const { return y.first(n_); }
   std::span<const double> beam_velocities(std::span<const double> y) const {
     return y.subspan(n_ + 1, n_);
   }
   double indentation(std::span<const double> y) const;       ///< lambda, m
   double indentation_rate(std::span<const double> y) const;  ///< m/s
-  double contact_force(const State& y) const { return contact_.force(indentation(y)); }
+  double contact_force(const State& y) const {
+    return contact_.is_damped() ? contact_.force(indentation(y), indentation_rate(y))
+                                : contact_.force(indentation(y));
+  }
+  const BeamDamping& damping() const { return damping_; }
+  /// v^T C v, W: what the damping of the beam dissipates at velocities v.
+  double damping_power(std::span<const double> velocities);
+  /// Advanced by the run as it goes (LossQuadrature); zero without damping.
+  const Losses& losses() const { return losses_; }
+  void set_losses(const Losses& losses) { losses_ = losses; }
+  void add_losses(const Losses& more) {
+    losses_.contact += more.contact;
+    losses_.beam += more.beam;
+  }
   /// Rounding of the indentation at y, m.
   double displacement_rounding(std::span<const double> y) const;
   /// Curvatures and their rates at y.
@@ -106,6 +137,9 @@ class StruckBeam final : public MechanicalSystem {
  private:
   // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
+  // Adds the forces of the beam's damping, all or those of beta.
+  void add_stiffness_damping(std::span<const double> velocities, std::span<double> forces);
+  void add_damping(std::span<const double> velocities, std::span<double> forces);
   void use_modes();
   BeamJacobian& jacobian() const;
 
@@ -117,11 +151,16 @@ class StruckBeam final : public MechanicalSystem {
   double striker_mass_;
   double striker_velocity_;
   double outer_stiffness_;
+  BeamDamping damping_;
+  bool depends_on_velocity_;
+  Losses losses_;
   bool shears_;
   // Of an elastic beam in natural modes, else empty: stiffnesses, and what a mode's acceleration is
   // made of.
   std::span<const double> modal_stiffness_;
   std::vector<double> modal_frequencies_squared_, modal_loads_;
+  std::vector<double> modal_damping_;  // 2 zeta omega of each mode, with that of alpha and beta
+  std::vector<double> damping_forces_;
   double highest_frequency_;
   Scales scales_;
   Evaluation section_evaluation_ = Evaluation::switching;

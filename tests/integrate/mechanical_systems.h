@@ -34,13 +34,13 @@ class KnownSystem : public MechanicalSystem {
   void acceleration(std::span<const double> q, std::span<double> a) override {
     write(mass_.ldlt().solve(force_at(read(q), Part::all)), a);
   }
-  void force(std::span<const double> q, Part part, std::span<double> result) override {
-    write(force_at(read(q), part), result);
+  void force(std::span<const double> y, Part part, std::span<double> result) override {
+    write(force_at(read(y.first(n_positions())), part), result);
   }
   const SparsityPattern& pattern() const override { return pattern_; }
   void mass_entries(std::span<double> values) const override { write(mass_.reshaped(), values); }
-  void stiffness_entries(std::span<const double> q, Part part, std::span<double> values) override {
-    write(stiffness_at(read(q), part).reshaped(), values);
+  void stiffness_entries(std::span<const double> y, Part part, std::span<double> values) override {
+    write(stiffness_at(read(y.first(n_positions())), part).reshaped(), values);
   }
 
  protected:

@@ -100,6 +100,31 @@ TEST(CaseFile, AnOverridesTextMayHoldAnEqualsSign) {
   EXPECT_EQ(read.title, "a=b");
 }
 
+TEST(CaseFile, ATableWithinATableIsWrittenAsOneOrAsDottedKeysOrInline) {
+  for (const char* damping : {"[beam.damping]\nratio = 0.01\nmass = 20\n[striker]\n",
+                              "damping.ratio = 0.01\ndamping.mass = 20\n[striker]\n",
+                              "damping = { ratio = 0.01, mass = 20 }\n[striker]\n"}) {
+    const Case read = read_case_text(small_case_with("[striker]\n", damping), "small.toml",
+                                     {parse_override("beam.damping.stiffness=1e-7")})
+                          .value;
+    EXPECT_EQ(read.scene.beam.damping.ratio, 0.01);
+    EXPECT_EQ(read.scene.beam.damping.mass, 20.0);
+    EXPECT_EQ(read.scene.beam.damping.stiffness, 1e-7);
+  }
+}
+
+TEST(CaseFile, AWrongKeyOfATableWithinATableIsNamedWithThoseThatAreAllowed) {
+  try {
+    read_case_text(small_case_with("[striker]\n", "[beam.damping]\nratoi = 0.01\n[striker]\n"),
+                   "small.toml");
+    FAIL();
+  } catch (const std::exception& error) {
+    const std::string words = error.what();
+    EXPECT_NE(words.find("unknown key \"beam.damping.ratoi\""), std::string::npos) << words;
+    EXPECT_NE(words.find("did you mean \"beam.damping.ratio\""), std::string::npos) << words;
+  }
+}
+
 TEST(CaseFile, AnErrorFoundLaterIsGivenThePlaceOfItsKey) {
   const LoadedCase loaded =
       read_case_text(small_case_text(), "small.toml", {parse_override("model.segments=501")});

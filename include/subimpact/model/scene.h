@@ -21,6 +21,17 @@ enum class EndSupport {
   clamped  ///< neither displacement nor rotation
 };
 
+/// Damping of the beam. The force on the beam is -(mass Mass + stiffness K) v with the elastic
+/// stiffness K (Rayleigh's damping): mode k, of frequency omega, has the damping ratio
+/// mass/(2 omega) + stiffness omega/2. `ratio` adds the same damping ratio to all modes that bend.
+struct BeamDamping {
+  double ratio = 0.0;      ///< zeta, of critical
+  double mass = 0.0;       ///< alpha, 1/s
+  double stiffness = 0.0;  ///< beta, s
+
+  bool is_none() const { return ratio == 0.0 && mass == 0.0 && stiffness == 0.0; }
+};
+
 /// Uniform beam of rectangular section; small displacements.
 struct Beam {
   double length = 0.0;          ///< l, m
@@ -34,6 +45,7 @@ struct Beam {
   /// k; by default Cowper's for a rectangle.
   std::optional<double> shear_coefficient = {};
   std::array<EndSupport, 2> ends{EndSupport::free, EndSupport::free};  ///< at x = 0 and x = l
+  BeamDamping damping = {};
 
   double area() const { return width * thickness; }                               ///< A, m2
   double mass_per_length() const { return density * area(); }                     ///< rho A, kg/m
@@ -74,6 +86,9 @@ struct Striker {
                                       ///< `foundation`, of a sphere under `hertz`
   double velocity = 0.0;              ///< v0, m/s, towards the beam
   double position = 0.5;              ///< struck point as a fraction of the length
+  double gap = 0.0;                   ///< m, between nose and beam at t = 0
+
+  double first_touch() const { return gap > 0.0 ? gap / velocity : 0.0; }  ///< s
 };
 
 /// Which relation holds between contact force and indentation.
@@ -91,6 +106,8 @@ struct Contact {
   std::optional<double> striker_modulus;  ///< E_s, Pa; infinite: rigid
   std::optional<double> striker_poisson;  ///< nu_s
   std::optional<double> beam_poisson;     ///< nu
+  /// chi, s/m: F = K lambda^n (1 + chi lambda') (hertz, linear; Hunt and Crossley 1975)
+  double damping = 0.0;
 };
 
 struct Scene {

@@ -66,8 +66,9 @@ class Observer {
   virtual void on_step(const RunView& /*end*/) {}
 
   /// An event of the contact, once with the equations of motion before it and once with those after
-  /// it; the state is the same. The first touch at t = 0 is one. With interpolated events
-  /// (solver.events) both calls come before the end of the step that holds the event.
+  /// it; the state is the same. The first touch is one; nothing is shown before it. With
+  /// interpolated events (solver.events) both calls come before the end of the step that holds the
+  /// event.
   virtual void before_event(const Transition& /*event*/, const RunView& /*at*/) {}
   virtual void after_event(const Transition& /*event*/, const RunView& /*at*/) {}
 

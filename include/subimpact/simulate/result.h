@@ -33,9 +33,11 @@ struct HistoryRow {
   double bending_plastic;       ///< U_p
   double contact_elastic;       ///< U_c
   double contact_plastic;       ///< D_c
-  double energy_error;          ///< (sum of the six - initial)/initial
-  /// (momentum - initial)/initial; none where supports take momentum up.
+  double energy_error;          ///< (sum of the seven - initial)/initial
+  /// (momentum - initial)/initial, with what the damping by mass has taken; none where supports
+  /// take momentum up.
   std::optional<double> momentum_error;
+  double beam_damping = 0.0;  ///< D_b
 };
 
 /// One row of sections.csv: a section whose bending is kept, at the time of a history row.
@@ -184,6 +186,8 @@ struct Result {
   double beam_mean_velocity = 0.0;           ///< m/s, at the end: beam momentum over beam mass
   double max_energy_error = 0.0;             ///< largest relative error over all checks
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
+  double contact_damping_loss = 0.0;         ///< J, dissipated by the damping of the contact
+  double beam_damping_loss = 0.0;            ///< J, by that of the beam
   /// Largest difference between the impulse and the integrated force of a sub-impact, over m v0.
   double max_impulse_error = 0.0;
   /// Reasons to doubt results that passed all checks, one sentence each.

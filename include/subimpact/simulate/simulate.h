@@ -18,14 +18,17 @@ namespace subimpact {
 ///
 /// Several runs may share the parts, at the same time too: nothing in a run changes them.
 struct Problem {
-  /// Dimensions and material: E I, the yield stress and E h/2 of the sections, the first period,
-  /// the validity of the contact law (an indentation up to the thickness). Mass, ends and theory
-  /// are in the mesh.
+  /// Dimensions, material and damping: E I, the yield stress and E h/2 of the sections, the first
+  /// period, the validity of the contact law (an indentation up to the thickness). Mass, ends and
+  /// theory are in the mesh.
   Beam beam;
-  /// Mass and velocity. Where the striker hits is in the mesh, its nose in the contact law.
+  /// Mass, velocity and gap. Where the striker hits is in the mesh, its nose in the contact law.
   Striker striker;
   std::shared_ptr<const BeamMesh> mesh;
   std::shared_ptr<const ContactLaw> contact_law;
+  /// chi, s/m: of a contact with the force F (1 + chi lambda'), F that of the law, which must never
+  /// yield.
+  double contact_damping = 0.0;
   std::optional<Fibres> section;  ///< empty: the solid rectangle
   bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam
   bool check_contact_law = true;  ///< whether a run begins with broken_rule(*contact_law)
@@ -57,7 +60,7 @@ ResolvedRun resolve(const Problem& problem, const Options& options);
 /// simulate() does so before it begins.
 void check_memory(const ResolvedSettings& settings);
 
-/// Runs what was resolved, from the first touch at t = 0. Any failure is reported in the outcome,
+/// Runs what was resolved, from t = 0. Any failure is reported in the outcome,
 /// with all results up to it. `progress`, if any, can end the run; `observer`, if any, is shown
 /// every accepted step and event; `rows`, if any, takes the rows in place of the result.
 ///

@@ -9,11 +9,12 @@ struct Energies {
   double bending_elastic = 0.0;  ///< U_e
   double bending_plastic = 0.0;  ///< U_p
   double contact_elastic = 0.0;  ///< U_c
-  double contact_plastic = 0.0;  ///< D_c
+  double contact_plastic = 0.0;  ///< D_c, dissipated by the contact, with its damping
+  double beam_damping = 0.0;     ///< D_b, dissipated by the damping of the beam
 
   double total() const {
     return striker + beam_kinetic + bending_elastic + bending_plastic + contact_elastic +
-           contact_plastic;
+           contact_plastic + beam_damping;
   }
 };
 

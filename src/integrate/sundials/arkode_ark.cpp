@@ -143,7 +143,7 @@ class ArkSolver : private SolverFrame {
     ++self.right_hand_sides_;
     return self.guarded([&] {
       std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
-      self.system_.force(in.first(n), self.implicit_part_, out.subspan(n));
+      self.system_.force(in, self.implicit_part_, out.subspan(n));
     });
   }
 
@@ -153,7 +153,7 @@ class ArkSolver : private SolverFrame {
     const auto out = entries(rate);
     return self.guarded([&] {
       std::fill_n(out.begin(), n, 0.0);
-      self.system_.force(entries(y).first(n), Part::rest, out.subspan(n));
+      self.system_.force(entries(y), Part::rest, out.subspan(n));
     });
   }
 
@@ -168,7 +168,7 @@ class ArkSolver : private SolverFrame {
     auto& self = static_cast<ArkSolver&>(of(frame));
     *updated = keep_stiffness ? SUNFALSE : SUNTRUE;
     return self.guarded([&] {
-      if (!keep_stiffness) self.matrices_.update_stiffness(entries(y).first(self.n_positions_));
+      if (!keep_stiffness) self.matrices_.update_tangents(entries(y));
       self.matrices_.assemble(gamma);
     });
   }

@@ -13,6 +13,8 @@ BlockSystem::BlockSystem(MechanicalSystem& system, MechanicalSystem::Part part, 
   const SparsityPattern& pattern = system.pattern();
   const std::size_t n = pattern.size();
   system.mass_entries(mass_);
+  const bool damped = system.depends_on_velocity();
+  if (damped) damping_.resize(pattern.n_entries());
 
   SparsityPattern newton;
   std::vector<double> constants;
@@ -40,9 +42,11 @@ BlockSystem::BlockSystem(MechanicalSystem& system, MechanicalSystem::Part part, 
     newton.rows.push_back(j);
     constants.push_back(0.0);
     each_entry(j, [&](std::size_t k, std::size_t row) {
-      if (mass_[k] == 0.0) return;
+      if (mass_[k] == 0.0 && !damped) return;
+      if (damped) damping_at_.push_back(newton.n_entries());
       newton.rows.push_back(row);
       constants.push_back(mass_[k]);
+      if (mass_[k] == 0.0) return;
       block_diagonal_.rows.push_back(row);
     });
     end_column(newton);
@@ -65,14 +69,18 @@ void BlockSystem::fill_mass(SUNMatrix mass) const {
   std::copy_if(mass_.begin(), mass_.end(), lower, [](double value) { return value != 0.0; });
 }
 
-void BlockSystem::update_stiffness(std::span<const double> positions) {
-  system_.stiffness_entries(positions, part_, stiffness_);
+void BlockSystem::update_tangents(std::span<const double> y) {
+  system_.stiffness_entries(y, part_, stiffness_);
+  if (!damping_.empty()) system_.damping_entries(y, part_, damping_);
   ++stiffness_updates_;
 }
 
 void BlockSystem::assemble(double gamma) {
   double* all = values(newton_matrix_.get(), 0).data();
   for (std::size_t k = 0; k < stiffness_.size(); ++k) all[stiffness_at_[k]] = gamma * stiffness_[k];
+  for (std::size_t k = 0; k < damping_.size(); ++k) {
+    all[damping_at_[k]] = mass_[k] + gamma * damping_[k];
+  }
   for (const std::size_t at : gamma_at_) all[at] = -gamma;
   ++assemblies_;
   if (analyses_next(newton_solver_.get())) ++analyses_;

@@ -160,7 +160,7 @@ class Bdf final : public CvodeIntegrator {
     auto& self = static_cast<Bdf&>(static_cast<CvodeIntegrator&>(of(frame)));
     *updated = keep_stiffness ? SUNFALSE : SUNTRUE;
     return self.guarded([&] {
-      if (!keep_stiffness) self.newton_.update_stiffness(entries(y).first(self.n_positions_));
+      if (!keep_stiffness) self.newton_.update_tangents(entries(y));
       self.newton_.assemble(gamma);
     });
   }

@@ -22,10 +22,12 @@ ReducedNewton::ReducedNewton(MechanicalSystem& system, SUNContext context)
   solver_->ops->solve = solve;
   solver_->ops->free = free;
   system.mass_entries(mass_);
+  if (system.depends_on_velocity()) damping_.resize(pattern_.n_entries());
 }
 
-void ReducedNewton::update_stiffness(std::span<const double> positions) {
-  system_.stiffness_entries(positions, MechanicalSystem::Part::all, stiffness_);
+void ReducedNewton::update_tangents(std::span<const double> y) {
+  system_.stiffness_entries(y, MechanicalSystem::Part::all, stiffness_);
+  if (!damping_.empty()) system_.damping_entries(y, MechanicalSystem::Part::all, damping_);
   ++stiffness_updates_;
 }
 
@@ -33,6 +35,7 @@ void ReducedNewton::assemble(double gamma) {
   gamma_ = gamma;
   const auto all = values(matrix_.get(), pattern_.n_entries());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = mass_[k] + gamma * gamma * stiffness_[k];
+  for (std::size_t k = 0; k < damping_.size(); ++k) all[k] += gamma * damping_[k];
   ++assemblies_;
   if (analyses_next(klu_.get())) ++analyses_;
 }

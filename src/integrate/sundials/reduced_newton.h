@@ -8,9 +8,9 @@
 
 namespace subimpact {
 
-/// A linear solver for CVODE's (I - gamma J) x = b on y' = [v, Mass^-1 f(q)]: half the unknowns,
-/// and sparse although Mass^-1 K is full (see make_cvode_bdf). To CVODE it is a direct solver whose
-/// matrix is Mass + gamma^2 K.
+/// A linear solver for CVODE's (I - gamma J) x = b on y' = [v, Mass^-1 f(q, v)]: half the
+/// unknowns, and sparse although Mass^-1 K is full (see make_cvode_bdf). To CVODE it is a direct
+/// solver whose matrix is Mass + gamma C + gamma^2 K.
 class ReducedNewton {
  public:
   ReducedNewton(MechanicalSystem& system, SUNContext context);
@@ -20,9 +20,9 @@ class ReducedNewton {
   SUNMatrix matrix() const { return matrix_.get(); }
   SUNLinearSolver solver() const { return solver_.get(); }
 
-  /// Takes K at these positions.
-  void update_stiffness(std::span<const double> positions);
-  /// Makes the matrix of `gamma` from the stiffness last taken, for a factorisation.
+  /// Takes K and C at y.
+  void update_tangents(std::span<const double> y);
+  /// Makes the matrix of `gamma` from the tangents last taken, for a factorisation.
   void assemble(double gamma);
 
   void add_counts(WorkCounts& counts) const;
@@ -36,6 +36,7 @@ class ReducedNewton {
   MechanicalSystem& system_;
   const SparsityPattern& pattern_;
   std::vector<double> mass_, stiffness_;
+  std::vector<double> damping_;  // empty without forces of velocity
   double gamma_ = 0.0;
   VectorPointer right_side_, velocities_;  // of the reduced system
   MatrixPointer matrix_;

@@ -38,7 +38,7 @@ int SolverFrame::rate(double, N_Vector y, N_Vector rate, void* frame) {
   ++self.right_hand_sides_;
   return self.guarded([&] {
     std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
-    self.ode_.acceleration(in.first(n), out.subspan(n));
+    self.ode_.acceleration_at(in, out.subspan(n));
   });
 }
 

@@ -26,7 +26,7 @@ class SolverFrame {
   SolverFrame(const SolverFrame&) = delete;
   SolverFrame& operator=(const SolverFrame&) = delete;
 
-  /// y' = [v, a(q)] of y = [q, v].
+  /// y' = [v, a(q, v)] of y = [q, v].
   static int rate(double t, N_Vector y, N_Vector rate, void* frame);
   /// Error weights 1/(rtol * scale) of positions and velocities: evaluated at every step, but
   /// constant.

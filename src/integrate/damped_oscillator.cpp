@@ -1,0 +1,182 @@
+#include "integrate/damped_oscillator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "numerics/gauss.h"
+
+namespace subimpact {
+namespace {
+
+constexpr int n_powers = DampedOscillator::n_powers;
+
+// Below this angle omega t the series serves, which converges fast for delta t up to the next
+// number; beyond that the oscillator is overdamped, and a time is reached by doubling shorter ones.
+constexpr double small_angle = 1.0;
+constexpr double most_decay_of_series = 2.0;
+constexpr int n_terms = 40;
+constexpr double negligible = 1e-18;
+
+// Panels of a five-point rule, exact for the square of a polynomial of degree 4, per radian; the
+// rule's error is then below 1e-12 of the integral.
+constexpr double panels_per_radian = 4.0;
+constexpr double least_panels = 2.0;
+constexpr double most_panels = 400.0;
+// Roots of the characteristic equation closer than this part of their size are taken for a double
+// root, whose partial fractions cancel.
+constexpr double near_double_root = 1e-3;
+
+using Complex = std::complex<double>;
+
+}  // namespace
+
+DampedOscillator::DampedOscillator(double omega, double delta, double t) {
+  const double y = omega * t;
+  const double d = delta * t;
+  if (y < small_angle && d > most_decay_of_series) {
+    *this = DampedOscillator(omega, delta, 0.5 * t).continued(omega, 0.5 * t);
+    return;
+  }
+  if (y < small_angle) {
+    // response = sum_j a_j t/(j + 1)!, a_j = -2 d a_(j-1) - y^2 a_(j-2).
+    double before = 0.0;
+    double a = 1.0;
+    double factorial = 1.0;  // j!
+    double sums[n_powers + 2] = {};
+    for (int j = 0; j < n_terms; ++j) {
+      double over = factorial;
+      for (int k = 0; k < n_powers + 2; ++k) {
+        sums[k] += a / over;  // a_j/(j + k)!
+        over *= j + k + 1;
+      }
+      if (std::abs(a) + std::abs(before) < negligible * factorial) break;
+      const double next = -2.0 * d * a - y * y * before;
+      before = a;
+      a = next;
+      factorial *= j + 1;
+    }
+    slope = sums[0];
+    response = t * sums[1];
+    double power = t;
+    for (int m = 0; m < n_powers; ++m) {
+      power *= t;
+      forced[m] = power * sums[m + 2];
+    }
+    position = slope + 2.0 * delta * response;
+    return;
+  }
+  const double under = omega * omega - delta * delta;
+  if (under >= 0.0) {
+    const double w = std::sqrt(under);
+    const double decay = std::exp(-d);
+    const double x = w * t;
+    response = decay * (x > 0.0 ? std::sin(x) / w : t);
+    slope = decay * std::cos(x) - delta * response;
+  } else {
+    const double s = std::sqrt(-under);
+    const double fast = delta + s;
+    const double slow = omega * omega / fast;  // delta - s without cancellation
+    const double e_slow = std::exp(-slow * t);
+    const double e_fast = std::exp(-fast * t);
+    response = -e_slow * std::expm1(-2.0 * s * t) / (2.0 * s);
+    slope = (fast * e_fast - slow * e_slow) / (2.0 * s);
+  }
+  position = slope + 2.0 * delta * response;
+  double power = 1.0;  // t^m/m!
+  double last = response;
+  double before = slope;
+  for (int m = 0; m < n_powers; ++m) {
+    forced[m] = (power - 2.0 * delta * last - before) / (omega * omega);
+    before = last;
+    last = forced[m];
+    power *= t / (m + 1);
+  }
+}
+
+DampedOscillator DampedOscillator::continued(double omega, double t) const {
+  DampedOscillator twice = *this;
+  const double squared = omega * omega;
+  twice.position = position * position - squared * response * response;
+  twice.response = response * (position + slope);
+  twice.slope = slope * slope - squared * response * response;
+  for (int m = 0; m < n_powers; ++m) {
+    // The second half begins where the first ends, under the force (t + tau)^m/m!.
+    double sum = position * forced[m] + response * (m == 0 ? response : forced[m - 1]);
+    double power = 1.0;  // t^k/k!
+    for (int k = 0; k <= m; ++k) {
+      sum += power * forced[m - k];
+      power *= t / (k + 1);
+    }
+    twice.forced[m] = sum;
+  }
+  return twice;
+}
+
+namespace {
+
+double by_quadrature(double omega, double delta, double q, double v,
+                     std::span<const double, n_powers> force, double t) {
+  const double radians = std::max(omega, 2.0 * delta) * t;
+  const double n = std::min(least_panels + std::ceil(panels_per_radian * radians), most_panels);
+  const double h = t / n;
+  double sum = 0.0;
+  for (double panel = 0.0; panel < n; panel += 1.0) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      const DampedOscillator at(omega, delta, h * (panel + gauss<5>.points[i]));
+      double rate = at.slope * v - omega * omega * at.response * q + force[0] * at.response;
+      for (std::size_t m = 1; m < n_powers; ++m) rate += force[m] * at.forced[m - 1];
+      sum += gauss<5>.weights[i] * rate * rate;
+    }
+  }
+  return h * sum;
+}
+
+// Integral of e^(r tau) tau^m from 0 to t, m = 0..2; |r t| is not small.
+std::array<Complex, 3> moments_of_exponential(Complex r, double t) {
+  const Complex e = std::exp(r * t);
+  std::array<Complex, 3> result;
+  result[0] = (e - 1.0) / r;
+  result[1] = (t * e - result[0]) / r;
+  result[2] = (t * t * e - 2.0 * result[1]) / r;
+  return result;
+}
+
+}  // namespace
+
+double integral_of_squared_velocity(double omega, double delta, double q, double v,
+                                    std::span<const double, n_powers> force, double t) {
+  const Complex root = std::sqrt(Complex(delta * delta - omega * omega));
+  if (omega * t < small_angle || std::abs(root) < near_double_root * omega) {
+    return by_quadrature(omega, delta, q, v, force, t);
+  }
+  // q' = p' + z1 e^(r1 t) + z2 e^(r2 t), with p = sum_m p_m t^m/m! that satisfies the equation.
+  const double squared = omega * omega;
+  double p[n_powers + 2] = {};
+  for (int m = n_powers - 1; m >= 0; --m) {
+    p[m] = (force[static_cast<std::size_t>(m)] - 2.0 * delta * p[m + 1] - p[m + 2]) / squared;
+  }
+  const double c[3] = {p[1], p[2], 0.5 * p[3]};  // p' = sum_m c_m t^m
+  const Complex r1 = -squared / (delta + root);
+  const Complex r2 = -delta - root;
+  const double q0 = q - p[0];
+  const double v0 = v - p[1];
+  const Complex z1 = r1 * (v0 - r2 * q0) / (r1 - r2);
+  const Complex z2 = r2 * (r1 * q0 - v0) / (r1 - r2);
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) sum += c[i] * c[k] * std::pow(t, i + k + 1) / (i + k + 1);
+  }
+  for (const auto& [z, r] : {std::pair(z1, r1), std::pair(z2, r2)}) {
+    const auto moments = moments_of_exponential(r, t);
+    for (std::size_t m = 0; m < 3; ++m) sum += 2.0 * c[m] * (z * moments[m]).real();
+    sum += (z * z * (std::exp(2.0 * r * t) - 1.0) / (2.0 * r)).real();
+  }
+  const double both = -2.0 * delta;  // r1 + r2
+  const double integral = delta > 0.0 ? std::expm1(both * t) / both : t;
+  return sum + 2.0 * (z1 * z2).real() * integral;
+}
+
+}  // namespace subimpact

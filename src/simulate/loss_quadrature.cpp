@@ -1,0 +1,132 @@
+#include "simulate/loss_quadrature.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/gauss.h"
+
+namespace subimpact {
+namespace {
+
+constexpr int most_halvings = 6;
+constexpr std::size_t n_points = 4;
+
+// Weights of the positions, velocities and accelerations at both ends in position and velocity of a
+// Hermite polynomial, at s in [0, 1] of a step of length h.
+struct HermiteWeights {
+  double position[2][3], velocity[2][3];
+};
+
+HermiteWeights cubic_weights(double s, double h) {
+  const double r = 1.0 - s;
+  const double slope = 6.0 * s * r / h;
+  return {{{r * r * (1.0 + 2.0 * s), h * r * r * s, 0.0},
+           {s * s * (1.0 + 2.0 * r), -h * s * s * r, 0.0}},
+          {{-slope, r * (1.0 - 3.0 * s), 0.0}, {slope, s * (1.0 - 3.0 * r), 0.0}}};
+}
+
+HermiteWeights quintic_weights(double s, double h) {
+  HermiteWeights weights{};
+  for (int end = 0; end < 2; ++end) {
+    const double x = end == 0 ? s : 1.0 - s;
+    const double sign = end == 0 ? 1.0 : -1.0;
+    const double r = 1.0 - x;
+    const double r2 = r * r;
+    const double r3 = r2 * r;
+    weights.position[end][0] = r3 * (1.0 + 3.0 * x + 6.0 * x * x);
+    weights.position[end][1] = sign * h * r3 * (x + 3.0 * x * x);
+    weights.position[end][2] = h * h * r3 * 0.5 * x * x;
+    weights.velocity[end][0] = -sign * 30.0 * x * x * r2 / h;
+    weights.velocity[end][1] = r2 * (1.0 + 2.0 * x - 15.0 * x * x);
+    weights.velocity[end][2] = sign * h * r2 * (x - 2.5 * x * x);
+  }
+  return weights;
+}
+
+bool needs_halving(double quintic, double cubic, double tolerance) {
+  if (!(std::abs(quintic) > tolerance)) return false;
+  const double share = std::abs((quintic - cubic) / quintic);
+  return share * std::sqrt(share) * std::abs(quintic) > tolerance;
+}
+
+}  // namespace
+
+void LossQuadrature::read_acceleration(Node& node, StruckBeam& beam) {
+  node.acceleration.resize(beam.n_positions());
+  beam.acceleration_at(node.y, node.acceleration);
+}
+
+Losses LossQuadrature::between(const Node& a, const Node& b, bool quintic, StruckBeam& beam) {
+  const std::size_t n = beam.n_positions();
+  const double h = b.time - a.time;
+  const ContactState& contact = beam.contact();
+  Losses sum;
+  state_.resize(2 * n);
+  for (std::size_t k = 0; k < n_points; ++k) {
+    const double s = gauss<n_points>.points[k];
+    const HermiteWeights w = quintic ? quintic_weights(s, h) : cubic_weights(s, h);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto at = [&](const double(&weights)[2][3]) {
+        return weights[0][0] * a.y[i] + weights[0][1] * a.y[n + i] +
+               weights[0][2] * a.acceleration[i] + weights[1][0] * b.y[i] +
+               weights[1][1] * b.y[n + i] + weights[1][2] * b.acceleration[i];
+      };
+      state_[i] = at(w.position);
+      state_[n + i] = at(w.velocity);
+    }
+    const double weight = h * gauss<n_points>.weights[k];
+    if (contact.is_closed()) {
+      sum.contact +=
+          weight * contact.damping_power(beam.indentation(state_), beam.indentation_rate(state_));
+    }
+    if (beam_by_quadrature_) {
+      sum.beam += weight * beam.damping_power(beam.beam_velocities(state_));
+    }
+  }
+  return sum;
+}
+
+Losses LossQuadrature::halved(const Node& a, const Node& b, const ObservedStep& step,
+                              StruckBeam& beam, int depth) {
+  const Losses whole = between(a, b, true, beam);
+  const Losses rough = between(a, b, false, beam);
+  if (depth == most_halvings || !(needs_halving(whole.contact, rough.contact, tolerance_) ||
+                                  needs_halving(whole.beam, rough.beam, tolerance_))) {
+    return whole;
+  }
+  Node middle{0.5 * (a.time + b.time), {}, {}};
+  step.state_at(middle.time, middle.y);
+  read_acceleration(middle, beam);
+  const Losses first = halved(a, middle, step, beam, depth + 1);
+  const Losses second = halved(middle, b, step, beam, depth + 1);
+  return {first.contact + second.contact, first.beam + second.beam};
+}
+
+Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, StruckBeam& beam) {
+  Losses sum;
+  if (!(t > step.t0())) return sum;
+  const std::span<const double> damping = beam.modal_damping();
+  squares_.resize(beam.n_positions());
+  const bool has_closed_form = !damping.empty() && step.integrate_squared_velocities(t, squares_);
+  beam_by_quadrature_ = !beam.damping().is_none() && !has_closed_form;
+  const ContactState& contact = beam.contact();
+  if (beam_by_quadrature_ || (contact.is_damped() && contact.is_closed())) {
+    Node start{step.t0(), step.y0(), {}};
+    Node end{t, y, {}};
+    read_acceleration(start, beam);
+    read_acceleration(end, beam);
+    sum = halved(start, end, step, beam, 0);
+  }
+  if (contact.is_recovering()) {
+    sum.contact = contact.energies(beam.indentation(step.y0())).elastic -
+                  contact.energies(beam.indentation(y)).elastic;
+  }
+  if (has_closed_form) {
+    for (std::size_t k = 0; k < damping.size(); ++k) {
+      sum.beam += damping[k] * beam.mesh().mass().at(k, k) * squares_[k];
+    }
+  }
+  return sum;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,211 @@
+// Damping of the beam: a ratio of all modes, and Rayleigh's.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "paper_case.h"
+#include "simulate/run_parts.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/model/natural_modes.h"
+
+namespace subimpact {
+namespace {
+
+Case elastic_case(const BeamDamping& damping, double end_time = 0.4e-3) {
+  Case input = paper_case(SectionKind::elastic, end_time);
+  input.model.segments = 101;
+  input.scene.beam.damping = damping;
+  return input;
+}
+
+struct Decay {
+  const char* name;
+  Method method;
+  double rtol;
+  BeamDamping damping;
+  BeamTheory theory = BeamTheory::rayleigh;
+};
+
+std::ostream& operator<<(std::ostream& out, const Decay& decay) { return out << decay.name; }
+
+class AModeInFreeDecay : public testing::TestWithParam<Decay> {};
+
+constexpr BeamDamping rayleigh{0.0, 400.0, 2e-7};
+constexpr BeamDamping ratio{0.01, 0.0, 0.0};
+constexpr BeamDamping all_three{0.02, 400.0, 2e-7};
+
+INSTANTIATE_TEST_SUITE_P(, AModeInFreeDecay,
+                         testing::Values(Decay{"exponential", Method::exponential, 1e-8, all_three},
+                                         Decay{"erk", Method::erk, 1e-13, rayleigh},
+                                         Decay{"erk_in_modes", Method::erk, 1e-13, ratio},
+                                         Decay{"dirk", Method::dirk, 1e-12, rayleigh},
+                                         Decay{"imex", Method::imex, 1e-12, rayleigh},
+                                         Decay{"adams", Method::adams, 1e-13, rayleigh},
+                                         Decay{"bdf", Method::bdf, 1e-13, rayleigh},
+                                         Decay{"erk_timoshenko", Method::erk, 1e-13, rayleigh,
+                                               BeamTheory::timoshenko},
+                                         Decay{"dirk_timoshenko", Method::dirk, 1e-12, rayleigh,
+                                               BeamTheory::timoshenko}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST_P(AModeInFreeDecay, FollowsTheClosedFormTo1e9OfItsAmplitude) {
+  const Decay& decay = GetParam();
+  Case input = elastic_case(decay.damping);
+  input.model.segments = 31;
+  input.solver.method = decay.method;
+  input.solver.rtol = decay.rtol;
+  input.scene.beam.theory = decay.theory;
+  input.scene.beam.poisson = 0.33;
+  input.model.symmetry = SymmetryUse::off;
+  ResolvedRun run = resolve(input);
+  StruckBeam& beam = run.parts().beam;
+  beam.contact().set(ContactBranch::separated, {});
+  const NaturalModes modes = beam.mesh().natural_modes(beam.sections().stiffness());
+  const std::size_t n = modes.size();
+  double worst = 0.0;
+  for (const std::size_t k : {2, 3, 6}) {
+    const double w = modes.frequencies[k];
+    ASSERT_GT(w, 0.0);
+    const BeamDamping& d = decay.damping;
+    const double delta = d.ratio * w + 0.5 * d.mass + 0.5 * d.stiffness * w * w;
+    const double wd = std::sqrt(w * w - delta * delta);
+    const double velocity = 1.0;  // of the mode's amplitude
+    State y(2 * beam.n_positions(), 0.0);
+    for (std::size_t i = 0; i < n; ++i) y[n + 1 + i] = velocity * modes.shape(k)[i];
+    y[n] = -1.0;  // the striker is far away, at rest
+    const auto integrator = run.parts().make_integrator();
+    integrator->restart(0.0, y);
+    const double t = 2.3 * 2.0 * M_PI / w;
+    while (integrator->time() < t) integrator->step();
+    State end;
+    integrator->state_at(t, end);
+    const double q = velocity * std::exp(-delta * t) * std::sin(wd * t) / wd;
+    const double v =
+        velocity * std::exp(-delta * t) * (std::cos(wd * t) - delta / wd * std::sin(wd * t));
+    double size = 0.0;
+    for (const double x : modes.shape(k)) size = std::max(size, std::abs(x));
+    for (std::size_t i = 0; i < n; ++i) {
+      const double position_error = std::abs(end[i] - q * modes.shape(k)[i]) * w / size;
+      const double velocity_error = std::abs(end[n + 1 + i] - v * modes.shape(k)[i]) / size;
+      worst = std::max({worst, position_error, velocity_error});
+    }
+  }
+  std::printf("%s: largest error over the amplitude %.1e\n", decay.name, worst);
+  EXPECT_LT(worst, 1e-9);
+}
+
+TEST(ADampedBeam, KeepsEnergyAndMomentumWithWhatItsDampingTakes) {
+  for (const Method method :
+       {Method::exponential, Method::erk, Method::adams, Method::bdf, Method::dirk, Method::imex}) {
+    Case input = elastic_case({0.0, 400.0, 2e-8});
+    input.solver.method = method;
+    input.solver.rtol = 1e-9;
+    input.output.interval = 1e-5;
+    const Result result = simulate(input);
+    ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+    const double bound = method == Method::exponential || method == Method::erk ? 1e-8 : 1e-6;
+    EXPECT_LT(result.max_energy_error, bound) << to_string(method);
+    EXPECT_LT(result.max_momentum_error.value(), 1e-11) << to_string(method);
+    EXPECT_GT(result.beam_damping_loss, 1e-3 * result.used.initial_energy);
+    EXPECT_EQ(result.history.back().beam_damping, result.beam_damping_loss);
+    double last = 0.0;
+    for (const HistoryRow& row : result.history) {
+      EXPECT_GE(row.beam_damping, last - 1e-12 * result.used.initial_energy);
+      last = row.beam_damping;
+    }
+  }
+}
+
+TEST(ADampedBeam, MeetsTheStrikerAtTheSameTimesByOscillatorsAndByRungeKutta) {
+  for (const BeamDamping& damping : {BeamDamping{0.01, 0.0, 0.0}, BeamDamping{0.0, 400.0, 2e-8}}) {
+    Case input = elastic_case(damping, 0.6e-3);
+    const Result here = simulate(input);
+    input.solver.method = Method::exponential;
+    const Result there = simulate(input);
+    ASSERT_EQ(here.sub_impacts.size(), there.sub_impacts.size());
+    ASSERT_GE(here.sub_impacts.size(), 3u);
+    for (std::size_t i = 0; i < here.sub_impacts.size(); ++i) {
+      EXPECT_NEAR(start_us(here.sub_impacts[i]), start_us(there.sub_impacts[i]), 1e-4);
+      EXPECT_NEAR(end_us(here.sub_impacts[i]), end_us(there.sub_impacts[i]), 1e-4);
+    }
+    EXPECT_NEAR(here.beam_damping_loss, there.beam_damping_loss, 1e-6 * there.used.initial_energy);
+  }
+}
+
+TEST(ADampedBeam, ThatYieldsKeepsItsEnergyToo) {
+  Case input = elastic_case({0.0, 400.0, 2e-8});
+  input.model.section = SectionKind::exact;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_GT(result.n_yielded_sections, 0u);
+  EXPECT_LT(result.max_energy_error, 1e-5);
+  EXPECT_LT(result.max_momentum_error.value(), 1e-11);
+}
+
+TEST(ADampedRigidBeam, SlowsDownAsItsMassIsDamped) {
+  Case input = elastic_case({0.0, 2000.0, 0.0}, 2e-3);
+  input.model.mesh = MeshKind::rigid;
+  for (const Method method : {Method::erk, Method::exponential}) {
+    input.solver.method = method;
+    const Result result = simulate(input);
+    ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+    const double end = result.sub_impacts.at(0).end.value();
+    // Free of the striker its velocity falls as e^(-alpha t), unless the striker catches up.
+    EXPECT_LT(result.max_energy_error, 1e-8);
+    EXPECT_LT(result.max_momentum_error.value(), 1e-11);
+    EXPECT_GT(end, 0.0);
+  }
+}
+
+std::string refusal(const Case& input) {
+  try {
+    simulate(input);
+  } catch (const InvalidCase& error) {
+    return error.key + " " + error.what();
+  }
+  return "";
+}
+
+TEST(ADampedBeam, IsRefusedByMethodsWhichNeedForcesOfPositionsAndTheyNameThoseThatTakeIt) {
+  for (const Method method : {Method::nystrom, Method::central_difference}) {
+    Case input = elastic_case({0.0, 400.0, 0.0});
+    input.solver.method = method;
+    const std::string words = refusal(input);
+    EXPECT_EQ(words.rfind("beam.damping.mass", 0), 0u) << words;
+    EXPECT_NE(words.find("erk, exponential, dirk, imex, adams, bdf"), std::string::npos) << words;
+  }
+}
+
+TEST(ADampingRatio, IsRefusedByMethodsThatDoNotIntegrateModesAndOnBeamsThatYield) {
+  Case input = elastic_case({0.01, 0.0, 0.0});
+  input.solver.method = Method::bdf;
+  EXPECT_NE(refusal(input).find("erk, exponential"), std::string::npos) << refusal(input);
+  input.solver.method = Method::erk;
+  input.model.section = SectionKind::exact;
+  EXPECT_NE(refusal(input).find("model.section = \"elastic\""), std::string::npos);
+}
+
+TEST(ADampedBeam, ThatYieldsIsRefusedByTheExponentialMethod) {
+  Case input = elastic_case({0.0, 400.0, 0.0});
+  input.model.section = SectionKind::exact;
+  input.solver.method = Method::exponential;
+  EXPECT_NE(refusal(input).find("elastic"), std::string::npos);
+}
+
+TEST(ADampedBeam, HasNoContactAfterTheTimeFromWhichNoneIsProven) {
+  Case input = elastic_case({0.0, 3000.0, 2e-8}, 8e-3);
+  input.solver.method = Method::exponential;
+  const Result whole = simulate(input);
+  input.stop = StopRule::no_more_contact;
+  const Result stopped = simulate(input);
+  ASSERT_TRUE(whole.outcome.completed());
+  ASSERT_EQ(stopped.sub_impacts.size(), whole.sub_impacts.size());
+}
+
+}  // namespace
+}  // namespace subimpact

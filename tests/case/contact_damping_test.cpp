@@ -1,0 +1,212 @@
+// Contacts damped as Hunt and Crossley's: F = K lambda^n (1 + chi lambda').
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "numerics/bracketed_root.h"
+#include "paper_case.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+Case damped_case(ContactKind kind, double damping) {
+  Case input;
+  input.scene = paper_scene();
+  input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
+  input.scene.contact.kind = kind;
+  input.scene.striker.nose_radius.reset();
+  input.scene.contact.stiffness = kind == ContactKind::hertz ? 3e10 : 2e7;
+  input.scene.contact.damping = damping;
+  input.scene.striker.velocity = 2.0;
+  input.end_time = 1e-3;
+  input.output.interval = 0.0;
+  input.solver.rtol = 1e-12;
+  return input;
+}
+
+Case rigid_case(ContactKind kind, double damping) {
+  Case input = damped_case(kind, damping);
+  input.model.mesh = MeshKind::rigid;
+  return input;
+}
+
+// chi v_0 - ln(1 + chi v_0) = -chi v_1 - ln(1 - chi v_1), e = v_1/v_0, for x = chi v_0.
+double restitution(double x) {
+  const auto defect = [x](double e) { return -x * e - std::log1p(-x * e) - (x - std::log1p(x)); };
+  return root_in(defect, 0.0, std::min(1.0, (1.0 - 1e-15) / x));
+}
+
+class ADampedContactByAMethod : public testing::TestWithParam<Method> {};
+
+INSTANTIATE_TEST_SUITE_P(, ADampedContactByAMethod,
+                         testing::Values(Method::erk, Method::dirk, Method::imex, Method::adams,
+                                         Method::bdf),
+                         [](const auto& info) { return std::string(to_string(info.param)); });
+
+TEST_P(ADampedContactByAMethod, OfTwoRigidBodiesHasTheClosedFormsRestitution) {
+  double worst = 0.0;
+  for (const ContactKind kind : {ContactKind::hertz, ContactKind::linear}) {
+    for (const double x : {0.02, 0.4, 6.0}) {
+      Case input = rigid_case(kind, 0.0);
+      input.scene.contact.damping = x / input.scene.striker.velocity;
+      input.solver.method = GetParam();
+      input.end_time = 5e-3;
+      const bool is_low = GetParam() == Method::dirk || GetParam() == Method::imex;
+      input.solver.rtol = is_low ? 1e-11 : 1e-12;
+      const Result result = simulate(input);
+      ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+      ASSERT_EQ(result.sub_impacts.size(), 1u);
+      const double expected = restitution(x);
+      const double e =
+          (result.beam_mean_velocity - result.striker_velocity) / input.scene.striker.velocity;
+      EXPECT_NEAR(e, expected, 1e-8 * expected) << x;
+      worst = std::max(worst, std::abs(e / expected - 1.0));
+      const double m = input.scene.striker.mass;
+      const double reduced = m * input.scene.beam.mass() / (m + input.scene.beam.mass());
+      const double v = input.scene.striker.velocity;
+      const double lost = 0.5 * reduced * v * v * (1.0 - expected * expected);
+      EXPECT_NEAR(result.contact_damping_loss, lost, 1e-7 * lost) << x;
+      EXPECT_LT(result.max_energy_error, 1e-8) << x;
+      EXPECT_LT(result.max_impulse_error, 1e-7) << x;
+    }
+  }
+  std::printf("largest relative error of the restitution %.1e\n", worst);
+}
+
+TEST(ADampedContact, HasThePeakForceOfItsPhasePortrait) {
+  // With u = lambda' the energy K/m lambda^(n+1)/(n+1) is (v - u)/chi - ln((1 + chi v)/(1 + chi
+  // u))/chi^2.
+  const Case input = rigid_case(ContactKind::linear, 0.2);
+  const double chi = input.scene.contact.damping;
+  const double v = input.scene.striker.velocity;
+  const double k = *input.scene.contact.stiffness;
+  const double m = input.scene.striker.mass;
+  const double reduced = m * input.scene.beam.mass() / (m + input.scene.beam.mass());
+  double peak = 0.0;
+  const int n = 2000000;
+  for (int i = 0; i <= n; ++i) {
+    const double u = v * i / n;
+    const double squared =
+        (v - u) / chi - std::log((1.0 + chi * v) / (1.0 + chi * u)) / (chi * chi);
+    const double lambda = std::sqrt(2.0 * reduced / k * std::max(squared, 0.0));
+    peak = std::max(peak, k * lambda * (1.0 + chi * u));
+  }
+  const Result result = simulate(input);
+  EXPECT_NEAR(result.sub_impacts.at(0).peak_force, peak, 1e-7 * peak);
+}
+
+// A beam that vibrates under a contact which recovers slowly.
+Case vibrating_case(double damping) {
+  Case input = damped_case(ContactKind::hertz, damping);
+  input.model.segments = 101;
+  input.solver.rtol = 1e-9;
+  input.end_time = 0.6e-3;
+  input.scene.striker.velocity = 8.0;
+  return input;
+}
+
+TEST(ADampedContactOfABeam, KeepsTheEnergyWithWhatItDissipates) {
+  for (const double damping : {0.01, 0.3, 3.0}) {
+    Case input = vibrating_case(damping);
+    input.output.interval = 1e-6;
+    const Result result = simulate(input);
+    ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+    EXPECT_LT(result.max_energy_error, 1e-7) << damping;
+    EXPECT_LT(*result.max_momentum_error, 1e-12);
+    EXPECT_GT(result.contact_damping_loss, 0.0);
+    double last = 0.0;
+    for (const HistoryRow& row : result.history) {
+      EXPECT_GE(row.contact_plastic, last - 1e-10) << row.time;
+      EXPECT_GE(row.force, 0.0);
+      last = row.contact_plastic;
+    }
+  }
+}
+
+TEST(ADampedContactOfABeam, EndsWhereItWouldPullAndMayBeginAgainBeforeTheSurfaceHasRecovered) {
+  const Result result = simulate(vibrating_case(3.0));
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  int indented_ends = 0;
+  for (const Transition& event : result.transitions) {
+    if (event.kind == EventKind::contact_ends && event.value > 1e-9) ++indented_ends;
+  }
+  EXPECT_GE(indented_ends, 1);
+  for (const SubImpact& s : result.sub_impacts) EXPECT_GT(s.peak_force, 0.0);
+}
+
+TEST(ADampedContactOfABeam, IsTheSameByEveryMethodThatTakesIt) {
+  Case input = vibrating_case(0.3);
+  const Result expected = simulate(input);
+  ASSERT_GE(expected.sub_impacts.size(), 3u);
+  for (const Method method : {Method::dirk, Method::imex, Method::adams, Method::bdf}) {
+    input.solver.method = method;
+    const Result result = simulate(input);
+    ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+    ASSERT_EQ(result.sub_impacts.size(), expected.sub_impacts.size());
+    for (std::size_t i = 0; i < expected.sub_impacts.size(); ++i) {
+      EXPECT_NEAR(start_us(result.sub_impacts[i]), start_us(expected.sub_impacts[i]), 2e-3);
+    }
+  }
+}
+
+TEST(ADampedContactOfABeam, TendsToTheUndampedOneWithItsDamping) {
+  const Result undamped = simulate(vibrating_case(0.0));
+  double last = 1.0;
+  for (const double damping : {1e-3, 1e-4, 1e-5}) {
+    const Result result = simulate(vibrating_case(damping));
+    ASSERT_EQ(result.sub_impacts.size(), undamped.sub_impacts.size());
+    const double difference =
+        std::abs(result.sub_impacts[0].end.value() - undamped.sub_impacts[0].end.value());
+    EXPECT_LT(difference, 0.15 * last);
+    last = difference;
+  }
+}
+
+TEST(ADampedContactOfABeam, KeepsTheEnergyOfABeamThatYieldsToo) {
+  Case input = vibrating_case(0.3);
+  input.scene.beam.yield_stress = paper_scene().beam.yield_stress;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_GT(result.n_yielded_sections, 0u);
+  EXPECT_LT(result.max_energy_error, 1e-5);
+  EXPECT_EQ(result.used.reversals, ReversalHandling::step_end);
+}
+
+std::string refusal(const Case& input) {
+  try {
+    simulate(input);
+  } catch (const InvalidCase& error) {
+    return error.key + " " + error.what();
+  }
+  return "";
+}
+
+TEST(ADampedContact, IsRefusedByMethodsWhichNeedForcesOfPositionsAndTheyNameThoseThatTakeIt) {
+  for (const Method method : {Method::nystrom, Method::exponential, Method::central_difference}) {
+    Case input = vibrating_case(0.3);
+    input.solver.method = method;
+    const std::string words = refusal(input);
+    EXPECT_EQ(words.rfind("contact.damping", 0), 0u) << words;
+    EXPECT_NE(words.find("erk, dirk, imex, adams, bdf"), std::string::npos) << words;
+  }
+}
+
+TEST(ADampedContact, IsRefusedOnTheFoundationAndWithEventsThatAreNotLocated) {
+  Case input = paper_case(SectionKind::elastic, 1e-4);
+  input.scene.contact.damping = 0.1;
+  EXPECT_NE(refusal(input).find("\"hertz\" or \"linear\""), std::string::npos);
+  for (const EventHandling events : {EventHandling::interpolated, EventHandling::library}) {
+    Case other = vibrating_case(0.3);
+    other.solver.events = events;
+    EXPECT_NE(refusal(other).find("needs located events"), std::string::npos) << refusal(other);
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

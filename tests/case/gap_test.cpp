@@ -1,0 +1,125 @@
+// A striker that starts at a distance from the beam.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include "paper_case.h"
+
+namespace subimpact {
+namespace {
+
+struct Strike {
+  const char* name;
+  Method method;
+  SectionKind section;
+  std::optional<EventHandling> events;
+};
+
+std::ostream& operator<<(std::ostream& out, const Strike& strike) { return out << strike.name; }
+
+class AGap : public testing::TestWithParam<Strike> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    , AGap,
+    testing::Values(
+        Strike{"erk", Method::erk, SectionKind::exact, {}},
+        Strike{"nystrom", Method::nystrom, SectionKind::exact, {}},
+        Strike{"exponential", Method::exponential, SectionKind::elastic, {}},
+        Strike{"exponential_yielding", Method::exponential, SectionKind::exact, {}},
+        Strike{"dirk", Method::dirk, SectionKind::elastic, {}},
+        Strike{"imex", Method::imex, SectionKind::elastic, {}},
+        Strike{"adams", Method::adams, SectionKind::elastic, {}},
+        Strike{"bdf", Method::bdf, SectionKind::elastic, {}},
+        Strike{"central_difference", Method::central_difference, SectionKind::exact, {}},
+        Strike{"erk_library", Method::erk, SectionKind::elastic, EventHandling::library}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+Case strike_of(const Strike& strike) {
+  Case input = paper_case(strike.section, 0.4e-3);
+  input.model.segments = 101;
+  input.solver.method = strike.method;
+  input.solver.events = strike.events;
+  input.solver.rtol = 1e-7;
+  return input;
+}
+
+TEST_P(AGap, ShiftsTheTableOfSubImpactsByTheFlightToRounding) {
+  const double gap = 0.003;
+  const Case touching = strike_of(GetParam());
+  const double flight = gap / touching.scene.striker.velocity;
+  Case apart = touching;
+  apart.scene.striker.gap = gap;
+  apart.end_time += flight;
+  const Result expected = simulate(touching);
+  const Result shifted = simulate(apart);
+  ASSERT_TRUE(shifted.outcome.completed()) << shifted.outcome.message;
+  ASSERT_EQ(shifted.sub_impacts.size(), expected.sub_impacts.size());
+  ASSERT_GE(expected.sub_impacts.size(), 3u);
+  EXPECT_EQ(shifted.sub_impacts[0].start, flight);
+  // s, grown from contact to contact; the library's own root-finding stops at 100 roundings of a
+  // time.
+  const bool is_library = GetParam().events == EventHandling::library;
+  const double rounding = is_library ? 1e-11 : 1e-13;
+  const double relative = is_library ? 1e-6 : 1e-8;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < expected.sub_impacts.size(); ++i) {
+    const SubImpact& a = expected.sub_impacts[i];
+    const SubImpact& b = shifted.sub_impacts[i];
+    EXPECT_NEAR(b.start - flight, a.start, rounding) << i;
+    ASSERT_EQ(b.end.has_value(), a.end.has_value());
+    if (a.end) {
+      EXPECT_NEAR(*b.end - flight, *a.end, rounding) << i;
+      worst = std::max(worst, std::abs(*b.end - flight - *a.end));
+    }
+    EXPECT_NEAR(b.peak_force, a.peak_force, relative * a.peak_force) << i;
+    EXPECT_NEAR(b.impulse, a.impulse, relative * a.impulse) << i;
+    EXPECT_NEAR(b.max_indentation, a.max_indentation, relative * a.max_indentation) << i;
+    EXPECT_EQ(b.zone, a.zone);
+    EXPECT_EQ(b.subzone, a.subzone);
+  }
+  std::printf("%s: largest difference of an end %.1e s\n", GetParam().name, worst);
+}
+
+TEST(AStrikerThatStartsApart, FliesAloneAtItsVelocityUntilItTouches) {
+  Case input = paper_case(SectionKind::elastic, 0.2e-3);
+  input.model.segments = 51;
+  input.scene.striker.gap = 1.0005e-3;
+  input.output.interval = 1e-5;
+  const Result result = simulate(input);
+  const double v = input.scene.striker.velocity;
+  const double flight = input.scene.striker.gap / v;
+  ASSERT_FALSE(result.history.empty());
+  EXPECT_EQ(result.history.front().time, 0.0);
+  int n_rows = 0;
+  for (const HistoryRow& row : result.history) {
+    if (row.time >= flight) break;
+    ++n_rows;
+    EXPECT_NEAR(row.indentation, v * row.time - input.scene.striker.gap, 1e-18);
+    EXPECT_EQ(row.striker_velocity, v);
+    EXPECT_EQ(row.force, 0.0);
+    EXPECT_EQ(row.struck_displacement, 0.0);
+    EXPECT_EQ(row.beam_kinetic_energy, 0.0);
+  }
+  EXPECT_EQ(n_rows, 7);
+  EXPECT_EQ(result.transitions.front().kind, EventKind::contact_begins);
+  EXPECT_EQ(result.transitions.front().time, flight);
+}
+
+TEST(AStrikerThatStartsApart, IsRefusedWhereItDoesNotReachTheBeamBeforeTheEnd) {
+  Case input = paper_case(SectionKind::elastic, 1e-3);
+  input.scene.striker.gap = 0.0159;
+  try {
+    simulate(input);
+    FAIL();
+  } catch (const InvalidCase& error) {
+    EXPECT_EQ(error.key, "striker.gap");
+    EXPECT_NE(std::string(error.what()).find("below 0.0159 m"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace subimpact
