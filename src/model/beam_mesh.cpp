@@ -27,6 +27,15 @@ double BeamMesh::curvature(std::size_t section, std::span<const double> unknowns
   return sum;
 }
 
+SparseFunctional BeamMesh::curvature_functional(std::size_t section) const {
+  const SectionStencil row = section_stencil(section);
+  SparseFunctional functional;
+  for (std::size_t i = 0; i < row.coefficients.size(); ++i) {
+    functional.terms.push_back({row.first + i, row.coefficients[i]});
+  }
+  return functional;
+}
+
 void BeamMesh::add_stiffness(std::span<const double> tangents, BandedMatrix& result) const {
   for (std::size_t i = 0; i < n_sections(); ++i) {
     const SectionStencil row = section_stencil(i);

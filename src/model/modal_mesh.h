@@ -29,6 +29,9 @@ class ModalMesh final : public BeamMesh {
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
   double curvature(std::size_t section, std::span<const double> unknowns) const override;
+  SparseFunctional curvature_functional(std::size_t section) const override;
+  std::optional<SparseFunctional> displacement_at(double x) const override;
+  std::optional<SparseFunctional> slope_at(double x) const override;
   /// That of the last mode.
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
@@ -41,6 +44,8 @@ class ModalMesh final : public BeamMesh {
   void to_modal(std::span<const double> physical, std::span<double> modal) const;
 
  private:
+  SparseFunctional in_modes(const SparseFunctional& physical) const;
+
   std::shared_ptr<const BeamMesh> physical_;
   double bending_stiffness_;
   NaturalModes modes_;

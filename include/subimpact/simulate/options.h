@@ -63,11 +63,18 @@ struct OutputOptions {
   double zone_gap = 0.1;         ///< in first flexural periods
   double subzone_gap = 0.02;     ///< in first flexural periods
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
+  std::vector<double> points;    ///< points whose motion is kept, as fractions of the length
+  /// s between shapes, the fields along the whole beam; 0: none, and no envelope; empty: such that
+  /// there are some 400.
+  std::optional<double> shapes;
+  int shape_points = 101;  ///< most points of a shape, along the whole beam
 
   /// For refined runs, of which only the sub-impacts matter.
   void keep_no_rows() {
     interval = 0.0;
     sections.clear();
+    points.clear();
+    shapes = 0.0;
   }
 };
 
