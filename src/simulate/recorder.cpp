@@ -66,7 +66,8 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
   for (;;) {
     const double row_time = interval_ > 0.0 ? static_cast<double>(next_row_) * interval_ : never;
     const double shape_time = fields_ ? fields_->next_shape() : never;
-    const bool both = std::abs(row_time - shape_time) <= same_instant * row_time;
+    const bool both =
+        row_time < never && std::abs(row_time - shape_time) <= same_instant * row_time;
     const double t = both ? row_time : std::min(row_time, shape_time);
     if (!(t < step.t1())) return;  // the end itself is the next step's start
     const bool row = t == row_time;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numbers>
 
+#include "case/problem.h"
 #include "order_table.h"
 #include "paper_case.h"
 
@@ -59,11 +61,12 @@ double energy_of(const std::vector<ShapeRow>& shape, const Case& input) {
   return energy;
 }
 
-void expect_order_of_energy(MeshKind mesh, const std::vector<int>& sizes, double low, double high) {
+void expect_order_of_energy(MeshKind mesh, EndSupport end, const std::vector<int>& sizes,
+                            double low, double high) {
   OrderTable table(mesh == MeshKind::cells ? "energy of shapes on cells, relative"
                                            : "energy of shapes on Hermite elements, relative");
   for (const int n : sizes) {
-    Case input = linear_case(mesh, n, third, EndSupport::pinned);
+    Case input = linear_case(mesh, n, third, end);
     input.scene.beam.theory = BeamTheory::euler_bernoulli;  // no energy of rotation
     input.output.interval = input.end_time / 20.0;
     input.output.shapes = input.end_time / 20.0;
@@ -83,8 +86,8 @@ void expect_order_of_energy(MeshKind mesh, const std::vector<int>& sizes, double
 }
 
 TEST(AShape, HoldsTheEnergyOfTheAccountToTheOrderOfTheMesh) {
-  expect_order_of_energy(MeshKind::cells, {45, 90, 180, 360}, 1.7, 2.3);
-  expect_order_of_energy(MeshKind::hermite, {24, 48, 96}, 3.4, 4.6);
+  expect_order_of_energy(MeshKind::cells, EndSupport::free, {45, 90, 180, 360}, 1.7, 2.3);
+  expect_order_of_energy(MeshKind::hermite, EndSupport::pinned, {24, 48, 96}, 3.4, 4.6);
 }
 
 TEST(AShape, ShowsBothHalvesOfABeamOfWhichOneIsModelled) {
@@ -97,14 +100,19 @@ TEST(AShape, ShowsBothHalvesOfABeamOfWhichOneIsModelled) {
     const auto whole = shapes_of(simulate(input));
     const auto& a = std::prev(half.end(), 2)->second;
     const auto& b = std::prev(whole.end(), 2)->second;
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      EXPECT_NEAR(a[i].position, b[i].position, 1e-12);
-      EXPECT_NEAR(a[i].displacement, b[i].displacement, 1e-9);
-      EXPECT_NEAR(a[i].slope, b[i].slope, 1e-8);
-      EXPECT_NEAR(a[i].moment, b[i].moment, 1e-4);
-      EXPECT_NEAR(a[i].velocity, b[i].velocity, 1e-5);
+    std::size_t n_compared = 0;
+    for (const ShapeRow& one : b) {
+      const auto same = std::find_if(a.begin(), a.end(), [&](const ShapeRow& other) {
+        return std::abs(other.position - one.position) < 1e-12;
+      });
+      ASSERT_NE(same, a.end()) << one.position;
+      ++n_compared;
+      EXPECT_NEAR(same->displacement, one.displacement, 1e-9);
+      EXPECT_NEAR(same->slope, one.slope, 1e-8);
+      EXPECT_NEAR(same->moment, one.moment, 1e-4);
+      EXPECT_NEAR(same->velocity, one.velocity, 1e-5);
     }
+    EXPECT_GE(n_compared, 41u);
   }
 }
 
@@ -165,57 +173,60 @@ TEST(TheEnvelope, BoundsEveryShapeAndIsReachedAtItsTimes) {
   }
 }
 
-// Every section is a row here; its plastic curvature acts over a cell.
+// The slope jumps by kappa_p W at every section, hinges included, and is constant in between.
+double mid_span_set(const std::vector<ShapeRow>& shape, const BeamMesh& mesh, double length) {
+  double slope = 0.0, displacement = 0.0, middle = 0.0, x = 0.0;
+  const auto go_to = [&](double next) {
+    displacement += slope * (next - x);
+    x = next;
+  };
+  bool passed = false;
+  for (std::size_t j = 0; j < mesh.n_sections(); ++j) {
+    const double at = mesh.section_positions()[j];
+    if (!passed && at >= 0.5 * length) {
+      go_to(0.5 * length);
+      middle = displacement;
+      passed = true;
+    }
+    go_to(at);
+    const auto row = std::find_if(shape.begin(), shape.end(), [&](const ShapeRow& r) {
+      return std::abs(r.position - at) < 1e-12;
+    });
+    if (row == shape.end()) return std::nan("");
+    slope += row->plastic_curvature * mesh.section_weights()[j];
+  }
+  go_to(length);
+  return middle - 0.5 * displacement;
+}
+
 TEST(ThePermanentSet, IsTheDoubleIntegralOfTheLastPlasticCurvatures) {
-  for (const MeshKind mesh : {MeshKind::cells, MeshKind::hermite}) {
+  for (const MeshKind kind : {MeshKind::cells, MeshKind::hermite}) {
     Case input = paper_case(SectionKind::exact, 1e-3);
-    input.model.mesh = mesh;
+    input.model.mesh = kind;
     input.model.segments = 101;
     input.model.elements = 60;
+    input.model.symmetry = SymmetryUse::off;
     input.solver.method = Method::nystrom;
     input.output.shape_points = 1000;
     const Result result = simulate(input);
+    const std::shared_ptr<const BeamMesh> mesh = problem_of(input).mesh;
+    const double l = input.scene.beam.length;
     const std::size_t n = result.used.n_shape_points;
-    ASSERT_EQ(result.envelope.size(), n);
     const std::vector<ShapeRow> last(result.shapes.end() - static_cast<std::ptrdiff_t>(n),
                                      result.shapes.end());
-    const double l = input.scene.beam.length;
-    // Weights: a cell; half an element, of elements beside the hinge 0.95 of it; the hinge.
-    const auto weight = [&](const ShapeRow& row) {
-      if (mesh == MeshKind::cells) return l / 101.0;
-      const double a = l / 60.0;
-      const double from_strike = std::abs(row.position - 0.5 * l);
-      if (from_strike < 1e-9) return 0.1 * a;
-      return from_strike < a ? std::nan("") : 0.5 * a;
-    };
-    // Beside a hinge the two sections have weights of their own, which share 0.95 of the element;
-    // they follow from its first moment.
-    double set = 0.0, largest = 0.0, unknown = 0.0;
-    const double x = 0.5 * l;
-    double left = 0.0, end = 0.0;
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-      double w = weight(last[i]);
-      if (std::isnan(w)) {
-        w = 0.475 * l / 60.0;
-        unknown += std::abs(last[i].plastic_curvature) * w * 0.05 * l / 60.0;
-      }
-      const double turn = last[i].plastic_curvature * w;
-      if (last[i].position < x) left += turn * (x - last[i].position);
-      end += turn * (l - last[i].position);
-    }
-    set = left - 0.5 * end;
-    double found = 0.0;
+    const double set = mid_span_set(last, *mesh, l);
+    double found = 0.0, rotation = 0.0;
     for (const EnvelopeRow& row : result.envelope) {
-      largest = std::max(largest, std::abs(row.permanent_set));
-      if (std::abs(row.position - x) < 1e-9) found = row.permanent_set;
+      if (std::abs(row.position - 0.5 * l) < 1e-9) found = row.permanent_set;
     }
-    ASSERT_GT(largest, 1e-4);
-    double rotation = 0.0;
-    for (const PlasticZone& zone : result.plastic_zones) rotation += zone.rotation;
-    std::printf("permanent set at mid-span %.9g mm, double integral %.9g mm; rotations %.6g rad\n",
+    for (const PlasticZone& zone : result.plastic_zones) {
+      if (zone.from <= 0.5 * l && zone.to >= 0.5 * l) rotation = zone.rotation;
+    }
+    std::printf("permanent set at mid-span %.9g mm, double integral %.9g mm; hinge %.6g rad\n",
                 1e3 * found, 1e3 * set, rotation);
-    EXPECT_NEAR(found, set, 1e-10 * largest + unknown);
-    EXPECT_NEAR(rotation, 4.0 * std::abs(found) / l, 0.3 * std::abs(rotation));
+    EXPECT_GT(std::abs(found), 1e-4);
+    EXPECT_NEAR(found, set, 1e-10 * std::abs(set));
+    EXPECT_LT(rotation * found, 0.0);  // a hinge that turns the ends back
   }
 }
 
@@ -306,48 +317,72 @@ TEST(Reactions, AreNoneAtFreeEnds) {
 
 // --- points --------------------------------------------------------------------------------------
 
-// Striker, linear spring and the first modes of a pinned beam, sin(n pi x/l), as one eigenproblem;
-// valid up to the end of the first contact.
+// Striker, linear spring and modes of a pinned beam, sin(n pi x/l), as one eigenproblem; valid up
+// to the end of the first contact. The first modes move, the others follow the force as at rest:
+// they are a spring in series with that of the contact.
 class ModalSum {
+  // Rounding of squared frequencies, relative to the largest, must not reach the smallest.
+  using Real = long double;
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
  public:
-  ModalSum(const Scene& scene, Eigen::Index n_modes) : n_(n_modes), length_(scene.beam.length) {
+  ModalSum(const Scene& scene, Eigen::Index n_modes)
+      : n_(n_modes), scene_(scene), length_(scene.beam.length) {
     const Beam& beam = scene.beam;
-    Eigen::VectorXd root_mass(n_ + 1);
-    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n_ + 1, n_ + 1);
-    Eigen::VectorXd indentation(n_ + 1);
+    Vector root_mass(n_ + 1);
+    Matrix stiffness = Matrix::Zero(n_ + 1, n_ + 1);
+    indentation_.resize(n_ + 1);
     for (Eigen::Index k = 0; k < n_; ++k) {
-      const double b = wave(k);
-      root_mass(k) =
-          std::sqrt((beam.mass_per_length() + beam.rotary_inertia() * b * b) * length_ / 2);
-      stiffness(k, k) = beam.bending_stiffness() * std::pow(b, 4) * length_ / 2;
-      indentation(k) = -std::sin(b * scene.striker.position * length_);
+      const Real b = wave(k);
+      const Real mass = beam.mass_per_length() + beam.rotary_inertia() * b * b;
+      root_mass(k) = std::sqrt(mass * length_ / 2);
+      stiffness(k, k) = modal_stiffness(k);
+      indentation_(k) = -std::sin(b * scene.striker.position * length_);
     }
     root_mass(n_) = std::sqrt(scene.striker.mass);
-    indentation(n_) = 1.0;
-    stiffness += *scene.contact.stiffness * indentation * indentation.transpose();
-    const Eigen::VectorXd inverse = root_mass.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * stiffness *
-                                                                inverse.asDiagonal());
+    indentation_(n_) = 1.0;
+    spring_ = 1 / (1 / Real(*scene.contact.stiffness) +
+                   compliance_of_rest(scene.striker.position * length_));
+    stiffness += spring_ * indentation_ * indentation_.transpose();
+    const Vector inverse = root_mass.cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(inverse.asDiagonal() * stiffness *
+                                                       inverse.asDiagonal());
     frequencies_ = solver.eigenvalues().cwiseSqrt();
     shapes_ = inverse.asDiagonal() * solver.eigenvectors();
     rates_ = solver.eigenvectors().row(n_).transpose() * root_mass(n_) * scene.striker.velocity;
   }
   double displacement(double x, double t) const {
-    const Eigen::VectorXd amplitudes =
-        rates_.array() * (frequencies_.array() * t).sin() / frequencies_.array();
-    double sum = 0.0;
-    for (Eigen::Index k = 0; k < n_; ++k) {
-      sum += std::sin(wave(k) * x) * shapes_.row(k).dot(amplitudes);
+    const Vector amplitudes =
+        rates_.array() * (frequencies_.array() * Real(t)).sin() / frequencies_.array();
+    const Vector unknowns = shapes_ * amplitudes;
+    Real sum = spring_ * indentation_.dot(unknowns) * compliance_of_rest(x);
+    for (Eigen::Index k = 0; k < n_; ++k) sum += std::sin(wave(k) * x) * unknowns(k);
+    return static_cast<double>(sum);
+  }
+
+ private:
+  Real wave(Eigen::Index k) const {
+    return static_cast<Real>(k + 1) * std::numbers::pi_v<Real> / length_;
+  }
+  Real modal_stiffness(Eigen::Index k) const {
+    return scene_.beam.bending_stiffness() * std::pow(wave(k), 4) * length_ / 2;
+  }
+  // Displacement at x by a force of 1 N at the strike, of the modes beyond the first n.
+  Real compliance_of_rest(Real x) const {
+    const Real struck_at = scene_.striker.position * length_;
+    Real sum = 0.0;
+    for (Eigen::Index k = n_; k < 20 * n_; ++k) {
+      sum += std::sin(wave(k) * x) * std::sin(wave(k) * struck_at) / modal_stiffness(k);
     }
     return sum;
   }
 
- private:
-  double wave(Eigen::Index k) const { return static_cast<double>(k + 1) * M_PI / length_; }
   Eigen::Index n_;
-  double length_;
-  Eigen::VectorXd frequencies_, rates_;
-  Eigen::MatrixXd shapes_;
+  Scene scene_;
+  Real length_, spring_;
+  Vector indentation_, frequencies_, rates_;
+  Matrix shapes_;
 };
 
 TEST(APoint, MovesAsAModalSumOfAPinnedBeamStruckAtAThird) {
@@ -361,7 +396,7 @@ TEST(APoint, MovesAsAModalSumOfAPinnedBeamStruckAtAThird) {
   ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
   const double end = result.end_of(result.sub_impacts.front());
   ASSERT_GT(end, 1e-4);
-  const ModalSum coarser(input.scene, 200), sum(input.scene, 400);
+  const ModalSum coarser(input.scene, 60), sum(input.scene, 120);
   double largest = 0.0, error = 0.0, truncation = 0.0;
   for (const PointRow& row : result.point_history) {
     if (row.time > end) break;
