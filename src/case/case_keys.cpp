@@ -273,7 +273,7 @@ std::vector<CaseKey> make_case_keys() {
     row("output.subzone_gap", "", positive, "separation that ends a sub-zone, in first flexural periods", as_in_case, AT(output.subzone_gap)),
     row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),
     row("output.points", "", fraction, "positions, as fractions of the length, of points whose displacement and velocity are kept", as_in_case, AT(output.points)),
-    row("output.shapes", "s", not_negative, "time between shapes, the fields along the whole beam; 0: none, and no envelope", "time.end/400", AT(output.shapes)),
+    row("output.shapes", "s", not_negative, "time between shapes, the fields along the whole beam; 0: none, and no envelope", "time.end/400 in whole intervals; without history rows none", AT(output.shapes)),
     row("output.shape_points", "", between("from 5 to 200000", 5, 200000), "most points of a shape, along the whole beam", as_in_case, AT(output.shape_points)),
 
     row("study.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(study.vector_operations)),
@@ -332,10 +332,10 @@ void check_shapes(const Case& input) {
   if (rows <= most_shape_rows) return;
   throw InvalidCase(
       "output.shapes",
-      fmt::format("is {} s, which gives {:.2g} rows of up to {} points each up to time.end = {} s; "
+      fmt::format("is {} s, which gives {:.2g} rows up to time.end = {} s, up to {} per shape; "
                   "allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 for none; use a longer "
                   "interval or a smaller output.shape_points",
-                  interval, rows, input.output.shape_points, input.end_time, most_shape_rows,
+                  interval, rows, input.end_time, input.output.shape_points, most_shape_rows,
                   input.end_time * input.output.shape_points / most_shape_rows) +
           doubt_of_end_time(input));
 }

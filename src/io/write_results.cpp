@@ -97,7 +97,7 @@ void check_space(const OutputDirectory& directory, const Case& input) {
 }  // namespace
 
 double foreseen_shapes(const Case& input) {
-  const double interval = input.output.shapes.value_or(input.end_time / 400.0);
+  const double interval = input.output.shape_interval(input.end_time);
   return interval > 0.0 ? input.end_time / interval : 0.0;
 }
 

@@ -44,8 +44,6 @@ constexpr double correction_share = 1.0;
 // they have a closed form, and 0.5 s where they have none.
 constexpr std::size_t most_modes_before_run = 600;
 
-constexpr double default_shapes = 400.0;  // over the time of a run
-
 // Measured on 20,001 cells: the program, and per unknown the dirk method, which takes the most.
 constexpr double memory_of_program = 12e6;       // bytes
 constexpr double memory_per_unknown = 4e3;       // bytes
@@ -285,7 +283,7 @@ void check(const Problem& problem, const Options& options) {
 // A mesh of a user's own may give no displacements along the beam.
 double shape_interval(const Options& options, const BeamMesh& mesh) {
   const std::optional<double>& asked = options.output.shapes;
-  if (BeamField::is_available(mesh)) return asked.value_or(options.end_time / default_shapes);
+  if (BeamField::is_available(mesh)) return options.output.shape_interval(options.end_time);
   const auto refuse = [](const char* key) {
     throw InvalidCase(key,
                       "is given, but this mesh gives no displacements along the beam; leave it "
