@@ -177,9 +177,12 @@ std::vector<PlasticZone> plastic_zones(const BeamMesh& mesh, double length,
       sign = 0.0;
       continue;
     }
-    if (kappa * sign <= 0.0) zones.push_back({here.position, here.position, 0.0});
+    const double half = 0.5 * here.length;
+    if (kappa * sign <= 0.0) {
+      zones.push_back({std::max(here.position - half, 0.0), here.position, 0.0});
+    }
     sign = kappa;
-    zones.back().to = here.position;
+    zones.back().to = std::min(here.position + half, length);
     zones.back().rotation += kappa * here.length;
   }
   return zones;

@@ -303,7 +303,7 @@ TEST(PlasticZones, AreNeighboursOfOneSignWithTheIntegralOfTheirCurvature) {
   ASSERT_EQ(zones.size(), 5u);
   const double dx = beam.length / 21.0;
   EXPECT_NEAR(zones[0].rotation, 3.0 * dx, 1e-12);
-  EXPECT_NEAR(zones[0].to - zones[0].from, dx, 1e-12);
+  EXPECT_NEAR(zones[0].to - zones[0].from, 2.0 * dx, 1e-12);
   EXPECT_NEAR(zones[1].rotation, -dx, 1e-12);
   EXPECT_NEAR(zones[2].rotation, 5.0 * dx, 1e-12);  // at mid-span, whole
   EXPECT_NEAR(zones[3].rotation, -dx, 1e-12);

@@ -4,7 +4,7 @@ namespace subimpact {
 
 /// Neighbouring sections whose plastic curvature has one sign: a plastic hinge of some extent.
 struct PlasticZone {
-  double from, to;  ///< m, positions of the outermost sections
+  double from, to;  ///< m, of the stretch for which the sections stand
   double rotation;  ///< rad: the integral of the plastic curvature
 };
 

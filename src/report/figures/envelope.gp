@@ -7,11 +7,11 @@ set xrange [0:length]
 set xtics tics(length, 8)
 set xzeroaxis lc rgb '#808080'
 set offsets 0, 0, graph 0.06, graph 0.06
-set key at graph 1, graph 1.16 right top horizontal maxrows 1 samplen 2.5
 set format x ''
 if (yields > 0) { eval shaded('$zones', '#FBE6BE') }
 
-eval placed(0.12, 0.97, 0.70, 0.94)
+eval placed(0.12, 0.97, 0.69, 0.92)
+set key at graph 1, graph 1.28 right top horizontal maxrows 2 samplen 2.5
 set ylabel 'bending moment, N m'
 plot $moment_largest with lines lc 1 title 'largest', \
      $moment_smallest with lines lc 2 title 'smallest', \
@@ -21,14 +21,15 @@ plot $moment_largest with lines lc 1 title 'largest', \
      keyentry with boxes fillstyle solid noborder linecolor rgb '#FBE6BE' \
        title (yields > 0 ? 'plastic zones' : '')
 
-eval placed(0.12, 0.97, 0.40, 0.64)
+eval placed(0.12, 0.97, 0.39, 0.62)
+set key at graph 1, graph 1.16 right top horizontal maxrows 1 samplen 2.5
 set ylabel 'outer strain, 10^{-3}'
 plot $strain_largest with lines lc 1 title 'largest', \
      $strain_smallest with lines lc 2 title 'smallest', \
      (yields > 0 ? yield_strain : NaN) with lines lc rgb '#606060' dashtype 2 lw 1 notitle, \
      (yields > 0 ? -yield_strain : NaN) with lines lc rgb '#606060' dashtype 2 lw 1 notitle
 
-eval placed(0.12, 0.97, 0.09, 0.34)
+eval placed(0.12, 0.97, 0.09, 0.32)
 set format x '% h'
 set xlabel 'position along the beam, m'
 if (yields > 0) {
