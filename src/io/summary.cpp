@@ -136,9 +136,9 @@ Json near_miss_list(const std::vector<NearMiss>& near_misses) {
   return json;
 }
 
-// The largest permanent set, and the plastic hinges; null without shapes.
+// The largest permanent set, and the plastic hinges; null without shapes, or if a check failed.
 Json rest_of_bending(const Result& result) {
-  if (result.envelope.empty()) return nullptr;
+  if (result.envelope.empty() || result.outcome.first_failure) return nullptr;
   const auto largest =
       std::max_element(result.envelope.begin(), result.envelope.end(),
                        [](const EnvelopeRow& a, const EnvelopeRow& b) {

@@ -1,6 +1,7 @@
 #include "simulate/field_recorder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace subimpact {
@@ -40,6 +41,7 @@ void FieldRecorder::add_shape(double time, const State& y, Accounts& accounts) {
   if (time >= next_shape() * (1.0 - 1e-12)) ++next_shape_;
   if (!(time > last_shape_time_)) return;
   last_shape_time_ = time;
+  if (!std::ranges::all_of(y, [](double x) { return std::isfinite(x); })) return;
   field_.read(y, accounts);
   widen_envelope(time);
   for (std::size_t i = 0; i < field_.size(); ++i) add_row(time, field_.position(i), 1.0, i, y);
@@ -107,8 +109,10 @@ void FieldRecorder::add_reactions(HistoryRow& row, const State& y, Accounts& acc
 
 void FieldRecorder::finish(double time, const State& y, Accounts& accounts, bool is_good) {
   if (!has_shapes()) return;
-  if (is_good) add_shape(time, y, accounts);
-  add_rest(y, accounts);
+  if (is_good) {
+    add_shape(time, y, accounts);
+    add_rest(y, accounts);
+  }
   result_.envelope = envelope_;
   for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
     result_.envelope.push_back(envelope_[i]);

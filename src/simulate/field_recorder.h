@@ -39,12 +39,14 @@ class FieldRecorder {
 
   /// Of the next shape, s; infinite: none.
   double next_shape() const;
-  /// Keeps the shape of a state, once per instant. `accounts`: of the histories that hold at y.
+  /// Keeps the shape of a state, once per instant, if its numbers are finite. `accounts`: of the
+  /// histories that hold at y.
   void add_shape(double time, const State& y, Accounts& accounts);
   /// At every history row: the motion of the points, and the envelope.
   void follow(double time, const State& y, Accounts& accounts);
   void add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const;
-  /// At the end: the last shape (of a state that `is_good`), the envelope, what is left of bending.
+  /// At the end: the envelope and, of a state that `is_good`, the last shape and what is left of
+  /// bending.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
 
  private:
