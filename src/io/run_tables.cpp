@@ -86,7 +86,7 @@ void add_range(Columns<EnvelopeRow>& columns, const std::string& name, const std
                        [=](auto& row) -> auto& { return (row.*range.*end).value;
   }
 });
-    columns.push_back({prefix + name + "_time_s", "when",
+    columns.push_back({prefix + name + "_time_s", "instant at which that was reached",
                        [=](auto& row) -> auto& { return (row.*range.*end).time;
     }
     });

@@ -76,7 +76,7 @@ namespace {
 constexpr double bytes_per_history_row = 345.0;
 constexpr double bytes_per_section_row = 97.0;
 constexpr double bytes_per_point_row = 80.0;
-constexpr double bytes_per_shape_row = 118.0;
+constexpr double bytes_per_shape_row = 105.0;
 
 const Columns<HistoryRow>& columns_of(const HistoryRow&) { return history_columns(); }
 const Columns<SectionRow>& columns_of(const SectionRow&) { return sections_columns(); }

@@ -84,8 +84,10 @@ FigureScript envelope_figure(const Case& input, const Result& result) {
   FigureScript figure(
       "envelope",
       yields ? "Envelope of the run along the beam: largest and smallest bending moment (dashed: "
-               "first yield) and strain of the outer fibre, and the permanent set, the beam's "
-               "displacement at rest against its chord, with the plastic zones."
+               "first yield) and strain of the outer fibre (cut off at six times first yield), and "
+               "the "
+               "permanent set, the beam's displacement at rest against its chord, with the plastic "
+               "zones."
              : "Envelope of the run along the beam: largest and smallest bending moment, strain of "
                "the outer fibre and displacement.",
       {800, 860});
