@@ -404,6 +404,11 @@ FinishedRun read_once(const std::filesystem::path& directory) {
       return read_thinned(file, name, shapes_columns(),
                           shape_thinning(result.n_shape_rows, n_points));
     });
+    if (result.shapes.size() % n_points != 0) {
+      throw ResultsError(
+          fmt::format("{}: has {} rows, which are no whole shapes of {} points; run the case again",
+                      (directory / "shapes.csv").string(), result.shapes.size(), n_points));
+    }
     result.envelope = read("envelope.csv", [](std::istream& file, const std::string& name) {
       return read_checked(file, name, envelope_columns());
     });
