@@ -3,6 +3,7 @@
 /// Options of a run: method, tolerances, events, output. Each member is a key of the case file
 /// ("solver.rtol"); case_keys() (see case/case_keys.h) lists them with units, defaults and ranges.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -71,12 +72,10 @@ struct OutputOptions {
   int shape_points = 101;  ///< most points of a shape, along the whole beam
 
   /// s between shapes of a run that ends at `end_time` (s); 0: none. Where it is left open, shapes
-  /// are of instants that have history rows, if these are dense enough.
+  /// are of instants that have history rows, so that they cost no further states.
   double shape_interval(double end_time) const {
     if (shapes) return *shapes;
-    if (!(interval > 0.0)) return 0.0;
-    const double wanted = end_time / 400.0;
-    return wanted > interval ? interval * std::round(wanted / interval) : wanted;
+    return interval > 0.0 ? interval * std::max(std::round(end_time / 400.0 / interval), 1.0) : 0.0;
   }
 
   /// For refined runs, of which only the sub-impacts matter.
