@@ -24,6 +24,7 @@ void measure_reversals(const Settings& settings);
 void measure_events(const Settings& settings);
 void measure_exponential(const Settings& settings);
 void measure_mesh(const Settings& settings);
+void measure_total_error(const Settings& settings);
 void measure_tables(const Settings& settings);
 
 }  // namespace subimpact::benchmarks

@@ -56,6 +56,7 @@ Outcome check_paper();
 Outcome check_paper_as_computed();
 Outcome check_rigid_bodies();
 Outcome check_rigid_plastic();
+Outcome check_shear();
 Outcome check_spectral_identity();
 Outcome check_timoshenko();
 

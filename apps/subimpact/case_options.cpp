@@ -16,8 +16,10 @@ void CaseOptions::add_to(CLI::App& command) {
   command.add_option("--method", method,
                      "Time integration method, instead of solver.method; see `subimpact methods`");
   command
-      .add_option("--set", settings,
-                  "table.key=value, instead of the value in the case file; may be repeated")
+      .add_option(
+          "--set", settings,
+          "table.key=value, instead of the value in the case file; table.key=default: as if the "
+          "file did not have the key; may be repeated")
       ->allow_extra_args(false);
 }
 

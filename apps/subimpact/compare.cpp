@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "commands.h"
@@ -19,10 +21,46 @@ namespace {
 struct CompareOptions {
   CaseOptions input;
   std::vector<std::string> methods;
+  std::vector<std::string> theories;
   std::string directory;
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
 };
 
+int run_theories(const CompareOptions& options) {
+  std::vector<Case> cases;
+  for (const std::string& theory : options.theories) {
+    CaseOptions with_theory = options.input;
+    with_theory.settings.push_back(fmt::format("beam.theory=\"{}\"", theory));
+    cases.push_back(with_theory.load().value);
+  }
+  const LoadedCase loaded = options.input.load();
+  InterruptListener listener;
+  StatusLine status;
+  const auto runs = with_places(loaded, [&] {
+    return compare_theories(
+        cases, options.jobs, [&](std::size_t i) { status.show("running " + options.theories[i]); },
+        [&](double) { return !listener.interrupted(); });
+  });
+  status.clear();
+  if (!runs.empty()) {
+    print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+          theory_table(runs));
+  }
+  if (listener.interrupted()) {
+    print_error("subimpact: interrupted; the theories above are those that had ended\n");
+    return listener.exit_status();
+  }
+  for (const TheoryRun& run : runs) {
+    if (!run.result.outcome.completed()) return failed;
+  }
+  return done;
+}
+
 int run_comparison(const CompareOptions& options) {
+  if (!options.theories.empty()) return run_theories(options);
+  if (options.methods.empty()) {
+    throw CaseFileError("compare needs --methods or --theories, with names separated by commas");
+  }
   const LoadedCase loaded = options.input.load();
   check_method_names(options.methods);
   std::optional<OutputDirectory> directory;
@@ -64,15 +102,21 @@ int run_comparison(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand("compare", "Run one scene by several methods");
+  CLI::App* command = program.add_subcommand(
+      "compare", "Run one scene by several methods, or by several beam theories");
   auto options = std::make_shared<CompareOptions>();
   options->input.add_to(*command);
   command
       ->add_option("--methods", options->methods,
                    "Methods to compare, separated by commas; a method's table after a colon, "
                    "its solver.events after a plus sign")
+      ->delimiter(',');
+  command
+      ->add_option("--theories", options->theories,
+                   "Beam theories to compare instead, separated by commas: event times of each, "
+                   "with their errors, and how much later they come than by the first")
       ->delimiter(',')
-      ->required();
+      ->excludes("--methods");
   command->add_option("--out", options->directory,
                       "Directory for comparison.csv and matches.csv; made if missing. Without it "
                       "nothing is written");
@@ -83,6 +127,7 @@ void add_compare(CLI::App& program, int& status) {
       "Examples:\n"
       "  subimpact compare case.toml --methods central-difference,erk,dirk,imex,adams,bdf\n"
       "  subimpact compare case.toml --methods erk:dop853,erk:dormand-prince --out out/tables\n"
+      "  subimpact compare case.toml --theories euler-bernoulli,rayleigh,timoshenko\n"
       "  subimpact compare case.toml --methods erk,erk+library,erk+interpolated\n"
       "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed; "

@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "commands.h"
 #include "interrupt.h"
+#include "jobs_option.h"
 #include "print.h"
-#include "status_line.h"
+#include "progress.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/plan_chart.h"
 #include "time_option.h"
 
 namespace subimpact::app {
@@ -19,6 +22,7 @@ struct PlanCommand {
   CaseOptions input;
   std::string error;
   std::string directory;
+  JobsOption jobs;
 };
 
 int run_plan(const PlanCommand& command) {
@@ -26,21 +30,24 @@ int run_plan(const PlanCommand& command) {
   std::optional<OutputDirectory> directory;
   if (!command.directory.empty()) directory.emplace(command.directory, "plan");
   InterruptListener listener;
-  StatusLine status;
   const Plan result = with_places(loaded, [&] {
-    return plan(
-        loaded.value, *seconds_of(command.error),
-        [&](const std::string& what) { status.show(what); },
-        [&](double) { return !listener.interrupted(); });
+    ProgressDisplay progress(loaded.value.end_time, false, listener);
+    PlanOptions how;
+    how.jobs = command.jobs.number();
+    how.announce = [&](const std::string& what, double end_time) {
+      progress.show_run(what, end_time);
+    };
+    how.progress = std::ref(progress);
+    return plan(loaded.value, *seconds_of(command.error), how);
   });
-  status.clear();
   print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
         plan_reference_table(result), plan_table(result));
   if (directory) {
     write_plan(directory->staging(), result);
+    draw_plan(directory->staging(), result);
     directory->commit();
     print_warnings(directory->notes());
-    print("reference.csv and plan.csv in {}\n", command.directory);
+    print("reference.csv, plan.csv, plan.svg and .png in {}\n", command.directory);
   }
   if (!result.interrupted) return done;
   print_error("subimpact: interrupted; the combinations above are those that were tried\n");
@@ -59,8 +66,9 @@ void add_plan(CLI::App& program, int& status) {
                   "together, with its unit: 1us")
       ->required();
   command->add_option("--out", options->directory,
-                      "Directory for reference.csv and plan.csv; made if missing. "
+                      "Directory for reference.csv, plan.csv and a chart; made if missing. "
                       "Without it nothing is written");
+  options->jobs.add_to(*command);
   command->footer(
       "The reference is what run --within makes of the case for a fifth of the error. Sequences of "
       "meshes and methods are judged by it; a mesh is admitted only if all finer ones of its "

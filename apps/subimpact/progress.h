@@ -17,12 +17,14 @@ class ProgressDisplay {
 
   /// What is running, shown before the time.
   void show_run(const std::string& description);
+  void show_run(const std::string& description, double end_time);
 
   /// Returns false once the program was asked to end.
   bool operator()(double time);
 
  private:
   void clear_line();
+  void show(double time);
 
   const InterruptListener& listener_;
   double end_time_;

@@ -7,11 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "commands.h"
+#include "jobs_option.h"
 #include "print.h"
 #include "progress.h"
 #include "subimpact/case/doubtful_units.h"
@@ -31,13 +31,9 @@ struct RunOptions {
   std::string directory;
   std::string within;      // empty, or a time with its unit
   std::string error_bars;  // empty: from a companion; "off", "time" or "all"
-  Jobs jobs = 0;           // 0: as many as the machine has processors
+  JobsOption jobs;
   bool quiet = false;
 };
-
-Jobs jobs_of(const RunOptions& options) {
-  return options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
-}
 
 std::filesystem::path output_directory(const RunOptions& options) {
   if (!options.directory.empty()) return options.directory;
@@ -79,7 +75,7 @@ WithinRun simulate_as_chosen(const Case& input, const OpenChoices& open, const R
                              const InterruptListener& listener, ResultWriter& files) {
   ProgressDisplay progress(input.end_time, options.quiet, listener);
   WithinOptions how;
-  how.jobs = jobs_of(options);
+  how.jobs = options.jobs.number();
   how.rows = [&files] {
     files.restart();
     return &files;
@@ -99,7 +95,7 @@ Result simulate_as_given(const Case& input, ResolvedRun run, const RunOptions& o
   if (options.error_bars == "all") {
     return simulate_with_all_error_bars(input, std::ref(progress), &rows);
   }
-  return simulate_with_companion(input, jobs_of(options), std::ref(progress), &rows);
+  return simulate_with_companion(input, options.jobs.number(), std::ref(progress), &rows);
 }
 
 // Those that are not printed yet.
@@ -190,11 +186,7 @@ void add_run(CLI::App& program, int& status) {
                  "time, mesh and layers; takes some five times as long. --error-bars=time: of the "
                  "integration in time alone, about twice as long")
       ->check(CLI::IsMember({"all", "time", "off"}));
-  command
-      ->add_option("--jobs", options->jobs,
-                   "Runs beside one another at most; results do not depend on it. Default: the "
-                   "number of processors")
-      ->check(CLI::Range(1u, 1024u));
+  options->jobs.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
   command->footer(
       "Examples:\n"

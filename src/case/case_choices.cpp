@@ -25,6 +25,7 @@ std::span<const Named<BeamTheory>> names_of(BeamTheory) {
   static constexpr Named<BeamTheory> names[] = {
       {BeamTheory::rayleigh, "rayleigh", "with rotary inertia"},
       {BeamTheory::euler_bernoulli, "euler-bernoulli", "without rotary inertia"},
+      {BeamTheory::timoshenko, "timoshenko", "with rotary inertia and elastic shear"},
   };
   return names;
 }

@@ -227,6 +227,8 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.youngs_modulus", "Pa", positive, "Young's modulus", required, AT(scene.beam.youngs_modulus)),
     row("beam.yield_stress", "Pa", positive_or_infinite, "yield stress of beam and contact; inf: neither yields", as_in_case, AT(scene.beam.yield_stress)),
     row("beam.theory", "", any_value, "beam theory", as_in_case, AT(scene.beam.theory)),
+    row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"hertz\" without stiffness", "none; \"timoshenko\" needs it", AT(scene.beam.poisson)),
+    row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's, 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
 
     row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass)),
@@ -238,12 +240,12 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from the radius of the sphere and the moduli; linear: none, it needs one", AT(scene.contact.stiffness)),
     row("contact.striker_modulus", "Pa", positive_or_infinite, "Young's modulus of a spherical nose, for \"hertz\" without stiffness; inf: rigid", "none; not needed with contact.stiffness", AT(scene.contact.striker_modulus)),
     row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.striker_poisson)),
-    row("contact.beam_poisson", "", poisson, "Poisson's ratio of the beam, for \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.beam_poisson)),
+    row("contact.beam_poisson", "", poisson, "the same as beam.poisson", "beam.poisson", AT(scene.contact.beam_poisson)),
 
-    row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\", or \"hermite\" if model.elements is given", AT(model.mesh)),
+    row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\"; if model.elements is given, \"hermite\", with shear \"spectral\"", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
     row("model.spacing", "", any_value, "length of the cells, with mesh = \"cells\"", as_in_case, AT(model.spacing)),
-    row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\"", as_in_case, AT(model.elements)),
+    row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\" or \"spectral\"", as_in_case, AT(model.elements)),
     row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points per element, where the bending law is evaluated", as_in_case, AT(model.sections_per_element)),
     row("model.hinges", "", any_value, "sections of elements where the slope may jump", as_in_case, AT(model.hinges)),
     row("model.strike_refinement", "", refinement_range, "size of the elements far from the strike over the size of those at the strike, with mesh = \"hermite\"", as_in_case, AT(model.strike_refinement)),
@@ -340,6 +342,23 @@ void check_shapes(const Case& input) {
           doubt_of_end_time(input));
 }
 
+void check_shear(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  const std::optional<double>& other = input.scene.contact.beam_poisson;
+  if (beam.poisson && other && *beam.poisson != *other) {
+    throw InvalidCase(
+        "contact.beam_poisson",
+        fmt::format("is {}, but beam.poisson is {}; the beam has one Poisson's ratio: "
+                    "leave contact.beam_poisson out",
+                    *other, *beam.poisson));
+  }
+  if (beam.shears() && !beam.poisson) {
+    throw InvalidCase("beam.poisson",
+                      "is missing, and beam.theory = \"timoshenko\" needs it for the shear modulus "
+                      "E/(2 (1 + nu)); allowed: from 0 to 0.5; give it (metals: 0.25 to 0.35)");
+  }
+}
+
 void check_gaps(const Case& input) {
   if (input.output.subzone_gap <= input.output.zone_gap) return;
   throw InvalidCase("output.subzone_gap",
@@ -383,8 +402,9 @@ void check(const Case& input) {
   }
   check_scales(input);
   check_contact(input);
-  if (!input.parts.mesh) descriptor_of(input.model.mesh).check(input);
+  if (!input.parts.mesh) check_mesh(input);
   check_history_size(input);
+  check_shear(input);
   check_gaps(input);
   check_sections(input);
   check_shapes(input);

@@ -19,9 +19,15 @@ bool is_given(const Case& input, const char* key) {
   return find_case_key(key)->get(input).has_value();
 }
 
+// Under its own name or another one.
+bool is_known(const Case& input, std::string_view key) {
+  if (key == "contact.beam_poisson" && input.scene.beam.poisson) return true;
+  return is_given(input, key.data());
+}
+
 void require(const Case& input, const BuiltInContactLaw& law, const char* name,
              const char* remedy) {
-  if (is_given(input, name)) return;
+  if (is_known(input, name)) return;
   const CaseKey& key = *find_case_key(name);
   throw InvalidCase(name, fmt::format("is missing, and contact.law = \"{}\" needs it: {}; allowed: "
                                       "{}; {}",
@@ -40,7 +46,7 @@ void refuse(const Case& input, const char* key, const char* why) {
 const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law) {
   for (const ContactConstants& way : law.ways) {
     const bool complete = std::all_of(way.keys.begin(), way.keys.end(),
-                                      [&](const char* key) { return is_given(input, key); });
+                                      [&](const char* key) { return is_known(input, key); });
     if (complete) return way;
   }
   return law.ways.back();

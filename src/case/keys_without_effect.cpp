@@ -52,6 +52,12 @@ bool stiffness_replaces_the_nose(const Case& c) {
   return !uses_key(constants_given(c, built_in_contact_law(c.scene.contact.kind)), nose_radius);
 }
 
+bool uses_poisson(const Case& c) {
+  return c.scene.beam.shears() ||
+         uses_key(constants_given(c, built_in_contact_law(c.scene.contact.kind)),
+                  "contact.beam_poisson");
+}
+
 /// A key that is idle where `is_idle` holds, because of the value of the key `because_of`.
 struct IdleKey {
   const char* name;
@@ -61,6 +67,8 @@ struct IdleKey {
 
 // The first row that holds gives the reason.
 constexpr IdleKey idle_keys[] = {
+    {"beam.poisson", "beam.theory", [](const Case& c) { return !uses_poisson(c); }},
+    {"beam.shear_coefficient", "beam.theory", [](const Case& c) { return !c.scene.beam.shears(); }},
     {nose_radius, "contact.law", law_ignores_the_nose},
     {nose_radius, "contact.stiffness", stiffness_replaces_the_nose},
     {"model.hinges", "model.section", has_elastic_sections},

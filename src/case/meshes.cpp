@@ -1,15 +1,20 @@
 #include "case/meshes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "case/problem.h"
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
 #include "model/rigid_mesh.h"
+#include "model/spectral_mesh.h"
+#include "model/timoshenko_mesh.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -27,6 +32,11 @@ CellMesh::Spacing spacing_of(const Case& input) {
 }
 
 void check_points(const Case& input) {
+  if (input.scene.beam.shears()) {
+    throw InvalidCase("model.spacing",
+                      "is \"points\", which is the published run's and has no shear; allowed with "
+                      "beam.theory = \"timoshenko\": \"cells\"; leave it out");
+  }
   if (input.scene.beam.is_free()) return;
   throw InvalidCase(
       "model.spacing",
@@ -131,6 +141,11 @@ bool uses_half(const Case& input, const char* key, int count, bool odd, const ch
 Mesh make_cell_mesh(const Case& input) {
   const int segments = input.model.segments;
   const bool half = uses_half(input, "model.segments", segments, true, "cell");
+  if (input.scene.beam.shears()) {
+    return std::make_shared<TimoshenkoMesh>(
+        input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(segments),
+        half ? TimoshenkoMesh::Extent::half : TimoshenkoMesh::Extent::whole);
+  }
   return std::make_shared<CellMesh>(
       input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(segments),
       half ? CellMesh::Extent::half : CellMesh::Extent::whole, spacing_of(input));
@@ -146,6 +161,33 @@ Mesh make_hermite_mesh(const Case& input) {
       HermiteMesh::Options{grading_of(input),
                            input.model.hinges == HingeUse::automatic && may_yield(input)});
 }
+
+void check_spectral(const Case& input) {
+  check_is_not_graded(input);
+  check_has_no_points(input);
+  const double at = input.scene.striker.position;
+  const double elements = input.model.elements;
+  const bool on_support =
+      (at == 0.0 || at == 1.0) && input.scene.beam.ends[at == 0.0 ? 0 : 1] != EndSupport::free;
+  const bool near_end = at > 0.0 && at < 1.0 && std::min(at, 1.0 - at) * elements < 0.5;
+  if (!on_support && !near_end) return;
+  throw InvalidCase(
+      "striker.position",
+      fmt::format("is {}, {}; allowed with {} elements: from {:.6g} to {:.6g}, or a "
+                  "free end itself; move the strike inwards or use more elements",
+                  at, on_support ? "on a support" : "closer to an end than half an element",
+                  input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements));
+}
+
+Mesh make_spectral_mesh(const Case& input) {
+  const int elements = input.model.elements;
+  const bool half = uses_half(input, "model.elements", elements, false, "node");
+  return std::make_shared<SpectralMesh>(
+      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
+      half ? SpectralMesh::Extent::half : SpectralMesh::Extent::whole);
+}
+
+int order_of_spectral_elements(const Case&) { return 2; }
 
 double size_of_cells(const Case& input) {
   return CellMesh::spacing_of(input.scene.beam, static_cast<std::size_t>(input.model.segments),
@@ -168,6 +210,8 @@ constexpr const char* keys_of_elements[] = {"model.elements",       "model.secti
                                             "model.hinges",         "model.strike_refinement",
                                             "model.refined_length", "model.symmetry"};
 
+constexpr const char* keys_of_spectral[] = {"model.elements", "model.symmetry"};
+
 constexpr MeshDescriptor rows[] = {
     {.kind = MeshKind::cells,
      .name = "cells",
@@ -184,8 +228,9 @@ constexpr MeshDescriptor rows[] = {
                      order_of_cells}}},
     {.kind = MeshKind::hermite,
      .name = "hermite",
-     .note = "cubic Hermite elements, fourth order",
+     .note = "cubic Hermite elements, fourth order, for beams that do not shear",
      .keys = keys_of_elements,
+     .suits = [](const Beam& beam) { return !beam.shears(); },
      .check =
          [](const Case& input) {
            check_has_no_points(input);
@@ -195,6 +240,16 @@ constexpr MeshDescriptor rows[] = {
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(HermiteMesh::fewest_elements), false, size_of_elements,
                      order_of_elements}}},
+    {.kind = MeshKind::spectral,
+     .name = "spectral",
+     .note = "elements of degree 4 for beams that shear",
+     .keys = keys_of_spectral,
+     .suits = [](const Beam& beam) { return beam.shears(); },
+     .check = check_spectral,
+     .make = make_spectral_mesh,
+     .refinement = {{&ModelOptions::elements, "model.elements", "elements",
+                     static_cast<int>(SpectralMesh::fewest_elements), false, size_of_elements,
+                     order_of_spectral_elements}}},
     {.kind = MeshKind::rigid,
      .name = "rigid",
      .note = "the beam as a rigid body, for impacts of two bodies",
@@ -217,6 +272,22 @@ const MeshDescriptor& descriptor_of(MeshKind kind) {
     if (row.kind == kind) return row;
   }
   throw std::logic_error("a mesh has no descriptor: add a row in meshes.cpp");
+}
+
+void check_mesh(const Case& input) {
+  const MeshDescriptor& mesh = descriptor_of(input.model.mesh);
+  if (!mesh.suits(input.scene.beam)) {
+    std::vector<std::string> suitable;
+    for (const MeshDescriptor& row : rows) {
+      if (row.suits(input.scene.beam)) suitable.push_back(fmt::format("\"{}\"", row.name));
+    }
+    throw InvalidCase("model.mesh",
+                      fmt::format("is \"{}\", which does not model beam.theory = {}; allowed with "
+                                  "it: {}; use one of these, or another theory",
+                                  mesh.name, to_text(*find_case_key("beam.theory")->get(input)),
+                                  fmt::join(suitable, ", ")));
+  }
+  mesh.check(input);
 }
 
 bool mesh_uses(const Case& input, const char* key) {

@@ -17,6 +17,8 @@ struct MeshDescriptor {
 
   std::span<const char* const> keys;  ///< that have an effect with this mesh and not with all
   bool bends = true;                  ///< whether sections may yield
+  /// Whether the mesh models beams of that theory.
+  bool (*suits)(const Beam& beam) = [](const Beam&) { return true; };
 
   /// Whether strike and supports go together with the mesh. Throws InvalidCase.
   void (*check)(const Case& input);
@@ -40,6 +42,10 @@ struct MeshDescriptor {
 /// All meshes, in the order in which they are listed.
 std::span<const MeshDescriptor> meshes();
 const MeshDescriptor& descriptor_of(MeshKind kind);
+
+/// Throws InvalidCase if the mesh of a case does not suit the beam's theory, or as its descriptor's
+/// check() does.
+void check_mesh(const Case& input);
 
 /// Whether the mesh of a case uses a key of [model] that not all meshes use.
 bool mesh_uses(const Case& input, const char* key);

@@ -21,8 +21,8 @@ void CentralDifference::restart(double t, const State& y) {
   ++work_.right_hand_sides;
 }
 
-void CentralDifference::advance(double h, const State& from, const std::vector<double>& a_from,
-                                State& y, std::vector<double>& acceleration) {
+void CentralDifference::advance(double h, const State& from, const AlignedVector& a_from, State& y,
+                                AlignedVector& acceleration) {
   const double half = 0.5 * h;
   const double* q0 = from.data();
   const double* v0 = q0 + n_;
@@ -30,16 +30,12 @@ void CentralDifference::advance(double h, const State& from, const std::vector<d
   double* v = q + n_;
   const double* a0 = a_from.data();
   const double* a1 = acceleration.data();
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < n_; ++i) {
-    v[i] = v0[i] + half * a0[i];
-    q[i] = q0[i] + h * v[i];
-  }
+  assign_by_lines(v, n_, [=](auto at) { return at(v0) + half * at(a0); });
+  assign_by_lines(q, n_, [=](auto at) { return at(q0) + h * at(v); });
   if (last_position_ == LastPosition::constant_force) q[n_ - 1] = q0[n_ - 1] + h * v0[n_ - 1];
   ode_.acceleration({q, n_}, acceleration);
   ++work_.right_hand_sides;
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < n_; ++i) v[i] += half * a1[i];
+  assign_by_lines(v, n_, [=](auto at) { return at(v) + half * at(a1); });
 }
 
 void CentralDifference::step() {

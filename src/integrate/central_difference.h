@@ -1,5 +1,6 @@
 #pragma once
 
+#include "numerics/lanes.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
@@ -28,13 +29,14 @@ class CentralDifference final : public Integrator {
   void state_at(double t, State& y) override;
   /// The scheme is reversible in time: a step from the end with the velocity reversed.
   void state_before_end(double t, State& y) override;
+  bool ends_at_last_evaluation() const override { return true; }
   WorkCounts work() const override { return work_; }
 
  private:
   // One step of length h (which may be negative) from (from, a_from) into y; leaves a(q) at its end
   // in `acceleration`.
-  void advance(double h, const State& from, const std::vector<double>& a_from, State& y,
-               std::vector<double>& acceleration);
+  void advance(double h, const State& from, const AlignedVector& a_from, State& y,
+               AlignedVector& acceleration);
 
   SecondOrderOde& ode_;
   std::size_t n_;
@@ -42,7 +44,7 @@ class CentralDifference final : public Integrator {
   LastPosition last_position_;
   double origin_ = 0.0;  // times are origin + k step, free of accumulated rounding
   long steps_from_origin_ = 0;
-  std::vector<double> a0_, a1_, a_partial_;
+  AlignedVector a0_, a1_, a_partial_;
   WorkCounts work_;
 };
 

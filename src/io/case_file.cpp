@@ -77,6 +77,7 @@ std::string unknown_table(const std::string& name) {
 
 constexpr std::size_t largest_case = 1'000'000;  // bytes
 constexpr std::size_t most_problems = 100;       // reported at once
+constexpr const char* by_default = "default";    // as if the file did not have the key
 
 /// Gathers the values of a case and everything that is wrong with them.
 class Reader {
@@ -202,6 +203,10 @@ void Reader::apply(const Override& setting) {
   }
   const bool wants_number = key->type == KeyType::number;
   std::erase(refused_, key->name);
+  if (setting.value == by_default && key->type != KeyType::text) {
+    given_.erase(key->name);
+    return;
+  }
   if (std::optional<KeyValue> value = parse_setting(*key, setting.value)) {
     given_[key->name] = {std::move(*value), setting.origin, false};
   } else {
@@ -245,6 +250,7 @@ void Reader::choose_mesh(Case& read) {
   for (const bool in_file : {false, true}) {
     const MeshDescriptor* chosen = nullptr;
     for (const MeshDescriptor& mesh : meshes()) {
+      if (!mesh.suits(read.scene.beam)) continue;
       if (!mesh.refinement || !is_given(mesh.refinement->key, in_file)) continue;
       if (chosen != nullptr) {
         const char* first = chosen->refinement->key;

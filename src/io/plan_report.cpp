@@ -6,6 +6,7 @@
 #include "case/meshes.h"
 #include "io/csv_columns.h"
 #include "io/write_file.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/report.h"
 
@@ -14,21 +15,28 @@ namespace {
 
 constexpr double us = 1e6;  // per second
 
-std::string settings_text(const PlanPoint& point) {
+// The options that make of the case that was asked about the run that is advised.
+std::string settings_text(const Case& asked, const PlanPoint& advised) {
+  std::string text = "--method " + advised.method;
+  for (const CaseKey& key : case_keys()) {
+    const std::string table = key.table();
+    if (table == "output" || table == "accuracy" || key.name == "solver.method") continue;
+    const std::optional<KeyValue> value = key.get(advised.input);
+    if (value == key.get(asked)) continue;
+    const auto* word = value ? std::get_if<std::string>(&*value) : nullptr;
+    text += fmt::format(" --set {}={}", key.name,
+                        word    ? *word
+                        : value ? to_text(*value)
+                                : "default");
+  }
+  return text;
+}
+
+// "nystrom/graded-elements"
+std::string sequence_of(const PlanPoint& point) {
   const ModelOptions& model = point.input.model;
-  const MeshDescriptor& mesh = descriptor_of(model.mesh);
-  std::string text = fmt::format("--method {} --set model.mesh={} --set {}={}", point.method,
-                                 mesh.name, mesh.refinement->key, model.*(mesh.refinement->count));
-  if (model.strike_refinement != 1.0 && mesh_uses(point.input, "model.strike_refinement")) {
-    text += fmt::format(" --set model.strike_refinement={:g} --set model.refined_length={:g}",
-                        model.strike_refinement, model.refined_length);
-  }
-  if (point.input.solver.step) {
-    return text + fmt::format(" --set solver.step={:.17g}", *point.input.solver.step);
-  }
-  const bool adaptive = point.input.solver.method != Method::central_difference;
-  return adaptive ? text + fmt::format(" --set solver.rtol={:.17g}", point.input.solver.rtol)
-                  : text;
+  return fmt::format("{}/{}{}", point.method, model.strike_refinement != 1.0 ? "graded-" : "",
+                     descriptor_of(model.mesh).refinement->parts);
 }
 
 }  // namespace
@@ -65,9 +73,10 @@ std::string plan_table(const Plan& plan) {
     const PlanPoint& best = plan.points[*plan.cheapest];
     fmt::format_to(out,
                    "\ncheapest within {:g} us in all: {}, {}: {}, error {:.1e} us beside a "
-                   "reference known to {:.1e} us\n  {}\n",
+                   "reference known to {:.1e} us; with this case, run\n  {}\n",
                    plan.wanted * us, best.mesh, best.method, duration_text(best.seconds),
-                   best.errors.maximum * us, plan.reference_error * us, settings_text(best));
+                   best.errors.maximum * us, plan.reference_error * us,
+                   settings_text(plan.asked, best));
   } else {
     fmt::format_to(out, "\nno mesh that was tried is within {:g} us together with all finer ones\n",
                    plan.wanted * us);
@@ -85,12 +94,14 @@ void write_plan(const std::filesystem::path& directory, const Plan& plan) {
       {"end_error_s", &SubImpact::end_error}};
   write_file(directory / "reference.csv", csv_text(reference, plan.sub_impacts));
   const Columns<PlanPoint> points = {
+      {"sequence", [](const PlanPoint& p) { return sequence_of(p); }},
       {"mesh", &PlanPoint::mesh},
       {"method", &PlanPoint::method},
       {"verdict", [](const PlanPoint& p) { return p.verdict; }},
       {"error_s", [](const PlanPoint& p) { return p.errors.maximum; }},
       {"within", [](const PlanPoint& p) { return p.within ? 1 : 0; }},
       {"admitted", [](const PlanPoint& p) { return p.admitted ? 1 : 0; }},
+      {"cheapest", [&](const PlanPoint&, std::size_t i) { return plan.cheapest == i ? 1 : 0; }},
       {"counted_work", &PlanPoint::work},
       {"wall_s", &PlanPoint::seconds}};
   write_file(directory / "plan.csv", csv_text(points, plan.points));

@@ -11,7 +11,7 @@ double SparseFunctional::of_all(std::span<const double> unknowns) const {
 }
 
 std::size_t BeamMesh::stiffness_bandwidth() const {
-  std::size_t bandwidth = 0;
+  std::size_t bandwidth = shear_stiffness_.half_bandwidth();
   for (std::size_t i = 0; i < n_sections(); ++i) {
     bandwidth = std::max(bandwidth, section_stencil(i).coefficients.size() - 1);
   }
@@ -36,7 +36,29 @@ SparseFunctional BeamMesh::curvature_functional(std::size_t section) const {
   return functional;
 }
 
+void BeamMesh::add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const {
+  const std::size_t n = shear_stiffness_.size();
+  const std::size_t bandwidth = shear_stiffness_.half_bandwidth();
+  for (std::size_t i = 0; i < n; ++i) {
+    forces[i] -= shear_stiffness_.at(i, i) * unknowns[i];
+    for (std::size_t k = 1; k <= bandwidth && i + k < n; ++k) {
+      const double entry = shear_stiffness_.at(i, i + k);
+      forces[i] -= entry * unknowns[i + k];
+      forces[i + k] -= entry * unknowns[i];
+    }
+  }
+}
+
+double BeamMesh::shear_energy(std::span<const double> unknowns) const {
+  return shear_stiffness_.size() > 0 ? 0.5 * shear_stiffness_.quadratic_form(unknowns) : 0.0;
+}
+
 void BeamMesh::add_stiffness(std::span<const double> tangents, BandedMatrix& result) const {
+  for (std::size_t k = 0; k <= shear_stiffness_.half_bandwidth(); ++k) {
+    for (std::size_t i = 0; i + k < shear_stiffness_.size(); ++i) {
+      result.at(i, i + k) += shear_stiffness_.at(i, i + k);
+    }
+  }
   for (std::size_t i = 0; i < n_sections(); ++i) {
     const SectionStencil row = section_stencil(i);
     const double factor = weights_[i] * tangents[i];

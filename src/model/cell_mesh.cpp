@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "model/cell_modes.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 namespace {
@@ -254,7 +255,8 @@ void CellMesh::curvatures(std::span<const double> unknowns, std::span<double> ka
   const double* w = unknowns.data();
   double* k = kappa.data();
   for (const EndStencil& end : first_sections_) *k++ = end[0] * w[0] + end[1] * w[1];
-  for (std::size_t i = 0; i < n_inner; ++i) k[i] = (w[i + 2] - 2.0 * w[i + 1] + w[i]) * inverse;
+  assign_by_lines(k, n_inner,
+                  [=](auto at) { return (at(w + 2) - 2.0 * at(w + 1) + at(w)) * inverse; });
   k += n_inner;
   if (symmetric()) *k = 2.0 * (w[n_inner] - w[n_inner + 1]) * inverse;
   for (const EndStencil& end : last_sections_) *k++ = end[0] * w[n - 2] + end[1] * w[n - 1];
@@ -267,13 +269,17 @@ void CellMesh::bending_forces(std::span<const double> moments, std::span<double>
   const std::size_t n = n_unknowns();
   const double* m = moments.data() + first_sections_.size();
   double* f = forces.data();
+  const auto inner_forces = [=](std::size_t n_others) {
+    assign_by_lines(f + 2, n < n_others ? 0 : n - n_others,
+                    [=](auto at) { return scale * (2.0 * at(m + 1) - at(m) - at(m + 2)); });
+  };
   f[0] = -scale * m[0];
   f[1] = scale * (2.0 * m[0] - m[1]);
   if (symmetric()) {
-    for (std::size_t i = 2; i + 1 < n; ++i) f[i] = scale * (2.0 * m[i - 1] - m[i - 2] - m[i]);
+    inner_forces(3);
     f[n - 1] = scale * (m[n - 2] - m[n - 3]);
   } else {
-    for (std::size_t i = 2; i + 2 < n; ++i) f[i] = scale * (2.0 * m[i - 1] - m[i - 2] - m[i]);
+    inner_forces(4);
     f[n - 2] = scale * (2.0 * m[n - 3] - m[n - 4]);
     f[n - 1] = -scale * m[n - 3];
   }

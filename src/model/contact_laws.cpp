@@ -34,7 +34,7 @@ Law make_hertz(const Scene& scene) {
           ? *contact.stiffness
           : hertz_stiffness(need(scene.striker.nose_radius), need(contact.striker_modulus),
                             need(contact.striker_poisson), scene.beam.youngs_modulus,
-                            need(contact.beam_poisson));
+                            need(scene.beam_poisson()));
   return std::make_shared<PowerContact>(stiffness, 1.5, never, "hertz");
 }
 

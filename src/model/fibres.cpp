@@ -94,25 +94,23 @@ Fibres::Moments Fibres::up_to(double zeta) const {
   return {n / p, 0.5 * n * n / (p * p), n * (4.0 * n * n - 1.0) / (12.0 * p * p * p)};
 }
 
-double Fibres::moment(double x) const {
+Fibres::Response Fibres::response(double x) const {
   const double size = std::abs(x);
-  if (size <= first_yield_) return slope_ * x;
+  if (size <= first_yield_) return {slope_ * x, 0.5 * slope_ * x * x};
   const Moments elastic = up_to(1.0 / size);
-  return std::copysign(3.0 * (size * elastic.s2 + whole_.s1 - elastic.s1), x);
+  return {std::copysign(3.0 * (size * elastic.s2 + whole_.s1 - elastic.s1), x),
+          3.0 * (0.5 * size * size * elastic.s2 + size * (whole_.s1 - elastic.s1) -
+                 0.5 * (whole_.s0 - elastic.s0))};
 }
+
+double Fibres::moment(double x) const { return response(x).moment; }
 
 double Fibres::tangent(double x) const {
   const double size = std::abs(x);
   return size <= first_yield_ ? slope_ : 3.0 * up_to(1.0 / size).s2;
 }
 
-double Fibres::work(double x) const {
-  const double size = std::abs(x);
-  if (size <= first_yield_) return 0.5 * slope_ * x * x;
-  const Moments elastic = up_to(1.0 / size);
-  return 3.0 * (0.5 * size * size * elastic.s2 + size * (whole_.s1 - elastic.s1) -
-                0.5 * (whole_.s0 - elastic.s0));
-}
+double Fibres::work(double x) const { return response(x).work; }
 
 double Fibres::energy(double a, double b, double constant, double slope) const {
   const Moments lower = up_to(a);

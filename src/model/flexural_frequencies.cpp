@@ -54,8 +54,11 @@ std::vector<double> flexural_wave_numbers(double slenderness, const std::array<E
 }
 
 std::vector<double> flexural_frequencies(const Beam& beam, std::size_t n) {
-  const double slenderness =
-      beam.theory == BeamTheory::rayleigh ? beam.radius_of_gyration() / beam.length : 0.0;
+  double slenderness =
+      beam.theory == BeamTheory::euler_bernoulli ? 0.0 : beam.radius_of_gyration() / beam.length;
+  if (beam.shears()) {
+    slenderness *= std::sqrt(1.0 + beam.youngs_modulus * beam.area() / beam.shear_stiffness());
+  }
   const double unit =
       std::sqrt(beam.bending_stiffness() / beam.mass_per_length()) / (beam.length * beam.length);
   std::vector<double> frequencies;

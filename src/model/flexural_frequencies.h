@@ -9,7 +9,8 @@
 namespace subimpact {
 
 /// The first `n` natural bending frequencies (rad/s) of the beam with its ends, rigid modes left
-/// out, in the beam's own theory.
+/// out, in the beam's own theory.  Timoshenko's is taken to the first order in r^2 and shear: r^2
+/// (1 + E/(k G)) in place of r^2.
 ///
 /// Rayleigh beam: with B = beta^4 = rho A omega^2 l^4/(E I), r^2 = I/(A l^2),
 /// a^2 = [B r^2 + sqrt(B^2 r^4 + 4 B)]/2 and b = beta^2/a, shapes over xi = x/l are combinations of

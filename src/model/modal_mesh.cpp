@@ -1,6 +1,7 @@
 #include "model/modal_mesh.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -27,7 +28,8 @@ ModalMesh::ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_st
       bending_stiffness_(bending_stiffness),
       modes_(physical_->natural_modes(bending_stiffness)),
       modal_mass_(physical_->beam_mass() / static_cast<double>(n_unknowns())),
-      work_(n_unknowns()) {
+      work_(n_unknowns()),
+      shear_work_(physical_->shears() ? n_unknowns() : 0) {
   const std::size_t n = n_unknowns();
   const double scale = std::sqrt(modal_mass_);
   for (double& entry : modes_.shapes) entry *= scale;
@@ -84,8 +86,14 @@ std::optional<SparseFunctional> ModalMesh::slope_at(double x) const {
   return physical ? std::optional(in_modes(*physical)) : std::nullopt;
 }
 
+double ModalMesh::scale_of_frequencies(double bending_stiffness) const {
+  if (bending_stiffness == bending_stiffness_) return 1.0;
+  if (shears()) throw std::logic_error("modal mesh: the modes of another stiffness are others");
+  return std::sqrt(bending_stiffness / bending_stiffness_);
+}
+
 double ModalMesh::highest_frequency(double bending_stiffness) const {
-  return modes_.frequencies.back() * std::sqrt(bending_stiffness / bending_stiffness_);
+  return modes_.frequencies.back() * scale_of_frequencies(bending_stiffness);
 }
 
 void ModalMesh::to_physical(std::span<const double> modal, std::span<double> physical) const {
@@ -111,7 +119,7 @@ NaturalModes ModalMesh::natural_modes(double bending_stiffness) const {
   const std::size_t n = n_unknowns();
   NaturalModes modes;
   modes.frequencies = modes_.frequencies;
-  const double ratio = std::sqrt(bending_stiffness / bending_stiffness_);
+  const double ratio = scale_of_frequencies(bending_stiffness);
   for (double& frequency : modes.frequencies) frequency *= ratio;
   modes.shapes.assign(n * n, 0.0);
   for (std::size_t k = 0; k < n; ++k) modes.shapes[k * n + k] = 1.0 / std::sqrt(modal_mass_);
@@ -127,6 +135,21 @@ void ModalMesh::bending_forces(std::span<const double> moments, std::span<double
   physical_->bending_forces(moments, work_);
   Vector(forces.data(), index(forces.size())).noalias() =
       matrix(modes_).transpose() * ConstVector(work_.data(), index(work_.size()));
+}
+
+void ModalMesh::add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const {
+  if (!shears()) return;
+  to_physical(unknowns, work_);
+  std::fill(shear_work_.begin(), shear_work_.end(), 0.0);
+  physical_->add_shear_forces(work_, shear_work_);
+  Vector(forces.data(), index(forces.size())).noalias() +=
+      matrix(modes_).transpose() * ConstVector(shear_work_.data(), index(shear_work_.size()));
+}
+
+double ModalMesh::shear_energy(std::span<const double> unknowns) const {
+  if (!shears()) return 0.0;
+  to_physical(unknowns, work_);
+  return physical_->shear_energy(work_);
 }
 
 BeamMesh::SectionStencil ModalMesh::section_stencil(std::size_t) const {

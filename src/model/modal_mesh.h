@@ -28,6 +28,9 @@ class ModalMesh final : public BeamMesh {
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
+  bool shears() const override { return physical_->shears(); }
+  void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
+  double shear_energy(std::span<const double> unknowns) const override;
   double curvature(std::size_t section, std::span<const double> unknowns) const override;
   SparseFunctional curvature_functional(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
@@ -35,6 +38,7 @@ class ModalMesh final : public BeamMesh {
   /// That of the last mode.
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
+  bool has_closed_modes() const override { return physical_->has_closed_modes(); }
   std::span<const double> modal_stiffness() const override { return stiffness_; }
   std::string description() const override;
 
@@ -45,6 +49,9 @@ class ModalMesh final : public BeamMesh {
 
  private:
   SparseFunctional in_modes(const SparseFunctional& physical) const;
+  // Frequencies with this bending stiffness over those with that of the modes. Throws
+  // std::logic_error if it is another one and sections shear.
+  double scale_of_frequencies(double bending_stiffness) const;
 
   std::shared_ptr<const BeamMesh> physical_;
   double bending_stiffness_;
@@ -52,7 +59,7 @@ class ModalMesh final : public BeamMesh {
   double modal_mass_;  // kg, of every mode
   std::vector<double> stiffness_;
   std::vector<double> struck_curvature_;  // of the struck section, by unknowns
-  mutable std::vector<double> work_;
+  mutable std::vector<double> work_, shear_work_;
 };
 
 }  // namespace subimpact

@@ -13,8 +13,8 @@ const SectionHistory virgin{};
 
 // Calls visit(i) for every section outside its window.
 template <class Visit>
-void for_each_outside(std::span<const double> curvatures, const std::vector<double>& low,
-                      const std::vector<double>& high, Visit visit) {
+void for_each_outside(std::span<const double> curvatures, const AlignedVector& low,
+                      const AlignedVector& high, Visit visit) {
   const double* k = curvatures.data();
   const double* l = low.data();
   const double* h = high.data();
@@ -72,21 +72,56 @@ bool SectionField::has_yielded(std::size_t section) const {
   return can_yield() && history(section).direction != 0;
 }
 
-void SectionField::moments(std::span<const double> curvatures, std::span<double> moments) const {
+void SectionField::moments(std::span<const double> curvatures, std::span<double> moments,
+                           std::vector<Outside>* outside) const {
   const std::size_t n = curvatures.size();
   const double* k = curvatures.data();
+  const double* low = low_.data();
+  const double* high = high_.data();
   const double* offset = offset_.data();
   double* m = moments.data();
-  if (storage_ == Storage::always) {
-    for (std::size_t i = 0; i < n; ++i) m[i] = law_->moment(history(i), k[i]);
+  const double stiffness = stiffness_;  // out of reach of the stores
+  if (outside != nullptr) outside->clear();
+  if (!law_) {
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n; ++i) m[i] = stiffness * k[i] - offset[i];
     return;
   }
-  const double stiffness = stiffness_;  // out of reach of the stores
-#pragma GCC ivdep
-  for (std::size_t i = 0; i < n; ++i) m[i] = stiffness * k[i] - offset[i];
-  if (!law_) return;
-  for_each_outside(curvatures, low_, high_,
-                   [&](std::size_t i) { m[i] = law_->moment(history(i), k[i]); });
+  const bool all = storage_ == Storage::always;
+  const auto correct_outside = [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      if (k[i] > high[i] || k[i] < low[i]) {
+        m[i] = law_->flowing_moment(history(i), k[i]);
+        if (outside != nullptr) outside->push_back({i, k[i]});
+      } else if (all) {
+        m[i] = law_->moment(history(i), k[i]);
+      }
+    }
+  };
+  const auto linear = [=](std::size_t i) {
+    const Lanes here = lanes_at(k + i);
+    store(stiffness * here - lanes_at(offset + i), m + i);
+    // Negative outside the window.
+    return reinterpret_cast<LaneMask>(here - lanes_at(low + i)) |
+           reinterpret_cast<LaneMask>(lanes_at(high + i) - here);
+  };
+  std::size_t i = 0;
+  for (; i + 4 * n_lanes <= n; i += 4 * n_lanes) {
+    const LaneMask signs =
+        linear(i) | linear(i + n_lanes) | linear(i + 2 * n_lanes) | linear(i + 3 * n_lanes);
+    if (all || any(signs < 0)) correct_outside(i, i + 4 * n_lanes);
+  }
+  for (; i + n_lanes <= n; i += n_lanes) {
+    if (all || any(linear(i) < 0)) correct_outside(i, i + n_lanes);
+  }
+  for (std::size_t j = i; j < n; ++j) m[j] = stiffness * k[j] - offset[j];
+  correct_outside(i, n);
+}
+
+std::size_t SectionField::commit(const std::vector<Outside>& outside) {
+  flowing_.clear();
+  for (const auto& [section, curvature] : outside) commit_reversal(section, curvature);
+  return outside.size();
 }
 
 double SectionField::tangent(std::size_t section, double curvature) const {

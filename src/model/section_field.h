@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/section_law.h"
+#include "numerics/lanes.h"
 
 namespace subimpact {
 
@@ -32,8 +33,15 @@ class SectionField {
   /// Largest slope dM/dkappa of any section in any state, N m2.
   double stiffness() const { return stiffness_; }
 
-  /// M for the given curvatures, history unchanged.
-  void moments(std::span<const double> curvatures, std::span<double> moments) const;
+  /// A section outside its window, 1/m.
+  struct Outside {
+    std::size_t section;
+    double curvature;
+  };
+  /// M for the given curvatures, history unchanged; `outside`, if given, becomes the list of the
+  /// sections outside their windows.
+  void moments(std::span<const double> curvatures, std::span<double> moments,
+               std::vector<Outside>* outside = nullptr) const;
   /// dM/dkappa of one section, N m2.
   double tangent(std::size_t section, double curvature) const;
 
@@ -51,6 +59,8 @@ class SectionField {
   /// Takes the curvatures as reached (an accepted state). The curvature rates (1/(m s)), if given,
   /// decide which of the sections that flowed continue to flow. Returns how many flowed.
   std::size_t commit(std::span<const double> curvatures, std::span<const double> rates = {});
+  /// The same for curvatures of which moments() has listed those outside, since the last commit.
+  std::size_t commit(const std::vector<Outside>& outside);
   /// Commits the curvature at which one section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature);
 
@@ -89,8 +99,8 @@ class SectionField {
   std::optional<SectionLaw> law_;
   Storage storage_;
   double stiffness_;
-  std::vector<double> low_, high_, offset_;  // windows
-  std::vector<int> slot_;                    // index into memory_, -1: never yielded
+  AlignedVector low_, high_, offset_;  // windows
+  std::vector<int> slot_;              // index into memory_, -1: never yielded
   std::vector<SectionHistory> memory_;
   std::vector<Flow> flowing_;
   std::size_t n_yielded_ = 0;

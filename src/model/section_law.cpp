@@ -30,6 +30,19 @@ bool reverses(const SectionHistory& history, double x) {
   return history.direction * (x - history.edge.x) < 0.0;
 }
 
+// x at which the branch from the last reversal point ends on an older one.
+double limit_of(const std::vector<Point>& reversals) {
+  const std::size_t n = reversals.size();
+  return n >= 2 ? reversals[n - 2].x : n == 1 ? -reversals[0].x : 0.0;
+}
+
+// The branch from the last reversal point on, without its limit.
+SectionBranch innermost_branch(const SectionHistory& history) {
+  const bool virgin = history.reversals.empty();
+  return {virgin ? Point{0.0, 0.0} : history.reversals.back(),
+          static_cast<double>(history.direction), virgin, 0.0};
+}
+
 }  // namespace
 
 SectionLaw::SectionLaw(const Beam& beam, Fibres fibres)
@@ -78,10 +91,11 @@ double SectionLaw::branch_moment(const SectionBranch& branch, double x) const {
   return branch.origin.m + 2.0 * fibres_.moment(0.5 * (x - branch.origin.x));
 }
 
-double SectionLaw::branch_work(const SectionBranch& branch, double from, double to) const {
-  if (branch.virgin) return fibres_.work(to) - fibres_.work(from);
-  return branch.origin.m * (to - from) + 4.0 * (fibres_.work(0.5 * (to - branch.origin.x)) -
-                                                fibres_.work(0.5 * (from - branch.origin.x)));
+Fibres::Response SectionLaw::branch_response(const SectionBranch& branch, double x) const {
+  if (branch.virgin) return fibres_.response(x);
+  const double step = x - branch.origin.x;
+  const auto [moment, work] = fibres_.response(0.5 * step);
+  return {branch.origin.m + 2.0 * moment, branch.origin.m * step + 4.0 * work};
 }
 
 double SectionLaw::moment(const SectionHistory& history, double curvature) const {
@@ -89,6 +103,10 @@ double SectionLaw::moment(const SectionHistory& history, double curvature) const
   if (curvature >= elastic.low && curvature <= elastic.high) {
     return stiffness_ * curvature - elastic.offset;
   }
+  return flowing_moment(history, curvature);
+}
+
+double SectionLaw::flowing_moment(const SectionHistory& history, double curvature) const {
   const double x = curvature / yield_curvature_;
   return yield_moment_ * branch_moment(branch_at(history, x), x);
 }
@@ -121,29 +139,24 @@ void SectionLaw::commit(SectionHistory& history, double curvature) const {
   } else if (reverses(history, x)) {
     history.reversals.push_back(history.edge);
     history.direction = -history.direction;
+    history.work_of_branch = 0.0;
   }
   // Along the branches to x; a branch that passes the previous reversal point closes a loop, which
   // is forgotten.
-  double from = history.edge.x;
+  std::vector<Point>& reversals = history.reversals;
   for (;;) {
-    const std::size_t n = history.reversals.size();
-    SectionBranch branch{{0.0, 0.0}, static_cast<double>(history.direction), true, 0.0};
-    double to = x;
-    bool closes = false;
-    if (n > 0) {
-      branch.origin = history.reversals[n - 1];
-      branch.virgin = false;
-      const double limit = n >= 2 ? history.reversals[n - 2].x : -branch.origin.x;
-      closes = branch.sense * (x - limit) >= 0.0;
-      if (closes) to = limit;
-    }
-    history.work += branch_work(branch, from, to);
+    const SectionBranch branch = innermost_branch(history);
+    const double limit = limit_of(reversals);
+    const bool closes = !branch.virgin && branch.sense * (x - limit) >= 0.0;
+    const auto [moment, work] = branch_response(branch, closes ? limit : x);
+    history.work += work - history.work_of_branch;
+    history.work_of_branch = work;
     if (!closes) {
-      history.edge = {x, branch_moment(branch, x)};
+      history.edge = {x, moment};
       return;
     }
-    history.reversals.resize(n - (n >= 2 ? 2 : 1));
-    from = to;
+    reversals.resize(reversals.size() - (reversals.size() >= 2 ? 2 : 1));
+    history.work_of_branch = branch_response(innermost_branch(history), limit).work;
   }
 }
 

@@ -18,6 +18,7 @@ struct SectionHistory {
   Point edge{0.0, 0.0};  ///< end of the last flow; perhaps the next reversal point
   int direction = 0;     ///< sense of the last flow, +1 or -1; 0: has never yielded
   double work = 0.0;     ///< integral of m dx up to the edge
+  double work_of_branch = 0.0;  ///< that part which was done on the branch of the edge
 };
 
 /// Curvatures (1/m) between which none of a section's fibres flows: there M = stiffness kappa -
@@ -62,6 +63,8 @@ class SectionLaw {
 
   double moment(const SectionHistory& history, double curvature) const;   ///< M, N m
   double tangent(const SectionHistory& history, double curvature) const;  ///< dM/dkappa, N m2
+  /// M of a section outside its window, N m.
+  double flowing_moment(const SectionHistory& history, double curvature) const;
 
   /// The branch of a section that continues to flow from the edge of its history.
   SectionBranch branch_from_edge(const SectionHistory& history) const;
@@ -82,7 +85,8 @@ class SectionLaw {
  private:
   SectionBranch branch_at(const SectionHistory& history, double x) const;
   double branch_moment(const SectionBranch& branch, double x) const;
-  double branch_work(const SectionBranch& branch, double from, double to) const;
+  // Moment, and work from the origin on.
+  Fibres::Response branch_response(const SectionBranch& branch, double x) const;
   bool inside_window(const SectionHistory& history, double x) const;
   // Visits the zones of fibres from the first to yield inwards: visit(a, b, constant, slope),
   // stress/Y = constant + slope zeta for a < zeta <= b; stops when it returns false.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <new>
 #include <vector>
@@ -54,6 +56,24 @@ inline Lanes lanes_at(const double* at) {
 }
 inline void store(const Lanes& values, double* at) {
   reinterpret_cast<LanesAnywhere*>(at)->values = values;
+}
+
+/// result[i] = value of i, eight at a time from the first cache line on that begins in `result`: a
+/// store that straddles two lines is slow, if they are not in the nearest cache more so.
+/// `value(at)` is written with at(x) for x[i], which is one number or Lanes:
+///
+///     assign_by_lines(y, n, [=](auto at) { return at(x) + factor * at(z); });
+template <class Value>
+void assign_by_lines(double* result, std::size_t n, Value value) {
+  constexpr std::size_t line = n_lanes * sizeof(double);
+  const std::size_t past = reinterpret_cast<std::uintptr_t>(result) % line;
+  const std::size_t head = past == 0 ? 0 : std::min(n, (line - past) / sizeof(double));
+  std::size_t i = 0;
+  const auto one = [&i](const double* x) { return x[i]; };
+  const auto eight = [&i](const double* x) { return lanes_at(x + i); };
+  for (; i < head; ++i) result[i] = value(one);
+  for (; i + n_lanes <= n; i += n_lanes) store(value(eight), result + i);
+  for (; i < n; ++i) result[i] = value(one);
 }
 
 inline double sum(const Lanes& values) {

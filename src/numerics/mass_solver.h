@@ -22,6 +22,7 @@ class MassSolver {
 /// D_b^-1 b_b - P_b (last unknowns of y_{b-1}) with D_b^-1 and P_b = D_b^-1 C_b formed once, and
 /// backward substitution likewise. The products are independent of the recurrence and vectorise, so
 /// that the chain of dependent operations is one multiply-add per block instead of one per unknown.
+/// A tridiagonal matrix needs no full D_b^-1: three multiply-adds with shifted blocks are enough.
 /// A diagonal matrix needs none of this. For half bandwidths up to 3. Throws std::invalid_argument
 /// if the matrix is not positive definite.
 class BandedSolver final : public MassSolver {
@@ -37,16 +38,9 @@ class BandedSolver final : public MassSolver {
   std::size_t size_;
   std::size_t n_blocks_;
   std::size_t half_bandwidth_;
-  // Per distinct block, column by column: the inverse diagonal block (8 x 8), then the coupling
-  // (8 x bandwidth).
+  // Of each distinct block, downwards and upwards, see BlockStep.
   AlignedVector coefficients_;
-  // Neighbouring blocks of the same coefficients, in the order in which they are solved.
-  struct Run {
-    std::size_t coefficients;  // where they begin
-    std::size_t first, count;  // blocks
-  };
-  std::vector<Run> forward_, backward_;
-  static void add_block(std::vector<Run>& runs, std::size_t b, std::size_t coefficients);
+  std::vector<std::size_t> down_, up_;  // where those of each block begin
 };
 
 }  // namespace subimpact

@@ -67,6 +67,9 @@ class Integrator {
   /// events need not be looked for in it.
   virtual bool is_event_free() const { return false; }
 
+  /// Whether the acceleration that step() computes last is that at state().
+  virtual bool ends_at_last_evaluation() const { return false; }
+
   virtual WorkCounts work() const = 0;
 
  protected:

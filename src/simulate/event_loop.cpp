@@ -70,6 +70,7 @@ void EventLoop::read_indentation() {
 
 void EventLoop::advance() {
   integrator_.step();
+  evaluations_at_end_ = beam_.n_accelerations();
   ++n_steps_;
   state_ = &integrator_.start_state();  // until the step's end is found good
   const State& end = integrator_.state();
@@ -275,7 +276,13 @@ void EventLoop::interpolate_events() {
     beam_.contact().follow(whole.lambda1);
   }
   show_piece({t0, step.t1, *y0, step.y1}, from_end);
-  beam_.commit(step.y1);
+  const bool is_evaluated_last =
+      integrator_.ends_at_last_evaluation() && beam_.n_accelerations() == evaluations_at_end_;
+  if (is_evaluated_last) {
+    beam_.commit_evaluated(step.y1);
+  } else {
+    beam_.commit(step.y1);
+  }
   time_ = step.t1;
   state_ = &step.y1;
 }

@@ -112,6 +112,7 @@ class EventLoop {
   long n_events_in_place_ = 0;
   long n_events_ = 0;
   long n_steps_ = 0;
+  long evaluations_at_end_ = 0;  // of the acceleration, when the step's end was reached
 };
 
 }  // namespace subimpact

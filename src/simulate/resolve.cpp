@@ -210,10 +210,6 @@ bool modes_are_left_out(const Options& options, const StruckBeam& beam) {
          in_modes(options, beam.mesh());
 }
 
-bool has_closed_modes(const BeamMesh& mesh) {
-  return mesh.has_closed_modes() || !mesh.modal_stiffness().empty();
-}
-
 bool has_modes(const Options& options, const BeamMesh& mesh) {
   return in_modes(options, mesh) || options.stop == StopRule::no_more_contact;
 }
@@ -221,7 +217,7 @@ bool has_modes(const Options& options, const BeamMesh& mesh) {
 double decomposition_of(const Options& options, const BeamMesh& mesh) {
   if (!has_modes(options, mesh)) return 0.0;
   const auto n = static_cast<double>(mesh.n_unknowns());
-  return has_closed_modes(mesh) ? work_per_closed_entry * n * n : work_per_dense_mode * n * n * n;
+  return mesh.has_closed_modes() ? work_per_closed_entry * n * n : work_per_dense_mode * n * n * n;
 }
 
 double memory_of(const Options& options, const StruckBeam& beam) {
@@ -229,7 +225,7 @@ double memory_of(const Options& options, const StruckBeam& beam) {
   const auto n = static_cast<double>(mesh.n_unknowns());
   const bool yields = beam.sections().can_yield();
   const bool flies = yields && in_modes(options, mesh);
-  const double of_modes = has_closed_modes(mesh) ? matrices_of_modes : matrices_of_dense_modes;
+  const double of_modes = mesh.has_closed_modes() ? matrices_of_modes : matrices_of_dense_modes;
   const double matrices =
       (has_modes(options, mesh) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
   return memory_of_program + memory_per_unknown * n + sizeof(double) * matrices * n * n;

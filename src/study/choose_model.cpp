@@ -45,8 +45,11 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
     return chosen;
   }
   const bool central = !open.method && solver.method == Method::central_difference;
+  const bool shears = input.scene.beam.shears();
   if (open.mesh && !own_mesh) {
-    model.mesh = yields || central ? MeshKind::cells : MeshKind::hermite;
+    model.mesh = yields || central ? MeshKind::cells
+                 : shears          ? MeshKind::spectral
+                                   : MeshKind::hermite;
   }
   if (open.method && !yields) solver.method = Method::exponential;
   if (open.method && yields) {

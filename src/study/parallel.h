@@ -11,9 +11,11 @@
 
 namespace subimpact {
 
-/// Calls task(0) to task(n - 1), as many at a time as the machine has cores, in no particular
-/// order. Not for anything that is timed. The first exception stops the rest and is rethrown.
-inline void in_parallel(std::size_t n, const std::function<void(std::size_t)>& task) {
+/// Calls task(0) to task(n - 1), `jobs` at a time (0: as many as the machine has cores), in no
+/// particular order. Not for anything that is timed. The first exception stops the rest and is
+/// rethrown.
+inline void in_parallel(std::size_t n, const std::function<void(std::size_t)>& task,
+                        unsigned jobs = 0) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
   std::mutex mutex;
@@ -30,7 +32,7 @@ inline void in_parallel(std::size_t n, const std::function<void(std::size_t)>& t
   };
   std::vector<std::thread> threads;
   const std::size_t n_threads =
-      std::min<std::size_t>(n, std::max(1u, std::thread::hardware_concurrency()));
+      std::min<std::size_t>(n, std::max(1u, jobs ? jobs : std::thread::hardware_concurrency()));
   for (std::size_t i = 1; i < n_threads; ++i) threads.emplace_back(work);
   work();
   for (std::thread& thread : threads) thread.join();

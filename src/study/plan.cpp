@@ -18,8 +18,13 @@ namespace {
 
 // Wished error of the reference over the wanted one.
 constexpr double reference_share = 0.2;
+// Runs within the wanted error that admit a mesh; the reference itself is one more of its sequence.
 constexpr int enough_in_a_row = 3;
-constexpr double most_work_over_cheapest = 4.0;
+constexpr int enough_beside_reference = 2;
+constexpr int bisections = 2;
+constexpr int fewest_parts = 16;
+// Of a duration or separation, up to which an error leaves it what it is.
+constexpr double recognisable = 0.5;
 constexpr double grading = 4.0;  // length of far elements over that of those at the strike
 
 struct Family {
@@ -34,7 +39,8 @@ std::vector<Family> families_of(const Case& input) {
             {MeshKind::hermite, 1.0, Method::nystrom},
             {MeshKind::hermite, grading, Method::nystrom}};
   }
-  return {{MeshKind::hermite, 1.0, Method::exponential},
+  return {{MeshKind::spectral, 1.0, Method::exponential},
+          {MeshKind::hermite, 1.0, Method::exponential},
           {MeshKind::hermite, grading, Method::exponential},
           {MeshKind::cells, 1.0, Method::exponential},
           {MeshKind::cells, 1.0, Method::central_difference}};
@@ -83,53 +89,110 @@ void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
                   wish.reason.empty() ? "the first contact lasts to the end" : wish.reason));
 }
 
+double error_of(const SubImpact& s) {
+  return std::max(s.start_error.value_or(0.0), s.end_error.value_or(0.0));
+}
+
+// Whether the errors of all sub-impacts are small beside their durations and the separations about
+// them, those of the reference included. A wish may be larger.
+bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubImpact>& reference) {
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const SubImpact& s = reference[i];
+    double error = std::abs(run[i].start - s.start);
+    double shortest = std::numeric_limits<double>::infinity();
+    if (s.end && run[i].end) {
+      error = std::max(error, std::abs(*run[i].end - *s.end));
+      shortest = *s.end - s.start;
+    }
+    if (i > 0 && reference[i - 1].end) {
+      shortest = std::min(shortest, s.start - *reference[i - 1].end);
+    }
+    if (i + 1 < reference.size() && s.end) {
+      shortest = std::min(shortest, reference[i + 1].start - *s.end);
+    }
+    if (error + error_of(s) > recognisable * shortest) return false;
+  }
+  return true;
+}
+
 class Planner {
  public:
-  Planner(Plan& plan, const std::function<void(const std::string&)>& announce,
-          const Progress& progress)
-      : plan_(plan), announce_(announce), progress_(progress) {}
+  Planner(Plan& plan, const PlanOptions& options) : plan_(plan), options_(options) {}
 
   void run(const Family& family);
+  void bisect();
 
  private:
   bool run_point(const Case& input);
-  void admit(std::size_t first);
+  double work_of_next(std::size_t first) const;
+  bool is_enough(std::size_t first, int in_a_row) const;
+  void admit(const Refinement& sequence, std::size_t first);
 
   Plan& plan_;
-  const std::function<void(const std::string&)>& announce_;
-  const Progress& progress_;
+  const PlanOptions& options_;
+  std::optional<Refinement> sequence_;  // of the cheapest
+  std::size_t first_of_sequence_ = 0;
 };
 
-// False if interrupted.
+// Adds the run; false if interrupted.
 bool Planner::run_point(const Case& input) {
   PlanPoint point;
   point.input = input;
   point.mesh = mesh_words(input);
   point.method = descriptor_of(input.solver.method).name;
-  if (announce_) announce_(point.mesh + ", " + point.method);
+  if (options_.announce) options_.announce(point.mesh + ", " + point.method, input.end_time);
   const auto start = std::chrono::steady_clock::now();
-  const Result result = simulate(input, progress_);
+  const Result result = simulate(input, options_.progress);
   point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (result.outcome.kind == OutcomeKind::stopped) return false;
+  if (result.outcome.kind == OutcomeKind::stopped) {
+    plan_.interrupted = true;
+    return false;
+  }
   point.errors = event_errors(result.sub_impacts, plan_.sub_impacts);
   point.verdict = judge(result, point.errors);
   point.work = counted_work(result);
   point.within = point.verdict == Verdict::right &&
-                 point.errors.maximum + plan_.reference_error <= plan_.wanted;
+                 point.errors.maximum + plan_.reference_error <= plan_.wanted &&
+                 are_recognisable(result.sub_impacts, plan_.sub_impacts);
   plan_.points.push_back(std::move(point));
   return true;
 }
 
 // Admits the runs from `first` on that are within together with all finer ones.
-void Planner::admit(std::size_t first) {
+void Planner::admit(const Refinement& sequence, std::size_t first) {
   auto& points = plan_.points;
   std::size_t n = points.size();
-  while (n > first && points[n - 1].within) points[--n].admitted = true;
-  if (n + 2 > points.size()) {  // a single run proves nothing
-    for (std::size_t i = n; i < points.size(); ++i) points[i].admitted = false;
-    return;
-  }
-  if (!plan_.cheapest || points[n].work < points[*plan_.cheapest].work) plan_.cheapest = n;
+  while (n > first && points[n - 1].within) --n;
+  if (n + 2 > points.size()) return;  // a single run proves nothing
+  for (std::size_t i = n; i < points.size(); ++i) points[i].admitted = true;
+  if (plan_.cheapest && points[n].work >= points[*plan_.cheapest].work) return;
+  plan_.cheapest = n;
+  sequence_ = sequence;
+  first_of_sequence_ = first;
+}
+
+// As the work of the last two runs of the sequence from `first` grows.
+double Planner::work_of_next(std::size_t first) const {
+  const auto& points = plan_.points;
+  const double last = points.back().work;
+  if (points.size() < first + 2) return last;
+  return last * std::max(1.0, last / points[points.size() - 2].work);
+}
+
+// Whether the sequence from `first` need not go on: its finest runs are within the wanted error, or
+// neither they nor the next can be the cheapest.
+bool Planner::is_enough(std::size_t first, int in_a_row) const {
+  const PlanPoint& last = plan_.points.back();
+  const Case& reference = plan_.reference.input;
+  const bool beside_reference = last.input.model.mesh == reference.model.mesh &&
+                                last.input.solver.method == reference.solver.method &&
+                                last.input.model.strike_refinement == 1.0;
+  if (in_a_row >= (beside_reference ? enough_beside_reference : enough_in_a_row)) return true;
+  const double cheapest_left =
+      in_a_row == 0 ? work_of_next(first)
+                    : plan_.points[plan_.points.size() - static_cast<std::size_t>(in_a_row)].work;
+  return cheapest_left >
+         (plan_.cheapest ? plan_.points[*plan_.cheapest].work : reference.accuracy.work_limit);
 }
 
 void Planner::run(const Family& family) {
@@ -140,46 +203,67 @@ void Planner::run(const Family& family) {
   base.solver.method = family.method;
   base.end_time = plan_.horizon;
   const std::size_t first = plan_.points.size();
-  int in_a_row = 0;
-  try {
-    const Refinement refinement(base, {});
-    std::optional<Case> next = refinement.first();
-    while (next && in_a_row < enough_in_a_row) {
-      if (!run_point(*next)) {
-        plan_.interrupted = true;
-        return;
-      }
-      in_a_row = plan_.points.back().within ? in_a_row + 1 : 0;
-      const double most = plan_.cheapest
-                              ? most_work_over_cheapest * plan_.points[*plan_.cheapest].work
-                              : plan_.reference.input.accuracy.work_limit;
-      if (plan_.points.back().work > most) break;
-      next = refinement.finer(*next, std::sqrt(2.0));
+  const Refinement sequence(base, {});
+  std::optional<Case> next = sequence.resized(
+      sequence.first(), static_cast<double>(fewest_parts) / mesh_count(sequence.first()));
+  for (int in_a_row = 0; next; next = sequence.finer(*next, std::sqrt(2.0))) {
+    try {
+      if (!run_point(*next)) return;
+    } catch (const InvalidCase&) {  // a mesh too coarse for the strike
+      continue;
     }
-  } catch (const InvalidCase&) {  // a mesh on which the scene cannot be struck
+    in_a_row = plan_.points.back().within ? in_a_row + 1 : 0;
+    if (is_enough(first, in_a_row)) break;
   }
-  admit(first);
+  admit(sequence, first);
+}
+
+// Tries meshes between the cheapest and the next coarser one of its sequence.
+void Planner::bisect() {
+  auto& points = plan_.points;
+  for (int i = 0; i < bisections && plan_.cheapest && *plan_.cheapest > first_of_sequence_; ++i) {
+    const std::size_t finer = *plan_.cheapest;
+    const Case& below = points[finer - 1].input;
+    const double ratio =
+        std::sqrt(static_cast<double>(mesh_count(points[finer].input)) / mesh_count(below));
+    const std::optional<Case> between = sequence_->finer(below, ratio);
+    if (!between || mesh_count(*between) >= mesh_count(points[finer].input)) return;
+    if (!run_point(*between)) return;
+    points.back().admitted = points.back().within;
+    if (!points.back().within) ++*plan_.cheapest;
+    std::rotate(points.begin() + static_cast<std::ptrdiff_t>(finer), points.end() - 1,
+                points.end());
+  }
 }
 
 }  // namespace
 
-Plan plan(const Case& input, double wanted, const std::function<void(const std::string&)>& announce,
-          const Progress& progress) {
+Plan plan(const Case& input, double wanted, const PlanOptions& options) {
   Plan result;
+  result.asked = input;
   result.wanted = wanted;
   WithinOptions how;
-  if (announce) how.announce = [&](const std::string& what) { announce("reference: " + what); };
+  how.jobs = options.jobs;
+  if (options.announce) {
+    how.announce = [&](const std::string& what) {
+      options.announce("reference: " + what, input.end_time);
+    };
+  }
   how.progress = [&](double time) {
-    if (progress && !progress(time)) result.interrupted = true;
+    if (options.progress && !options.progress(time)) result.interrupted = true;
     return !result.interrupted;
   };
   find_reference(result, input, how);
   if (result.interrupted) return result;
-  Planner planner(result, announce, progress);
+  Planner planner(result, options);
   for (const Family& family : families_of(input)) {
-    planner.run(family);
-    if (result.interrupted) break;
+    try {
+      planner.run(family);
+    } catch (const InvalidCase&) {  // no mesh of the kind suits the scene
+    }
+    if (result.interrupted) return result;
   }
+  planner.bisect();
   return result;
 }
 

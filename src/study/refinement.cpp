@@ -47,7 +47,14 @@ int parts_that_resolve(const Case& input, double contact_time) {
       2.0 * M_PI / std::sqrt(frequency) * std::pow(beam.bending_stiffness() / density, 0.25);
   const double cells =
       std::clamp<double>(parts_per_wave * beam.length / wave, fewest_parts, most_parts_at_first);
-  return static_cast<int>(input.model.mesh == MeshKind::hermite ? 0.5 * cells : cells);
+  switch (input.model.mesh) {
+    case MeshKind::hermite:
+      return static_cast<int>(0.5 * cells);
+    case MeshKind::spectral:
+      return static_cast<int>(0.125 * cells);
+    default:
+      return static_cast<int>(cells);
+  }
 }
 
 Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(input), open_(open) {
@@ -68,9 +75,14 @@ Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(inpu
 }
 
 std::optional<Case> Refinement::finer(const Case& from, double ratio) const {
+  std::optional<Case> next = resized(from, ratio);
+  if (next && mesh_count(*next) <= mesh_count(from)) next.reset();
+  return next;
+}
+
+std::optional<Case> Refinement::resized(const Case& from, double ratio) const {
   Case next = with_count(from, ratio * mesh_count(from));
   const int count = mesh_count(next);
-  if (count <= mesh_count(from)) return std::nullopt;
   const CaseKey& key = *find_case_key(size_key());
   if (key.limits.maximum && count > *key.limits.maximum) return std::nullopt;
   const double size = static_cast<double>(count) / mesh_count(first_);

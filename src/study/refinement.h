@@ -19,8 +19,10 @@ class Refinement {
 
   /// The coarsest case worth a run (parts_that_resolve).
   const Case& first() const { return first_; }
-  /// Nothing if the mesh would be finer than allowed.
+  /// Nothing if the mesh would be finer than allowed, or no finer than `from`.
   std::optional<Case> finer(const Case& from, double ratio) const;
+  /// The same of any ratio.
+  std::optional<Case> resized(const Case& from, double ratio) const;
 
   double order() const { return order_; }
   const char* size_key() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "case/meshes.h"
@@ -29,6 +30,9 @@ constexpr double margin = 1.05;
 // Of the time scale of the shortest contacts, where nothing is wished.
 constexpr double default_share_of_contact = 0.1;
 
+// A step that moves every mode in closed form takes as long as these evaluations.
+constexpr double evaluations_per_step_in_modes = 3.0;
+
 double default_wish(const Case& input) {
   return default_share_of_contact * resolve(input).settings().contact_time;
 }
@@ -42,6 +46,7 @@ struct Level {
 struct Reach {
   std::size_t n_within = 0;
   double error_within = 0.0;   // s, the largest stated one of these
+  double error_beyond = 0.0;   // s, of the first decided one that is not within; 0: there is none
   double error_decided = 0.0;  // s, of all that are decided
   bool all_decided = false;
   std::string reason;  // empty if all are within the error
@@ -59,6 +64,7 @@ Reach reach_of(const Result& result, double wish) {
     reach.error_decided = std::max(reach.error_decided, error);
     if (within && error > wish) {
       within = false;
+      reach.error_beyond = error;
       reach.reason = fmt::format("the error of sub-impact {} is {:.2g} us", i + 1, 1e6 * error);
     }
     if (!within) continue;
@@ -82,10 +88,15 @@ class Ladder {
  private:
   void choose(bool yields);
   bool run(const Case& next);
+  void retire_level();
+  const Level* known(const Case& input) const;
   void count(const Result& result);
   bool try_other_model();
   std::optional<Case> finer_case();
   double work_of_next(double ratio) const;
+  double observed_order() const;
+  double ratio_towards_wish() const;
+  bool is_out_of_reach();
   void report(WithinRun& run) const;
 
   Case input_;
@@ -97,13 +108,15 @@ class Ladder {
   bool may_change_model_ = true;
   ChosenModel model_;
   std::optional<Refinement> refinement_;
-  std::optional<Level> level_, coarser_;
+  std::optional<Level> level_;
+  std::deque<Level> earlier_;       // without rows; companions, and levels that may become ones
+  const Level* coarser_ = nullptr;  // the companion of the level
   Reach reach_;
-  double work_ = 0.0;           // of all runs so far
-  double last_error_ = 0.0;     // s, of the decided events of the level before
-  bool last_was_half_ = false;  // doubling, see finer_case()
-  std::string obstacle_;        // why no finer mesh is run
-  std::string key_;             // that stands in the way
+  double work_ = 0.0;        // of all runs so far
+  double last_error_ = 0.0;  // s, of the decided events of the level before
+  int last_count_ = 0;       // cells or elements of that level
+  std::string obstacle_;     // why no finer mesh is run
+  std::string key_;          // that stands in the way
 };
 
 void Ladder::choose(bool yields) {
@@ -124,22 +137,38 @@ bool Ladder::run(const Case& next) {
     options_.announce(resolve(next).settings().mesh + ", " +
                       descriptor_of(next.solver.method).name);
   }
-  const bool known =
-      companion && level_ && Refinement::is_same_setting(companion->input, level_->input);
-  std::optional<Level> below;
-  if (known) below = std::move(level_);
-  RunPair pair = run_beside(next, companion && !known ? &companion->input : nullptr, options_.jobs,
-                            options_.progress, options_.rows ? options_.rows() : nullptr);
+  retire_level();
+  coarser_ = companion ? known(companion->input) : nullptr;
+  RunPair pair =
+      run_beside(next, companion && !coarser_ ? &companion->input : nullptr, options_.jobs,
+                 options_.progress, options_.rows ? options_.rows() : nullptr);
   const bool stopped = pair.run.outcome.kind == OutcomeKind::stopped;
   count(pair.run);
   if (pair.other) {
     count(*pair.other);
-    below = Level{companion->input, std::move(*pair.other)};
+    earlier_.push_back({companion->input, std::move(*pair.other)});
+    coarser_ = &earlier_.back();
   }
-  if (companion && !stopped) add_companion_errors(pair.run, next, *companion, below->result);
+  if (companion && !stopped) add_companion_errors(pair.run, next, *companion, coarser_->result);
   level_ = Level{next, std::move(pair.run)};
-  coarser_ = std::move(below);
   return !stopped;
+}
+
+void Ladder::retire_level() {
+  if (!level_) return;
+  level_->result.history.clear();
+  level_->result.section_history.clear();
+  earlier_.push_back(std::move(*level_));
+  level_.reset();
+}
+
+// The run of a setting, if there was one.
+const Level* Ladder::known(const Case& input) const {
+  const auto is_same = [&](const Level& level) {
+    return level.result.outcome.completed() && Refinement::is_same_setting(level.input, input);
+  };
+  const auto found = std::ranges::find_if(earlier_, is_same);
+  return found == earlier_.end() ? nullptr : &*found;
 }
 
 // Whether the beam turned out to bend elastically though it could yield, or the other way round.
@@ -168,6 +197,39 @@ double Ladder::work_of_next(double ratio) const {
   return counted_work(level_->result) * std::pow(ratio, exponent) * (1.0 + companion);
 }
 
+// At which stated errors fall; the order of the mesh where there is no saying.
+double Ladder::observed_order() const {
+  if (!(last_error_ > 0.0 && reach_.error_decided > 0.0)) return refinement_->order();
+  const double sizes = static_cast<double>(mesh_count(level_->input)) / last_count_;
+  if (sizes < least_refinement) return refinement_->order();
+  return std::log(last_error_ / reach_.error_decided) / std::log(sizes);
+}
+
+// What the stated error asks for; a doubling where that costs no more, as it needs no companion of
+// its own.
+double Ladder::ratio_towards_wish() const {
+  const double order = refinement_->order();
+  const double falls = std::clamp(observed_order(), 0.5 * order, order);
+  const double asked = margin * std::pow(reach_.error_decided / wish_, 1.0 / falls);
+  const double ratio = std::clamp(asked, least_refinement, usual_refinement);
+  return work_of_next(usual_refinement) <= work_of_next(ratio) ? usual_refinement : ratio;
+}
+
+// Whether not even the first sub-impact beyond the horizon can come within the wish. Errors of two
+// levels must have shown how they fall.
+bool Ladder::is_out_of_reach() {
+  if (!(last_error_ > 0.0) || !(reach_.error_beyond > wish_)) return false;
+  const double order = std::max(observed_order(), refinement_->order());
+  const double work = work_ + work_of_next(std::pow(reach_.error_beyond / wish_, 1.0 / order));
+  if (work <= work_limit_) return false;
+  key_ = "accuracy.work_limit";
+  obstacle_ = fmt::format(
+      "a mesh on which it is within the wish would take the counted work from {:.1e} to some "
+      "{:.1e}, above the limit of {:.1e}",
+      work_, work, work_limit_);
+  return true;
+}
+
 std::optional<Case> Ladder::finer_case() {
   if (const char* key = refinement_->fixed_key()) {
     key_ = key;
@@ -180,17 +242,17 @@ std::optional<Case> Ladder::finer_case() {
         fmt::format("the error no longer falls with the mesh, and {} is fixed by the case", key_);
     return std::nullopt;
   }
-  last_error_ = reach_.error_decided;
+  if (is_out_of_reach()) return std::nullopt;
   double ratio = usual_refinement;
-  if (reach_.error_decided > wish_) {
-    ratio = margin * std::pow(reach_.error_decided / wish_, 1.0 / refinement_->order());
-    if (!reach_.all_decided) ratio = usual_refinement;
-    last_was_half_ = false;
-  } else {
-    // The run may be right, and its companion too coarse to show it.
-    last_was_half_ = !last_was_half_;
-    if (last_was_half_) ratio = half_refinement;
+  if (reach_.error_decided <= wish_) {
+    // The run may be right, and its companion too coarse to show it. Of the next but one this run
+    // is the companion.
+    ratio = half_refinement;
+  } else if (reach_.all_decided) {
+    ratio = ratio_towards_wish();
   }
+  last_error_ = reach_.error_decided;
+  last_count_ = mesh_count(level_->input);
   ratio = std::clamp(ratio, least_refinement, usual_refinement);
   while (work_ + work_of_next(ratio) > work_limit_ && ratio > least_refinement) {
     ratio = std::max(least_refinement, 0.9 * ratio);
@@ -273,8 +335,13 @@ void Ladder::report(WithinRun& run) const {
 }  // namespace
 
 double counted_work(const Result& result) {
-  return static_cast<double>(result.work.right_hand_sides) *
-             static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
+  const Work& work = result.work;
+  auto evaluations = static_cast<double>(work.right_hand_sides);
+  if (result.given.solver.method == Method::exponential) {
+    evaluations +=
+        evaluations_per_step_in_modes * static_cast<double>(work.steps + work.rejected_steps);
+  }
+  return evaluations * static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
          result.used.decomposition;
 }
 

@@ -19,7 +19,7 @@ Energies Accounts::energies(const State& y) {
   } else {
     mesh.curvatures(beam_.beam_positions(y), curvatures_);
     const auto bending = sections_.energies(curvatures_, mesh.section_weights());
-    sum.bending_elastic = bending.elastic;
+    sum.bending_elastic = bending.elastic + mesh.shear_energy(beam_.beam_positions(y));
     sum.bending_plastic = bending.plastic;
   }
   const ContactState::Energies contact = beam_.contact().energies(beam_.indentation(y));

@@ -42,8 +42,10 @@ class JoinedBodies {
       for (std::size_t i = 0; i < n_; ++i) forces[i] = modal[i] * x[i];
     } else {
       mesh_.curvatures(unknowns, moments_);
-      for (double& moment : moments_) moment *= -beam_.sections().stiffness();
+      for (double& moment : moments_) moment *= beam_.sections().stiffness();
       mesh_.bending_forces(moments_, forces);
+      mesh_.add_shear_forces(unknowns, forces);
+      for (double& force : forces) force = -force;
     }
     const double force = slope_ * (x[n_] - mesh_.struck_point()(unknowns));
     mesh_.struck_point().add_to(forces, -force);

@@ -57,10 +57,11 @@ SectionCorrector::SectionCorrector(const StruckBeam& beam, double tolerance)
       influence_(beam.mesh(), beam.mass_solver()),
       finder_(beam.sections(), influence_),
       end_(beam.sections().size()),
-      start_loads_(beam.sections().size()),
-      end_loads_(beam.sections().size()),
+      start_loads_(beam.mesh()),
+      end_loads_(beam.mesh()),
       curvatures_(beam.sections().size()),
-      moments_(beam.sections().size()) {}
+      moments_(beam.sections().size()),
+      forces_(beam.mesh().n_unknowns()) {}
 
 void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correction) {
   correction.events.clear();
@@ -121,6 +122,10 @@ void SectionCorrector::read_loads(const State& y, const SectionMotion& motion,
   loads.force = contact.force(indentation);
   loads.force_rate =
       contact.is_closed() ? contact.slope(indentation) * beam_.indentation_rate(y) : 0.0;
+  std::fill(loads.shear_forces.begin(), loads.shear_forces.end(), 0.0);
+  std::fill(loads.shear_force_rates.begin(), loads.shear_force_rates.end(), 0.0);
+  beam_.mesh().add_shear_forces(beam_.beam_positions(y), loads.shear_forces);
+  beam_.mesh().add_shear_forces(beam_.beam_velocities(y), loads.shear_force_rates);
 }
 
 void SectionCorrector::linear_moments(std::span<const double> changes,
@@ -144,7 +149,9 @@ void SectionCorrector::sum_terms(const std::vector<SectionEvent>& events, std::s
       for (const SectionEvent& event : events) {
         moments_[event.section] = event.tangent * curvatures_[event.section];
       }
-      beam_.mesh().bending_forces(moments_, sum);
+      beam_.mesh().bending_forces(moments_, forces_);
+      beam_.mesh().add_shear_forces(sum, forces_);
+      sum.swap(forces_);
       beam_.mass_solver().solve(sum);
       ++n_mass_solves_;
     }

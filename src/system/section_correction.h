@@ -61,7 +61,7 @@ class SectionCorrector {
   SectionEvents finder_;
   SectionMotion end_;
   SectionLoads start_loads_, end_loads_;
-  std::vector<double> curvatures_, moments_;
+  std::vector<double> curvatures_, moments_, forces_;
   long n_mass_solves_ = 0;
 };
 

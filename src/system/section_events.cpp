@@ -117,10 +117,11 @@ void SectionEvents::find_reversals_by_others(const End& start, const End& end,
 HermiteSeptic SectionEvents::path_of(std::size_t section, const End& start, const End& end) const {
   const auto derivatives_at = [&](const End& at) -> HermiteSeptic::End {
     const SectionLoads& loads = at.loads;
-    return {
-        at.motion.curvatures[section], at.motion.rates[section],
-        influence_.curvature_acceleration(section, loads.weighted_moments, loads.force),
-        influence_.curvature_acceleration(section, loads.weighted_moment_rates, loads.force_rate)};
+    return {at.motion.curvatures[section], at.motion.rates[section],
+            influence_.curvature_acceleration(section, loads.weighted_moments, loads.force,
+                                              loads.shear_forces),
+            influence_.curvature_acceleration(section, loads.weighted_moment_rates,
+                                              loads.force_rate, loads.shear_force_rates)};
   };
   return {derivatives_at(start), derivatives_at(end), length_};
 }

@@ -47,12 +47,16 @@ const SectionInfluence::Influence& SectionInfluence::of(std::size_t section) {
 
 double SectionInfluence::curvature_acceleration(std::size_t section,
                                                 const std::vector<double>& weighted_moments,
-                                                double force) {
+                                                double force,
+                                                const std::vector<double>& shear_forces) {
   const Influence& influence = of(section);
   const Stretch& own = influence.curvatures;
-  const double bending =
-      dot(own.values.data(), weighted_moments.data() + own.first, own.values.size());
-  return (bending - force * influence.at_strike) / mesh_.section_weights()[section];
+  double sum = dot(own.values.data(), weighted_moments.data() + own.first, own.values.size());
+  if (!shear_forces.empty()) {
+    const Stretch& moved = influence.accelerations;
+    sum -= dot(moved.values.data(), shear_forces.data() + moved.first, moved.values.size());
+  }
+  return (sum - force * influence.at_strike) / mesh_.section_weights()[section];
 }
 
 double SectionInfluence::curvature_acceleration_at(std::size_t other, std::size_t section) {

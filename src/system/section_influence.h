@@ -15,7 +15,9 @@ namespace subimpact {
 /// Mass is symmetric, so the same numbers give the response of one section's curvature to all
 /// moments M_j (N m) and the contact force F (N), without a mass solve:
 ///
-///     kappa_i'' = (sum_j W_j (B c_i)_j M_j - F S.c_i)/W_i.
+///     kappa_i'' = (sum_j W_j (B c_i)_j M_j - F S.c_i - c_i.f_s)/W_i,
+///
+/// with the shear forces f_s = -K_s q where sections shear.
 ///
 /// With or without rotary inertia c_i decays within a few thicknesses, or a few unknowns, of the
 /// section; entries below rounding are left out. An influence is computed at its first use, with
@@ -24,9 +26,9 @@ class SectionInfluence {
  public:
   SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
 
-  /// kappa_i'' of one section, given W_j M_j of all (N m2) and F; 1/(m s2).
+  /// kappa_i'' of one section, given W_j M_j of all (N m2), F and f_s (N; empty: none); 1/(m s2).
   double curvature_acceleration(std::size_t section, const std::vector<double>& weighted_moments,
-                                double force);
+                                double force, const std::vector<double>& shear_forces);
   /// accelerations += moment c_i.
   void add_accelerations(std::size_t section, double moment, std::vector<double>& accelerations);
   /// (B c_i)_j for i = `section`, j = `other`.

@@ -16,6 +16,7 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       striker_mass_(parts.striker_mass),
       striker_velocity_(parts.striker_velocity),
       outer_stiffness_(parts.outer_stiffness),
+      shears_(mesh_->shears()),
       highest_frequency_(mesh_->highest_frequency(sections_.stiffness())),
       curvatures_(mesh_->n_sections()),
       moments_(mesh_->n_sections()),
@@ -56,9 +57,10 @@ void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces
   if (section_evaluation_ == Evaluation::smooth) {
     sections_.smooth_moments(curvatures_, moments_);
   } else {
-    sections_.moments(curvatures_, moments_);
+    sections_.moments(curvatures_, moments_, &outside_);
   }
   mesh_->bending_forces(moments_, forces);
+  if (shears_) mesh_->add_shear_forces(unknowns, forces);
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {
@@ -145,10 +147,18 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
 bool StruckBeam::commit(const State& y) {
   if (contact_.loads()) contact_.commit(indentation(y));
   if (!sections_.can_yield()) return false;
-  read_motion(y, committed_);
-  return section_evaluation_ == Evaluation::smooth
-             ? sections_.commit(committed_.curvatures, committed_.rates) > 0
-             : sections_.commit(committed_.curvatures) > 0;
+  if (section_evaluation_ == Evaluation::smooth) {
+    read_motion(y, committed_);
+    return sections_.commit(committed_.curvatures, committed_.rates) > 0;
+  }
+  mesh_->curvatures(beam_positions(y), curvatures_);
+  return sections_.commit(curvatures_) > 0;
+}
+
+bool StruckBeam::commit_evaluated(const State& y) {
+  if (section_evaluation_ == Evaluation::smooth) return commit(y);
+  if (contact_.loads()) contact_.commit(indentation(y));
+  return sections_.commit(outside_) > 0;
 }
 
 BeamJacobian& StruckBeam::jacobian() const {

@@ -35,12 +35,12 @@ struct SectionMotion {
 ///
 /// State y = [w_1..w_n, w_m, v_1..v_n, v_m] (m, m/s): the mesh's unknowns, then the striker.
 ///
-///     Mass w'' = -B^T W M(kappa, history) + S F,   m w_m'' = -F,   F = F(lambda, history),
+///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F,   m w_m'' = -F,   F = F(lambda, history),
 ///     kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) of the sign of the curvature. Other classes treat changes of branch within a step:
-/// ContactState and find_crossing for the contact, SectionCorrector for the sections. Accounts
-/// computes energies and momenta.
+/// with M (N m) of the sign of the curvature and K_s the stiffness of shear, if any. Other classes
+/// treat changes of branch within a step: ContactState and find_crossing for the contact,
+/// SectionCorrector for the sections. Accounts computes energies and momenta.
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
@@ -89,11 +89,13 @@ class StruckBeam final : public MechanicalSystem {
   Evaluation section_evaluation() const { return section_evaluation_; }
   /// Accepts y: advances the histories of contact and sections. Returns whether any section flowed.
   bool commit(const State& y);
+  /// The same for a state of which acceleration() was computed last.
+  bool commit_evaluated(const State& y);
   /// Commits the curvature (1/m) at which a section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature) {
     sections_.commit_reversal(section, curvature);
   }
-  /// The sections at the last committed state; empty motion if they cannot yield.
+  /// The sections at the last state committed while their evaluation was smooth.
   const SectionMotion& committed_motion() const { return committed_; }
 
   /// Evaluations of the acceleration: of the forces, each with a mass solve.
@@ -102,7 +104,7 @@ class StruckBeam final : public MechanicalSystem {
   long n_forces() const { return n_forces_; }
 
  private:
-  // forces = -B^T W M.
+  // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   void use_modes();
   BeamJacobian& jacobian() const;
@@ -115,6 +117,7 @@ class StruckBeam final : public MechanicalSystem {
   double striker_mass_;
   double striker_velocity_;
   double outer_stiffness_;
+  bool shears_;
   // Of an elastic beam in natural modes, else empty: stiffnesses, and what a mode's acceleration is
   // made of.
   std::span<const double> modal_stiffness_;
@@ -125,8 +128,9 @@ class StruckBeam final : public MechanicalSystem {
   mutable std::unique_ptr<BeamJacobian> jacobian_;  // made when an implicit method first needs it
   long n_accelerations_ = 0;
   long n_forces_ = 0;
-  AlignedVector curvatures_, moments_;  // of the last evaluation
-  std::vector<double> trial_;           // accelerations
+  AlignedVector curvatures_, moments_;          // work space
+  std::vector<SectionField::Outside> outside_;  // at the last evaluation
+  std::vector<double> trial_;                   // accelerations
   SectionMotion committed_;
 };
 

@@ -1,5 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "process.h"
 
 namespace subimpact {
@@ -161,6 +166,28 @@ TEST(Plan, WantsAnErrorWithItsUnit) {
   const Finished finished = run_program({"plan", SUBIMPACT_PAPER_CASE, "--error", "small"});
   EXPECT_EQ(finished.status, 2);
   expect_in(finished.errors, "is \"small\"; allowed: a time above 0 with its unit");
+}
+
+// The case fixes a mesh with spacing "points" and a step, none of which the advice has.
+TEST(Plan, AdvisesOptionsThatTheProgramTakes) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> common = {SUBIMPACT_PAPERS_OWN_CASE, "--set",
+                                           "model.section=elastic", "--set", "time.end=2.9e-4"};
+  std::vector<std::string> planning = {"plan", "--within", "2us", "--out", "plan"};
+  planning.insert(planning.end(), common.begin(), common.end());
+  const Finished planned = run_program(planning, directory.path);
+  ASSERT_EQ(planned.status, 0) << planned.errors;
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "plan" / "plan.svg"));
+  const auto begin = planned.output.find("  --method ");
+  ASSERT_NE(begin, std::string::npos) << planned.output;
+  std::istringstream advice(planned.output.substr(begin, planned.output.find('\n', begin) - begin));
+  std::vector<std::string> running = {"run", "--out", "run"};
+  running.insert(running.end(), common.begin(), common.end());
+  for (std::string word; advice >> word;) running.push_back(word);
+  const Finished run = run_program(running, directory.path);
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(run.output.find("step of 1e-07"), std::string::npos) << run.output;
+  expect_in(run.output, "exponential");
 }
 
 TEST(Explain, TellsWhatWillBeModelledAndWritesNothing) {

@@ -62,6 +62,16 @@ TEST(CaseFile, TheLastOfTwoOverridesHolds) {
   EXPECT_EQ(read.end_time, 2.0);
 }
 
+TEST(CaseFile, AnOverrideCanTakeAKeyBackToItsDefault) {
+  const LoadedCase loaded =
+      read_case_text(small_case_text(), "small.toml",
+                     {parse_override("solver.step=1e-7"), parse_override("model.segments=101"),
+                      parse_override("solver.step=default")});
+  EXPECT_FALSE(loaded.value.solver.step);
+  EXPECT_FALSE(loaded.given.in_settings.contains("solver.step"));
+  EXPECT_TRUE(loaded.given.in_settings.contains("model.segments"));
+}
+
 TEST(CaseFile, AnOverrideCanSupplyARequiredKey) {
   const Case read = read_case_text(small_case_with("mass = 0.201\n", ""), "small.toml",
                                    {parse_override("striker.mass=0.3")})
@@ -113,8 +123,12 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   linear.scene.contact = {ContactKind::linear, 1e7, {}, {}, {}};
   Case sphere = foundation;
   sphere.scene.contact = {ContactKind::hertz, {}, 2e11, 0.3, 0.25};
+  Case sheared = foundation;
+  sheared.scene.beam.theory = BeamTheory::timoshenko;
+  sheared.scene.beam.poisson = 0.3;
+  sheared.scene.beam.shear_coefficient = 0.85;
   std::set<std::string> covered;
-  for (const Case& original : {foundation, linear, sphere}) {
+  for (const Case& original : {foundation, linear, sphere, sheared}) {
     std::vector<Override> all;
     for (const CaseKey& key : case_keys()) {
       const std::optional<KeyValue> value = key.get(original);

@@ -85,6 +85,24 @@ TEST_P(SectionFieldOfBothLaws, IsTheLawOfEverySectionOnItsOwn) {
   }
 }
 
+TEST_P(SectionFieldOfBothLaws, CommitsTheSectionsListedByItsMomentsAsItCommitsAllCurvatures) {
+  const std::size_t n = 61;
+  SectionField by_list(n, law());
+  SectionField by_curvatures(n, law());
+  std::vector<double> moments(n);
+  std::vector<SectionField::Outside> outside;
+  for (const std::vector<double>& curvatures : histories(n, 200)) {
+    by_list.moments(curvatures, moments, &outside);
+    ASSERT_EQ(by_list.commit(outside), by_curvatures.commit(curvatures));
+    ASSERT_EQ(by_list.n_yielded(), by_curvatures.n_yielded());
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(by_list.window_low()[i], by_curvatures.window_low()[i]);
+      ASSERT_EQ(by_list.window_high()[i], by_curvatures.window_high()[i]);
+      ASSERT_EQ(by_list.history(i).work, by_curvatures.history(i).work);
+    }
+  }
+}
+
 TEST_P(SectionFieldOfBothLaws, CountsTheSectionsThatHaveYieldedAndNoOthers) {
   const std::size_t n = 40;
   SectionField field(n, law());

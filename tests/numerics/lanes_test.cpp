@@ -49,6 +49,22 @@ TEST(DotOfLanes, IsTheSumOfProductsForEveryLength) {
   }
 }
 
+TEST(AssignByLines, WritesEveryNumberAndNoOtherWhereverTheResultBegins) {
+  for (std::size_t n = 0; n < 40; ++n) {
+    for (std::size_t start = 0; start < 8; ++start) {
+      AlignedVector result(64, -1.0);
+      std::vector<double> x(n);
+      for (std::size_t i = 0; i < n; ++i) x[i] = static_cast<double>(i) + 0.5;
+      const double* from = x.data();
+      assign_by_lines(result.data() + start, n, [=](auto at) { return 3.0 * at(from); });
+      for (std::size_t i = 0; i < result.size(); ++i) {
+        const bool inside = i >= start && i < start + n;
+        EXPECT_EQ(result[i], inside ? 3.0 * x[i - start] : -1.0) << n << " from " << start;
+      }
+    }
+  }
+}
+
 TEST(QuadraticForm, IsThatOfTheProductForEverySizeAndBandwidth) {
   for (std::size_t bandwidth = 0; bandwidth <= 3; ++bandwidth) {
     for (std::size_t n = 1; n < 40; ++n) {

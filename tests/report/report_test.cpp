@@ -154,6 +154,22 @@ TEST(RunSummary, GivesAReasonOnce) {
   expect_in(line_of(summary, "error of mesh"), "as above (refined run: the same, finer)");
 }
 
+TEST(TheoryTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
+  TheoryRun rayleigh{BeamTheory::rayleigh, sample_result_with_errors(3), {}};
+  TheoryRun timoshenko{BeamTheory::timoshenko, sample_result_with_errors(3), {}};
+  timoshenko.result.sub_impacts[0].end = 1e-6 * 353.583;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rayleigh.pairs.push_back({i, i});
+    timoshenko.pairs.push_back({i, i});
+  }
+  const std::string table = theory_table({rayleigh, timoshenko});
+  expect_in(table, "353.583 +- 0.017");
+  expect_in(table, "+20.25");  // 353.583 - 333.333
+  expect_in(table,
+            "timoshenko: 3 sub-impacts, 3 by rayleigh; the first 3 correspond, with times up to "
+            "20.25 us apart\n");
+}
+
 TEST(ErrorWords, OfDecidedTimesNameTheErrorAndTheEnd) {
   EXPECT_EQ(error_words(paper_case(), sample_result_with_errors(3)),
             "all times to 0.3 us up to 8 ms");

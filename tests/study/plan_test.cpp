@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "elastic_case.h"
@@ -43,6 +44,17 @@ TEST(APlan, NamesTheCheapestMeshThatIsWithinTheErrorTogetherWithAllFinerOnes) {
   // The named combination, run as anyone would, is within the error of the reference.
   const EventErrors errors = event_errors(simulate(best.input).sub_impacts, result.sub_impacts);
   EXPECT_LE(errors.maximum, wanted);
+}
+
+// Separations last 6.5 and 7.1 us.
+TEST(APlan, AdvisesNoErrorThatSubImpactsGetLostIn) {
+  const Plan result = plan(elastic_case(285e-6), 20e-6);
+  ASSERT_TRUE(result.cheapest.has_value());
+  double shortest = INFINITY;
+  for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
+    shortest = std::min(shortest, result.sub_impacts[i].start - *result.sub_impacts[i - 1].end);
+  }
+  EXPECT_LE(result.points[*result.cheapest].errors.maximum, 0.5 * shortest);
 }
 
 TEST(APlan, IsNotMadeWhereNoEventTimeIsKnown) {

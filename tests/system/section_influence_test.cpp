@@ -9,6 +9,7 @@
 
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
+#include "model/timoshenko_mesh.h"
 #include "paper_scene.h"
 #include "random_walk.h"
 
@@ -37,6 +38,16 @@ std::vector<Mesh> meshes() {
         {theory + " half of elements",
          std::make_unique<HermiteMesh>(beam, 0.5, std::size_t{40}, 2, HermiteMesh::Extent::half)});
   }
+  Beam shearing = rayleigh;
+  shearing.theory = BeamTheory::timoshenko;
+  shearing.poisson = 0.33;
+  all.push_back(
+      {"half of cells that shear", std::make_unique<TimoshenkoMesh>(shearing, 0.5, std::size_t{51},
+                                                                    TimoshenkoMesh::Extent::half)});
+  shearing.ends = {EndSupport::pinned, EndSupport::clamped};
+  all.push_back({"cells that shear, supported, struck off centre",
+                 std::make_unique<TimoshenkoMesh>(shearing, 0.317, std::size_t{60},
+                                                  TimoshenkoMesh::Extent::whole)});
   return all;
 }
 
@@ -64,6 +75,9 @@ TEST(SectionInfluence, GivesTheCurvatureAccelerationsThatAMassSolveGives) {
     std::vector<double> accelerations(mesh.n_unknowns());
     mesh.bending_forces(moments, accelerations);
     mesh.struck_point().add_to(accelerations, force);
+    std::vector<double> shear_forces(mesh.shears() ? mesh.n_unknowns() : 0, 0.0);
+    mesh.add_shear_forces(random_numbers(8, mesh.n_unknowns(), 1e-9), shear_forces);
+    for (std::size_t i = 0; i < shear_forces.size(); ++i) accelerations[i] += shear_forces[i];
     solver.solve(accelerations);
     std::vector<double> expected(mesh.n_sections());
     mesh.curvatures(accelerations, expected);
@@ -71,7 +85,7 @@ TEST(SectionInfluence, GivesTheCurvatureAccelerationsThatAMassSolveGives) {
     for (std::size_t i = 0; i < weighted.size(); ++i) weighted[i] *= mesh.section_weights()[i];
     const double largest = largest_of(expected);
     for (std::size_t i = 0; i < weighted.size(); ++i) {
-      EXPECT_NEAR(influence.curvature_acceleration(i, weighted, force), expected[i],
+      EXPECT_NEAR(influence.curvature_acceleration(i, weighted, force, shear_forces), expected[i],
                   1e-13 * largest)
           << "section " << i;
     }

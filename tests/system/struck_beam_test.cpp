@@ -28,6 +28,30 @@ const Situation situations[] = {
     {"unloading contact", ContactBranch::elastic, 6.0 * lambda_s, 5.5 * lambda_s, -3.0, 3.0},
 };
 
+TEST(StruckBeam, CommitsTheStateEvaluatedLastAsItCommitsAnyState) {
+  for (const Model& model : models()) {
+    SCOPED_TRACE(model.name);
+    StruckBeam any = make_beam(model);
+    StruckBeam evaluated = make_beam(model);
+    bool flowed = false;
+    for (const double bending : {0.5, 1.5, 3.0, 2.9, -2.0, 1.0, 2.5}) {
+      const State y = smooth_state(any, 5, bending, 2.0 * lambda_s, 1.0);
+      std::vector<double> ignored(evaluated.n_positions());
+      evaluated.acceleration({y.data(), ignored.size()}, ignored);
+      const bool flows = any.commit(y);
+      EXPECT_EQ(evaluated.commit_evaluated(y), flows);
+      flowed = flowed || flows;
+      EXPECT_EQ(evaluated.contact().history().max_indentation,
+                any.contact().history().max_indentation);
+      for (std::size_t i = 0; i < any.sections().size(); ++i) {
+        ASSERT_EQ(evaluated.sections().window_low()[i], any.sections().window_low()[i]);
+        ASSERT_EQ(evaluated.sections().window_high()[i], any.sections().window_high()[i]);
+      }
+    }
+    EXPECT_EQ(flowed, model.yields);
+  }
+}
+
 TEST(StruckBeam, BeginsTouchingWithAllEnergyAndMomentumInTheStriker) {
   for (const Model& model : models()) {
     SCOPED_TRACE(model.name);

@@ -2,6 +2,7 @@
 // many of the errors are covered, and how many counts are wrong without a sign.
 //
 //   subimpact_error_bars [--seed S] [--scenes N] [--budget seconds]
+//   subimpact_error_bars --cost [--seed S] [--scenes N] [--budget seconds]    what they cost
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +23,10 @@
 #include "study/free_end_error.h"
 #include "study/parallel.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/study/companion.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/within.h"
 
 namespace {
 
@@ -32,6 +36,7 @@ using error_bars::DrawnScene;
 constexpr double us = 1e6;
 constexpr double factors[] = {0.2, 0.35, 0.5, 0.7, 1.0, 1.5};
 constexpr double shown_factor = 1.0;
+constexpr int pairs = 5;
 
 // Smallest and largest order that an extrapolation takes from three meshes.
 constexpr double lowest_order = 0.8;
@@ -89,7 +94,7 @@ Truth truth_of(const DrawnScene& scene, const Result& run) {
   return truth;
 }
 
-Case companion_of(const Case& input) {
+Case coarser_of(const Case& input) {
   Case coarser = on_other_mesh(input, 0.5)->input;
   coarser.solver.step.reset();
   if (input.solver.method != Method::central_difference) coarser.solver.rtol *= 100.0;
@@ -102,7 +107,7 @@ Judged judge(int number, std::uint64_t seed, const error_bars::Budget& budget) {
   judged.scene = error_bars::draw(seed, number, budget);
   const auto start = std::chrono::steady_clock::now();
   judged.run = simulate(judged.scene.input);
-  judged.companion = simulate(companion_of(judged.scene.input));
+  judged.companion = simulate(coarser_of(judged.scene.input));
   judged.truth = truth_of(judged.scene, judged.run);
   judged.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return judged;
@@ -222,6 +227,70 @@ void print_totals(const std::vector<Judged>& all) {
   }
 }
 
+// What error bars cost, over a run without: the companion's counted work, and wall and processor
+// time of alternated pairs on two cores.
+struct Cost {
+  double work = 1.0, wall = 1.0, processor = 1.0;
+};
+
+struct Times {
+  double wall = 0.0, processor = 0.0;  // s
+};
+
+template <class Task>
+Times time_of(Task task) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t before = std::clock();
+  task();
+  const std::clock_t after = std::clock();
+  const auto end = std::chrono::steady_clock::now();
+  return {std::chrono::duration<double>(end - start).count(),
+          static_cast<double>(after - before) / CLOCKS_PER_SEC};
+}
+
+double middle(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+Cost cost_of(const Case& input) {
+  Cost cost;
+  const Result alone = simulate(input);
+  if (const auto companion = companion_of(input)) {
+    cost.work += counted_work(simulate(companion->input)) / counted_work(alone);
+  }
+  std::vector<double> wall, processor;
+  for (int i = 0; i < pairs; ++i) {
+    const Times off = time_of([&] { simulate(input); });
+    const Times on = time_of([&] { simulate_with_companion(input, 2); });
+    wall.push_back(on.wall / off.wall);
+    processor.push_back(on.processor / off.processor);
+  }
+  cost.wall = middle(wall);
+  cost.processor = middle(processor);
+  return cost;
+}
+
+void print_costs(std::uint64_t seed, int first, int n_scenes, const error_bars::Budget& budget) {
+  fmt::print(
+      "| scene | run | counted work | wall time | processor time |\n|---|---|---|---|---|\n");
+  std::vector<double> work, wall, processor;
+  const auto row = [](const std::string& scene, const std::string& run, const Cost& cost) {
+    fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", scene, run, cost.work, cost.wall,
+               cost.processor);
+    std::fflush(stdout);
+  };
+  for (int i = first; i < first + n_scenes; ++i) {
+    const Case input = error_bars::draw(seed, i, budget).input;
+    const Cost cost = cost_of(input);
+    row(fmt::format("{}", i), fmt::format("{}, {}", kind_of(input), mesh_count(input)), cost);
+    work.push_back(cost.work);
+    wall.push_back(cost.wall);
+    processor.push_back(cost.processor);
+  }
+  row("median", "", {middle(work), middle(wall), middle(processor)});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -234,7 +303,13 @@ int main(int argc, char** argv) {
   app.add_option("--scenes", n_scenes, "how many");
   app.add_option("--first", first, "number of the first");
   app.add_option("--budget", budget.seconds, "seconds that the finest run of a scene may take");
+  bool cost = false;
+  app.add_flag("--cost", cost, "what error bars cost, instead of what they cover");
   CLI11_PARSE(app, argc, argv);
+  if (cost) {
+    print_costs(seed, first, n_scenes, budget);
+    return 0;
+  }
 
   std::vector<Judged> all(static_cast<std::size_t>(n_scenes));
   in_parallel(all.size(), [&](std::size_t i) {

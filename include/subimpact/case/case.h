@@ -23,9 +23,10 @@ enum class SectionKind {
 };
 
 enum class MeshKind {
-  cells,    ///< equal cells
-  hermite,  ///< cubic Hermite elements
-  rigid     ///< the beam as a rigid body
+  cells,     ///< equal cells
+  hermite,   ///< cubic Hermite elements
+  spectral,  ///< elements of degree 4, of a beam that shears
+  rigid      ///< the beam as a rigid body
 };
 
 /// Length of N equal cells of a beam of length l.

@@ -9,6 +9,7 @@
 #include "subimpact/case/cost.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
+#include "subimpact/study/compare_theories.h"
 
 namespace subimpact {
 
@@ -43,6 +44,10 @@ std::string failure_message(const Case& input, const Result& result);
 
 /// One line per method beside the reference, and the differences in words.
 std::string comparison_table(const Comparison& comparison);
+
+/// Starts and ends of every sub-impact by several theories, with their errors and how much later
+/// they come than by the first theory; then each theory in a sentence.
+std::string theory_table(const std::vector<TheoryRun>& runs);
 
 /// What a case will be modelled as, and why.
 std::string explanation(const Case& input, const ResolvedSettings& used,

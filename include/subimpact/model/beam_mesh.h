@@ -47,12 +47,13 @@ struct SparseFunctional {
 /// With unknowns q (displacements, and slopes where a mesh has them), curvatures kappa = B q at the
 /// sections (stress points) and their integration weights W (m), the beam obeys
 ///
-///     Mass q'' = -B^T W M(kappa) + S F,
+///     Mass q'' = -B^T W M(kappa) - K_s q + S F,
 ///
-/// with the bending moments M, of the sign of the curvature, and the functional S of the struck
-/// point. Bending work is sum W M dkappa and contact work F d(S q), so the discretisation in space
-/// neither produces nor loses energy. Where symmetry halves the unknowns, the mirrored half is
-/// folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
+/// with the bending moments M, of the sign of the curvature, the functional S of the struck point
+/// and the elastic stiffness K_s of shear, where the mesh has any. Bending work is sum W M dkappa
+/// and contact work F d(S q), so the discretisation in space neither produces nor loses energy.
+/// Where symmetry halves the unknowns, the mirrored half is folded into Mass and W, so all forces,
+/// energies and momenta are those of the whole beam.
 ///
 /// A user-defined mesh derives from this class, fills the protected members in its constructor and
 /// is assigned to `Case::parts.mesh` or `Problem::mesh`; the built-in meshes use the same
@@ -62,10 +63,8 @@ struct SparseFunctional {
 /// threads may share a mesh. A run whose mesh breaks these rules gains or loses energy and ends as
 /// `inaccurate`.
 ///
-/// Fixed today: one generalised strain per section, the curvature, and one elastic bending
-/// stiffness for all sections (the argument `bending_stiffness`). Shear, or a stiffness per
-/// section, will widen those functions that take a stiffness; the rest holds for any number of
-/// stress points.
+/// Fixed today: one generalised strain per section that may yield, the curvature, and one elastic
+/// bending stiffness for all sections (the argument `bending_stiffness`).
 class BeamMesh {
  public:
   virtual ~BeamMesh() = default;
@@ -101,6 +100,14 @@ class BeamMesh {
     std::span<const double> coefficients;
   };
   virtual SectionStencil section_stencil(std::size_t section) const = 0;
+
+  /// Whether sections shear: K_s is not zero.
+  virtual bool shears() const { return shear_stiffness_.size() > 0; }
+  /// forces -= K_s q, N; nothing where sections do not shear.
+  virtual void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const;
+  /// q^T K_s q/2, J.
+  virtual double shear_energy(std::span<const double> unknowns) const;
+
   /// Curvature of one section, 1/m.
   virtual double curvature(std::size_t section, std::span<const double> unknowns) const;
   /// The same as coefficients on the unknowns.
@@ -111,10 +118,10 @@ class BeamMesh {
   /// shapes.
   virtual std::optional<SparseFunctional> displacement_at(double /*x*/) const { return {}; }
   virtual std::optional<SparseFunctional> slope_at(double /*x*/) const { return {}; }
-  /// Half bandwidth of B^T B.
+  /// Half bandwidth of B^T B and K_s.
   std::size_t stiffness_bandwidth() const;
-  /// result += B^T W diag(tangents) B, N/m; `tangents` = dM/dkappa of the sections, N m2. The half
-  /// bandwidth of `result` must be stiffness_bandwidth() or more.
+  /// result += B^T W diag(tangents) B + K_s, N/m; `tangents` = dM/dkappa of the sections, N m2. The
+  /// half bandwidth of `result` must be stiffness_bandwidth() or more.
   void add_stiffness(std::span<const double> tangents, BandedMatrix& result) const;
   /// An upper bound, close to it, of the highest natural frequency for a bending stiffness (N m2),
   /// rad/s.
@@ -140,6 +147,7 @@ class BeamMesh {
       : mass_(n_unknowns, half_bandwidth), symmetric_(symmetric) {}
 
   BandedMatrix mass_;
+  BandedMatrix shear_stiffness_{0, 0};  ///< K_s, N/m; of size zero where sections do not shear
   std::vector<double> weights_;
   std::vector<double> positions_;
   SparseFunctional struck_point_;

@@ -75,6 +75,10 @@ class Fibres {
   double moment(double x) const;   ///< virgin curve, odd in x
   double tangent(double x) const;  ///< dm/dx of the virgin curve
   double work(double x) const;     ///< integral of the virgin curve from 0 to x
+  struct Response {
+    double moment, work;
+  };
+  Response response(double x) const;  ///< both at once
 
   /// Elastic energy, in units of M_y kappa_y per length, of the fibres from zeta `a` to `b` whose
   /// stress is (constant + slope * zeta) times their yield stress: 3/2 the integral of its square.

@@ -24,9 +24,10 @@ struct NaturalModes {
 /// Scales shapes so that phi^T Mass phi = 1.
 void normalise(NaturalModes& modes, const BandedMatrix& mass);
 
-/// By dense decomposition, for any mesh. Frequencies are Rayleigh quotients of B phi, which keeps
-/// the lowest of them accurate in spite of the highest; those below 1e-7 of the highest count as
-/// rigid.
+/// By dense decomposition, for any mesh, and corrections that remove what its rounding mixes of low
+/// modes; where sections shear, frequencies grow too slowly for that to matter. Frequencies are
+/// Rayleigh quotients of B phi and the shear energy, which keeps the lowest of them accurate in
+/// spite of the highest; those below 1e-7 of the highest count as rigid.
 NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness);
 
 }  // namespace subimpact

@@ -10,8 +10,9 @@
 
 namespace subimpact {
 
-/// Rayleigh keeps the rotary inertia of the sections, Euler-Bernoulli leaves it out.
-enum class BeamTheory { rayleigh, euler_bernoulli };
+/// Rayleigh keeps the rotary inertia of the sections, Euler-Bernoulli leaves it out; Timoshenko
+/// keeps it and lets sections shear, elastically.
+enum class BeamTheory { rayleigh, euler_bernoulli, timoshenko };
 
 /// Support of one end of the beam.
 enum class EndSupport {
@@ -20,7 +21,7 @@ enum class EndSupport {
   clamped  ///< neither displacement nor rotation
 };
 
-/// Uniform beam of rectangular section; no shear deformation, small displacements.
+/// Uniform beam of rectangular section; small displacements.
 struct Beam {
   double length = 0.0;          ///< l, m
   double width = 0.0;           ///< b, m
@@ -29,6 +30,9 @@ struct Beam {
   double youngs_modulus = 0.0;  ///< E, Pa
   double yield_stress = std::numeric_limits<double>::infinity();  ///< Y, Pa; infinite: never yields
   BeamTheory theory = BeamTheory::rayleigh;
+  std::optional<double> poisson = {};  ///< nu; needed by Timoshenko's theory
+  /// k; by default Cowper's for a rectangle.
+  std::optional<double> shear_coefficient = {};
   std::array<EndSupport, 2> ends{EndSupport::free, EndSupport::free};  ///< at x = 0 and x = l
 
   double area() const { return width * thickness; }                               ///< A, m2
@@ -47,7 +51,19 @@ struct Beam {
   bool is_free() const { return ends[0] == EndSupport::free && ends[1] == EndSupport::free; }
   /// J = rho I (kg m), or zero in Euler-Bernoulli theory.
   double rotary_inertia() const {
-    return theory == BeamTheory::rayleigh ? density * second_moment() : 0.0;
+    return theory == BeamTheory::euler_bernoulli ? 0.0 : density * second_moment();
+  }
+  bool shears() const { return theory == BeamTheory::timoshenko; }
+  /// k, where nu is given: 10 (1 + nu)/(12 + 11 nu) unless set. Source: G. R. Cowper, The shear
+  /// coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966).
+  double used_shear_coefficient() const {
+    const double nu = poisson.value_or(0.0);
+    return shear_coefficient.value_or(10.0 * (1.0 + nu) / (12.0 + 11.0 * nu));
+  }
+  /// k G A (N), where nu is given.
+  double shear_stiffness() const {
+    const double shear_modulus = youngs_modulus / (2.0 * (1.0 + poisson.value_or(0.0)));
+    return used_shear_coefficient() * shear_modulus * area();
   }
 };
 
@@ -81,6 +97,11 @@ struct Scene {
   Beam beam;
   Striker striker;
   Contact contact;
+
+  /// nu of the beam, which theory and contact share.
+  std::optional<double> beam_poisson() const {
+    return beam.poisson ? beam.poisson : contact.beam_poisson;
+  }
 };
 
 }  // namespace subimpact

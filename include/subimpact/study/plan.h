@@ -22,12 +22,14 @@ struct PlanPoint {
   EventErrors errors;    ///< total ones, against the reference
   double work = 0.0;     ///< counted (counted_work)
   double seconds = 0.0;  ///< wall time of the run
-  bool within = false;   ///< right, and its errors and those of the reference within the wanted one
+  bool within = false;  ///< right, and with the reference's error within the wanted one and half of
+                        ///< what it times
   /// Whether it and all finer runs of its sequence are within: not a mesh that is right by chance.
   bool admitted = false;
 };
 
 struct Plan {
+  Case asked;           ///< as the caller passed it
   double wanted = 0.0;  ///< s
   /// The run that stands for the limit of fine meshes, and its error bars.
   WithinRun reference;
@@ -41,15 +43,21 @@ struct Plan {
   bool interrupted = false;
 };
 
+struct PlanOptions {
+  Jobs jobs = 1;  ///< the reference and its companion may run beside one another
+  /// Called before each run, with its description and the time at which it ends (s).
+  std::function<void(const std::string& what, double end_time)> announce;
+  Progress progress;  ///< of the run in hand; returning false ends the plan with what there is
+};
+
 /// The cheapest mesh and method for a wanted error (s) of event times. The reference is what
 /// simulate_within() makes of the case for a fifth of that error. Sequences of meshes (cells,
 /// elements, elements finer at the strike, each with the methods that are fast on it) are run up to
 /// the reference's horizon, finer by the square root of two from run to run, until three in a row
-/// are within the wanted error, or cost four times as much as the cheapest that is admitted. The
-/// case's own mesh and method have no effect. Throws InvalidCase, also if the reference decides no
-/// event.
-Plan plan(const Case& input, double wanted,
-          const std::function<void(const std::string&)>& announce = {},
-          const Progress& progress = {});
+/// are within the wanted error (two where the reference is the finest of the sequence), or until
+/// the next one would cost more than the cheapest that is admitted. Meshes between the cheapest and
+/// the next coarser one are tried last. The case's own mesh and method have no effect. Throws
+/// InvalidCase, also if the reference decides no event.
+Plan plan(const Case& input, double wanted, const PlanOptions& options = {});
 
 }  // namespace subimpact

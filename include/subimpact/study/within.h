@@ -37,8 +37,8 @@ struct WithinOptions {
   std::function<RowSink*()> rows;
 };
 
-/// What a run cost: evaluations of the right-hand side times unknowns of the beam, and the dense
-/// decomposition for its modes in the same unit.
+/// What a run cost: evaluations of the right-hand side times unknowns of the beam, and its modes
+/// and the steps in them in the same unit.
 double counted_work(const Result& result);
 
 /// Where nothing is wished (no accuracy.event_times), the wish is a tenth of the time scale of the

@@ -1,0 +1,393 @@
+#include "model/timoshenko_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "model/cell_mesh.h"
+#include "model/flexural_frequencies.h"
+#include "model/modal_mesh.h"
+#include "model/spectral_mesh.h"
+#include "order_table.h"
+#include "paper_scene.h"
+#include "random_walk.h"
+
+namespace subimpact {
+namespace {
+
+using Extent = TimoshenkoMesh::Extent;
+using Ends = std::array<EndSupport, 2>;
+
+constexpr Ends free_ends = {EndSupport::free, EndSupport::free};
+constexpr Ends pinned_ends = {EndSupport::pinned, EndSupport::pinned};
+constexpr Ends clamped_ends = {EndSupport::clamped, EndSupport::clamped};
+
+Beam shearing_beam(Ends ends = free_ends) {
+  Beam beam = paper_beam();
+  beam.theory = BeamTheory::timoshenko;
+  beam.poisson = 0.33;
+  beam.shear_coefficient = 5.0 / 6.0;
+  beam.ends = ends;
+  return beam;
+}
+
+// Whole and half, few and many cells, all ends, strikes on and between the nodes of equal cells.
+std::vector<TimoshenkoMesh> meshes() {
+  std::vector<TimoshenkoMesh> all;
+  for (const EndSupport first : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+    for (const EndSupport second : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+      const Beam beam = shearing_beam({first, second});
+      for (const std::size_t n : {7u, 8u, 31u}) {
+        for (const double position : {0.1, 0.5, 0.77}) {
+          all.emplace_back(beam, position, n, Extent::whole);
+        }
+        if (first == second && n % 2 == 1) all.emplace_back(beam, 0.5, n, Extent::half);
+      }
+    }
+  }
+  return all;
+}
+
+// The same shapes of spectral elements.
+std::vector<SpectralMesh> spectral_meshes() {
+  std::vector<SpectralMesh> all;
+  for (const EndSupport first : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+    for (const EndSupport second : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+      const Beam beam = shearing_beam({first, second});
+      for (const std::size_t n : {2u, 5u, 12u}) {
+        for (const double position : {0.27, 0.5, 0.71}) {
+          all.emplace_back(beam, position, n, SpectralMesh::Extent::whole);
+        }
+        if (first == second && n % 2 == 0)
+          all.emplace_back(beam, 0.5, n, SpectralMesh::Extent::half);
+      }
+    }
+  }
+  return all;
+}
+
+// Calls check(mesh) on all of both kinds.
+template <class Check>
+void on_every_mesh(Check check) {
+  for (const TimoshenkoMesh& mesh : meshes()) check(mesh);
+  for (const SpectralMesh& mesh : spectral_meshes()) check(mesh);
+}
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+TEST(MeshesThatShear, BendingForcesAreTheExactTransposeOfCurvatures) {
+  on_every_mesh([](const BeamMesh& mesh) {
+    const std::vector<double> q = random_numbers(1, mesh.n_unknowns());
+    const std::vector<double> moments = random_numbers(2, mesh.n_sections());
+    std::vector<double> kappa(mesh.n_sections()), forces(mesh.n_unknowns(), 1.0);
+    mesh.curvatures(q, kappa);
+    mesh.bending_forces(moments, forces);
+    double work = 0.0, size = 0.0;
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      work += mesh.section_weights()[i] * moments[i] * kappa[i];
+      size += std::abs(mesh.section_weights()[i] * moments[i] * kappa[i]);
+    }
+    EXPECT_NEAR(work, -dot(forces, q), 1e-13 * size) << mesh.description();
+  });
+}
+
+TEST(MeshesThatShear, StencilsAreTheRowsOfTheCurvatures) {
+  on_every_mesh([](const BeamMesh& mesh) {
+    const std::vector<double> q = random_numbers(3, mesh.n_unknowns());
+    std::vector<double> kappa(mesh.n_sections());
+    mesh.curvatures(q, kappa);
+    for (std::size_t i = 0; i < kappa.size(); ++i) {
+      EXPECT_NEAR(mesh.curvature(i, q), kappa[i], 1e-13 * (1.0 + std::abs(kappa[i])));
+    }
+  });
+}
+
+TEST(MeshesThatShear, ShearForcesAreThoseOfTheStiffnessMatrixAndItsEnergy) {
+  on_every_mesh([](const BeamMesh& mesh) {
+    const std::vector<double> q = random_numbers(4, mesh.n_unknowns());
+    std::vector<double> forces(mesh.n_unknowns(), 0.0), by_matrix(mesh.n_unknowns(), 0.0);
+    mesh.add_shear_forces(q, forces);
+    mesh.BeamMesh::add_shear_forces(q, by_matrix);
+    const double size = std::sqrt(dot(by_matrix, by_matrix));
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      EXPECT_NEAR(forces[i], by_matrix[i], 1e-13 * size) << mesh.description() << ", " << i;
+    }
+    EXPECT_NEAR(mesh.shear_energy(q), -0.5 * dot(forces, q), 1e-12 * mesh.shear_energy(q));
+  });
+}
+
+TEST(TimoshenkoMesh, RigidMotionsOfAFreeBeamStrainNothing) {
+  for (const double position : {0.13, 0.5}) {
+    const TimoshenkoMesh mesh(shearing_beam(), position, 31, Extent::whole);
+    std::vector<double> forces(mesh.n_unknowns(), 0.0), kappa(mesh.n_sections());
+    mesh.add_shear_forces(mesh.translation(), forces);
+    mesh.curvatures(mesh.translation(), kappa);
+    EXPECT_NEAR(mesh.shear_energy(mesh.translation()), 0.0, 1e-18);
+    EXPECT_EQ(dot(kappa, kappa), 0.0);
+    EXPECT_NEAR(mesh.mass().quadratic_form(mesh.translation()) / shearing_beam().mass(), 1.0,
+                1e-13);
+    EXPECT_NEAR(dot(mesh.momentum_functional(), mesh.translation()) / mesh.beam_mass(), 1.0, 1e-14);
+  }
+}
+
+TEST(MeshesThatShear, HaveANodeUnderTheStrike) {
+  on_every_mesh([](const BeamMesh& mesh) {
+    ASSERT_EQ(mesh.struck_point().terms.size(), 1u) << mesh.description();
+    EXPECT_EQ(mesh.struck_point().terms.front().coefficient, 1.0);
+  });
+  const TimoshenkoMesh mesh(shearing_beam(), 0.317, 60, Extent::whole);
+  EXPECT_NEAR(mesh.section_positions()[mesh.struck_section()], 0.317 * shearing_beam().length,
+              1e-12);
+}
+
+TEST(TimoshenkoMesh, RefusesWhatItCannotModel) {
+  EXPECT_THROW(TimoshenkoMesh(paper_beam(), 0.5, 31, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(TimoshenkoMesh(shearing_beam(), 0.5, 4, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(TimoshenkoMesh(shearing_beam(), 0.5, 30, Extent::half), std::invalid_argument);
+  EXPECT_THROW(TimoshenkoMesh(shearing_beam(), 0.4, 31, Extent::half), std::invalid_argument);
+}
+
+std::vector<double> frequencies(const Beam& beam, double position, std::size_t n) {
+  const TimoshenkoMesh mesh(beam, position, n, Extent::whole);
+  return mesh.natural_modes(beam.bending_stiffness()).frequencies;
+}
+
+TEST(TimoshenkoMesh, HighestFrequencyIsABoundAndClose) {
+  for (const Ends& ends : {free_ends, pinned_ends, clamped_ends}) {
+    const Beam beam = shearing_beam(ends);
+    for (const double position : {0.5, 0.13}) {
+      for (const std::size_t n : {7u, 20u, 101u}) {
+        const TimoshenkoMesh mesh(beam, position, n, Extent::whole);
+        const double highest = frequencies(beam, position, n).back();
+        const double bound = mesh.highest_frequency(beam.bending_stiffness());
+        EXPECT_GE(bound, highest * (1.0 - 1e-12)) << mesh.description();
+        EXPECT_LE(bound, 1.1 * highest) << mesh.description();
+      }
+    }
+  }
+}
+
+// Both roots W = omega^2 of (rho^2 I/(k G)) W^2 - (rho A + rho I b^2 (1 + E/(k G))) W + E I b^4
+// = 0 with b = n pi/l, the lower one first; divided by A.
+std::array<double, 2> pinned_frequencies(const Beam& beam, int n) {
+  const double b2 = std::pow(n * M_PI / beam.length, 2);
+  const double shear = beam.shear_stiffness() / beam.area();  // k G
+  const double r2 = beam.second_moment() / beam.area();
+  const double a = beam.density * beam.density * r2 / shear;
+  const double b = beam.density * (1.0 + r2 * b2 * (1.0 + beam.youngs_modulus / shear));
+  const double c = beam.youngs_modulus * r2 * b2 * b2;
+  const double root = std::sqrt(b * b - 4.0 * a * c);
+  return {std::sqrt(2.0 * c / (b + root)), std::sqrt((b + root) / (2.0 * a))};
+}
+
+double nearest(const std::vector<double>& all, double value) {
+  double best = all.front();
+  for (const double x : all) {
+    if (std::abs(x - value) < std::abs(best - value)) best = x;
+  }
+  return best;
+}
+
+void expect_second_order_in_both_branches(const Beam& beam, std::vector<std::size_t> cells) {
+  for (const int mode : {1, 2, 3, 5}) {
+    for (const std::size_t branch : {0u, 1u}) {
+      OrderTable table("relative error of mode " + std::to_string(mode) + ", branch " +
+                       std::to_string(branch) + ", over cells");
+      const double exact = pinned_frequencies(beam, mode)[branch];
+      for (const std::size_t n : cells) {
+        const double found = nearest(frequencies(beam, 0.5, n), exact);
+        table.add(static_cast<double>(n), std::abs(found / exact - 1.0));
+      }
+      table.expect_every_order_within(1.9, 2.1);
+    }
+  }
+}
+
+TEST(TimoshenkoMesh, PinnedFrequenciesOfBothBranchesConvergeAtSecondOrder) {
+  Beam stubby = shearing_beam(pinned_ends);
+  stubby.length = 10.0 * stubby.thickness;
+  expect_second_order_in_both_branches(stubby, {41, 81, 161, 321});
+}
+
+// What locking costs an element without reduced integration is the order, and then all accuracy.
+TEST(TimoshenkoMesh, DoesNotLockAsTheBeamBecomesSlender) {
+  Beam slender = shearing_beam(pinned_ends);
+  slender.length = 1000.0 * slender.thickness;
+  for (const int mode : {1, 3}) {
+    OrderTable table("relative error of mode " + std::to_string(mode) + " at l/h = 1000");
+    const double exact = pinned_frequencies(slender, mode)[0];
+    for (const std::size_t n : {21u, 41u, 81u, 161u}) {
+      const std::vector<double> all = frequencies(slender, 0.5, n);
+      table.add(static_cast<double>(n),
+                std::abs(all[static_cast<std::size_t>(mode - 1)] / exact - 1.0));
+    }
+    table.expect_every_order_within(1.9, 2.1);
+  }
+}
+
+TEST(TimoshenkoMesh, FrequenciesOfAllEndsConvergeAtSecondOrderWithTheStrikeAnywhere) {
+  for (const Ends& ends : {free_ends, clamped_ends, Ends{EndSupport::clamped, EndSupport::free},
+                           Ends{EndSupport::pinned, EndSupport::clamped}}) {
+    Beam beam = shearing_beam(ends);
+    beam.length = 20.0 * beam.thickness;
+    for (const double position : {0.5, 0.371}) {
+      OrderTable table("differences of the third bending frequency from half the cells, " +
+                       std::string(beam.is_free() ? "free" : "supported"));
+      const std::size_t mode = beam.is_free() ? 4 : 2;
+      double before = frequencies(beam, position, 41)[mode];
+      for (const std::size_t n : {81u, 161u, 321u}) {
+        const double here = frequencies(beam, position, n)[mode];
+        table.add(static_cast<double>(n), std::abs(here / before - 1.0));
+        before = here;
+      }
+      table.expect_every_order_within(1.75, 2.25);
+    }
+  }
+}
+
+TEST(TimoshenkoMesh, WithoutLimitOfTheShearStiffnessIsRayleighsCells) {
+  Beam rayleigh = paper_beam();
+  rayleigh.ends = pinned_ends;
+  const CellMesh cells(rayleigh, 0.5, 41, CellMesh::Extent::whole);
+  const auto expected = cells.natural_modes(rayleigh.bending_stiffness()).frequencies;
+  OrderTable table("relative distance of the seventh frequency from Rayleigh's cells, over k");
+  for (const double coefficient : {1e2, 1e3, 1e4}) {
+    Beam stiff = shearing_beam(pinned_ends);
+    stiff.shear_coefficient = coefficient;
+    table.add(coefficient, std::abs(frequencies(stiff, 0.5, 41)[6] / expected[6] - 1.0));
+  }
+  table.expect_every_order_within(0.9, 1.1);
+}
+
+TEST(TimoshenkoMesh, WithoutLimitOfTheShearStiffnessHasTheFrequenciesOfRayleighsFreeBeam) {
+  const std::vector<double> exact = flexural_frequencies(paper_beam(), 5);
+  Beam stiff = shearing_beam();
+  stiff.shear_coefficient = 1e3;
+  for (const std::size_t mode : {0u, 2u, 4u}) {
+    OrderTable table("relative error of mode " + std::to_string(mode + 1));
+    for (const std::size_t n : {41u, 81u, 161u}) {
+      table.add(static_cast<double>(n),
+                std::abs(frequencies(stiff, 0.5, n)[mode + 2] / exact[mode] - 1.0));
+    }
+    table.expect_every_order_within(1.9, 2.1);
+  }
+}
+
+TEST(TimoshenkoMesh, WithoutShearAndRotaryInertiaHasEulersFrequencies) {
+  Beam euler = paper_beam();
+  euler.theory = BeamTheory::euler_bernoulli;
+  const std::vector<double> exact = flexural_frequencies(euler, 1);
+  OrderTable table("relative distance of the first frequency from Euler's over length/thickness");
+  for (const double slenderness : {20.0, 40.0, 80.0}) {
+    Beam beam = shearing_beam(pinned_ends);
+    beam.length = slenderness * beam.thickness;
+    euler.ends = beam.ends;
+    euler.length = beam.length;
+    const double found = frequencies(beam, 0.5, 401)[0];
+    const double mesh = pinned_frequencies(beam, 1)[0];
+    EXPECT_NEAR(found / mesh, 1.0, 1e-4);
+    table.add(slenderness, std::abs(mesh / flexural_frequencies(euler, 1)[0] - 1.0));
+  }
+  table.expect_every_order_within(1.9, 2.1);
+}
+
+TEST(TimoshenkoMesh, InNaturalModesHasTheSameForcesAndEnergies) {
+  const auto mesh =
+      std::make_shared<const TimoshenkoMesh>(shearing_beam(), 0.31, 21, Extent::whole);
+  const ModalMesh modal(mesh, shearing_beam().bending_stiffness());
+  const std::size_t n = mesh->n_unknowns();
+  const std::vector<double> q = random_numbers(5, n);
+  std::vector<double> z(n), forces(n, 0.0), modal_forces(n, 0.0), expected(n);
+  modal.to_modal(q, z);
+  EXPECT_NEAR(modal.shear_energy(z), mesh->shear_energy(q), 1e-10 * mesh->shear_energy(q));
+  mesh->add_shear_forces(q, forces);
+  modal.add_shear_forces(z, modal_forces);
+  // Work on a virtual displacement is the same in both.
+  const std::vector<double> virtual_q = random_numbers(6, n);
+  std::vector<double> virtual_z(n);
+  modal.to_modal(virtual_q, virtual_z);
+  const double work = dot(forces, virtual_q);
+  EXPECT_NEAR(dot(modal_forces, virtual_z), work,
+              1e-10 * std::sqrt(dot(forces, forces) * dot(virtual_q, virtual_q)));
+}
+
+// --- spectral elements ---------------------------------------------------------------------------
+
+std::vector<double> spectral_frequencies(const Beam& beam, double position, std::size_t n) {
+  const SpectralMesh mesh(beam, position, n, SpectralMesh::Extent::whole);
+  return mesh.natural_modes(beam.bending_stiffness()).frequencies;
+}
+
+TEST(SpectralMesh, PinnedFrequenciesOfBothBranchesConvergeAtEighthOrder) {
+  Beam stubby = shearing_beam(pinned_ends);
+  stubby.length = 10.0 * stubby.thickness;
+  for (const int mode : {3, 5}) {
+    for (const std::size_t branch : {0u, 1u}) {
+      OrderTable table("relative error of mode " + std::to_string(mode) + ", branch " +
+                       std::to_string(branch) + ", over elements");
+      const double exact = pinned_frequencies(stubby, mode)[branch];
+      for (const std::size_t n : {8u, 12u, 16u}) {
+        const double found = nearest(spectral_frequencies(stubby, 0.5, n), exact);
+        table.add(static_cast<double>(n), std::abs(found / exact - 1.0));
+      }
+      table.expect_every_order_within(7.0, 9.0);
+    }
+  }
+}
+
+TEST(SpectralMesh, DoesNotLockAsTheBeamBecomesSlender) {
+  Beam slender = shearing_beam(pinned_ends);
+  slender.length = 1000.0 * slender.thickness;
+  OrderTable table("relative error of mode 5 at l/h = 1000");
+  const double exact = pinned_frequencies(slender, 5)[0];
+  for (const std::size_t n : {3u, 5u, 8u}) {
+    table.add(static_cast<double>(n),
+              std::abs(spectral_frequencies(slender, 0.5, n)[4] / exact - 1.0));
+  }
+  table.expect_every_order_within(6.0, 10.0);
+}
+
+// Two discretisations that have nothing in common but the continuum.
+TEST(SpectralMesh, HasTheFrequenciesThatCellsTendToForAllEnds) {
+  for (const Ends& ends : {free_ends, clamped_ends, Ends{EndSupport::clamped, EndSupport::free},
+                           Ends{EndSupport::pinned, EndSupport::clamped}}) {
+    Beam beam = shearing_beam(ends);
+    beam.length = 20.0 * beam.thickness;
+    const std::size_t mode = beam.is_free() ? 4 : 2;
+    const double coarse = frequencies(beam, 0.5, 161)[mode];
+    const double fine = frequencies(beam, 0.5, 321)[mode];
+    const double limit = fine + (fine - coarse) / (std::pow(321.0 / 161.0, 2) - 1.0);
+    const double found = spectral_frequencies(beam, 0.37, 16)[mode];
+    std::printf("relative difference %.1e\n", std::abs(found / limit - 1.0));
+    EXPECT_NEAR(found / limit, 1.0, 2e-6);
+  }
+}
+
+TEST(SpectralMesh, HighestFrequencyIsABoundAndClose) {
+  for (const Ends& ends : {free_ends, pinned_ends, clamped_ends}) {
+    const Beam beam = shearing_beam(ends);
+    for (const double position : {0.5, 0.13}) {
+      const SpectralMesh mesh(beam, position, 12, SpectralMesh::Extent::whole);
+      const double highest = spectral_frequencies(beam, position, 12).back();
+      const double bound = mesh.highest_frequency(beam.bending_stiffness());
+      EXPECT_GE(bound, highest * (1.0 - 1e-12));
+      EXPECT_LE(bound, 1.2 * highest);
+    }
+  }
+}
+
+TEST(SpectralMesh, RefusesWhatItCannotModel) {
+  using Whole = SpectralMesh::Extent;
+  EXPECT_THROW(SpectralMesh(paper_beam(), 0.5, 8, Whole::whole), std::invalid_argument);
+  EXPECT_THROW(SpectralMesh(shearing_beam(), 0.5, 1, Whole::whole), std::invalid_argument);
+  EXPECT_THROW(SpectralMesh(shearing_beam(), 0.5, 7, Whole::half), std::invalid_argument);
+  EXPECT_THROW(SpectralMesh(shearing_beam(), 0.4, 8, Whole::half), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace subimpact
