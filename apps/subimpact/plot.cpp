@@ -45,8 +45,10 @@ void add_plot(CLI::App& program, int& status) {
   command->add_option("--out", options->directory,
                       "Directory for the figures; made if missing. Default: DIR");
   command->footer(
-      "Draws response, first-sub-impact, indentation, energies, timeline and, if the run kept "
-      "sections (output.sections), bending; needs gnuplot. The gnuplot scripts stay beside the "
+      "Draws response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
+      "(both "
+      "unless output.shapes = 0) and, if the run kept sections (output.sections), bending; needs "
+      "gnuplot. The gnuplot scripts stay beside the "
       "figures, ready to be edited and run again.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"

@@ -170,7 +170,8 @@ void add_run(CLI::App& program, int& status) {
   options->input.add_to(*command);
   command->add_option(
       "--out", options->directory,
-      "Directory for events.csv, transitions.csv, history.csv and summary.json; made "
+      "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv and "
+      "summary.json; made "
       "if missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
   add_time_option(*command, "--within", options->within,

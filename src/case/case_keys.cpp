@@ -279,6 +279,9 @@ std::vector<CaseKey> make_case_keys() {
     row("output.zone_gap", "", positive, "separation that ends a zone, in first flexural periods", as_in_case, AT(output.zone_gap)),
     row("output.subzone_gap", "", positive, "separation that ends a sub-zone, in first flexural periods", as_in_case, AT(output.subzone_gap)),
     row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),
+    row("output.points", "", fraction, "positions, as fractions of the length, of points whose displacement and velocity are kept", as_in_case, AT(output.points)),
+    row("output.shapes", "s", not_negative, "time between shapes, the fields along the whole beam; 0: none, and no envelope", "time.end/400 in whole intervals; without history rows none", AT(output.shapes)),
+    row("output.shape_points", "", between("from 5 to 200000", 5, 200000), "most points of a shape, along the whole beam", as_in_case, AT(output.shape_points)),
 
     row("study.vector_operations", "", any_value, "vector operations under SUNDIALS", as_in_case, AT(study.vector_operations)),
     row("study.mass_solver", "", any_value, "factorisation of the mass matrix", as_in_case, AT(study.mass_solver)),
@@ -294,6 +297,7 @@ std::vector<CaseKey> make_case_keys() {
 
 // A row takes some 345 bytes in the file.
 constexpr double most_history_rows = 5e6;
+constexpr double most_shape_rows = 2e7;
 
 // "; time.end is 8 s, ...", if its unit is doubtful.
 std::string doubt_of_end_time(const Case& input) {
@@ -317,10 +321,30 @@ void check_history_size(const Case& input) {
 }
 
 void check_sections(const Case& input) {
-  if (input.output.sections.empty() || input.output.interval > 0.0) return;
-  throw InvalidCase("output.sections",
-                    "is given, but output.interval = 0 keeps no rows of them; leave it out, or "
-                    "set an output.interval above 0");
+  if (input.output.interval > 0.0) return;
+  const auto check_list = [](const char* key, const std::vector<double>& list) {
+    if (list.empty()) return;
+    throw InvalidCase(key,
+                      "is given, but output.interval = 0 keeps no rows of them; leave it out, or "
+                      "set an output.interval above 0");
+  };
+  check_list("output.sections", input.output.sections);
+  check_list("output.points", input.output.points);
+}
+
+void check_shapes(const Case& input) {
+  const double interval = input.output.shapes.value_or(0.0);
+  if (interval == 0.0) return;
+  const double rows = input.end_time / interval * input.output.shape_points;
+  if (rows <= most_shape_rows) return;
+  throw InvalidCase(
+      "output.shapes",
+      fmt::format("is {} s, which gives {:.2g} rows up to time.end = {} s, up to {} per shape; "
+                  "allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 for none; use a longer "
+                  "interval or a smaller output.shape_points",
+                  interval, rows, input.end_time, input.output.shape_points, most_shape_rows,
+                  input.end_time * input.output.shape_points / most_shape_rows) +
+          doubt_of_end_time(input));
 }
 
 void check_shear(const Case& input) {
@@ -388,6 +412,7 @@ void check(const Case& input) {
   check_shear(input);
   check_gaps(input);
   check_sections(input);
+  check_shapes(input);
 }
 
 }  // namespace subimpact

@@ -56,6 +56,19 @@ const Numbers<SectionRow> numbers_of_sections = {
     {"moment_Nm", &SectionRow::moment},
     {"plastic_curvature_per_m", &SectionRow::plastic_curvature}};
 
+const Numbers<PointRow> numbers_of_points = {{"position_m", &PointRow::position},
+                                             {"displacement_m", &PointRow::displacement},
+                                             {"velocity_m_per_s", &PointRow::velocity}};
+
+const Numbers<ShapeRow> numbers_of_shapes = {
+    {"position_m", &ShapeRow::position},
+    {"displacement_m", &ShapeRow::displacement},
+    {"velocity_m_per_s", &ShapeRow::velocity},
+    {"slope", &ShapeRow::slope},
+    {"curvature_per_m", &ShapeRow::curvature},
+    {"moment_Nm", &ShapeRow::moment},
+    {"plastic_curvature_per_m", &ShapeRow::plastic_curvature}};
+
 }  // namespace
 
 void RowChecks::refuse(const char* column, double value, const char* allowed) const {
@@ -107,11 +120,36 @@ void RowChecks::check(const HistoryRow& row) {
   check_time("time_s", row.time);
   for (const auto& [column, member] : numbers_of_history) check_finite(column, row.*member);
   if (row.momentum_error) check_finite("momentum_error", *row.momentum_error);
+  if (row.first_reaction) check_finite("R_0_N", *row.first_reaction);
+  if (row.last_reaction) check_finite("R_l_N", *row.last_reaction);
 }
 
 void RowChecks::check(const SectionRow& row) {
   check_time("time_s", row.time);
   for (const auto& [column, member] : numbers_of_sections) check_finite(column, row.*member);
+}
+
+void RowChecks::check(const PointRow& row) {
+  check_time("time_s", row.time);
+  for (const auto& [column, member] : numbers_of_points) check_finite(column, row.*member);
+}
+
+void RowChecks::check(const ShapeRow& row) {
+  check_time("time_s", row.time);
+  for (const auto& [column, member] : numbers_of_shapes) check_finite(column, row.*member);
+}
+
+void RowChecks::check(const EnvelopeRow& row) {
+  ++line_;
+  check_finite("position_m", row.position);
+  check_finite("permanent_set_m", row.permanent_set);
+  for (const EnvelopeRow::Range& range :
+       {row.displacement, row.moment, row.strain, row.plastic_curvature}) {
+    for (const EnvelopeRow::Extreme& end : {range.smallest, range.largest}) {
+      check_finite("an extreme", end.value);
+      check_finite("the time of an extreme", end.time);
+    }
+  }
 }
 
 void check_summary(const std::string& file, const FinishedRun& run) {

@@ -19,6 +19,9 @@ class RowChecks {
   void check(const Transition& row);
   void check(const HistoryRow& row);
   void check(const SectionRow& row);
+  void check(const PointRow& row);
+  void check(const ShapeRow& row);
+  void check(const EnvelopeRow& row);
 
  private:
   void check_finite(const char* column, double value) const;

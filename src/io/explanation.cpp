@@ -111,6 +111,21 @@ std::string count_text(double count) {
   return count < 1e4 ? fmt::format("{:.0f}", count) : fmt::format("{:.1e}", count);
 }
 
+std::string files_text(const Case& input, const ResolvedSettings& used) {
+  const bool has_history = input.output.interval > 0.0;
+  const bool has_shapes = used.n_shape_points > 0;
+  if (!has_history && !has_shapes) return "small: no history rows, no shapes";
+  const std::string history =
+      has_history ? count_text(input.end_time / input.output.interval) + " history rows"
+                  : "no history rows";
+  const std::string shapes =
+      has_shapes ? fmt::format("{} shapes of {} points and one per event",
+                               count_text(foreseen_shapes(input)), used.n_shape_points)
+                 : "no shapes";
+  return fmt::format("about {:.2g} MB: {}, {}", 1e-6 * foreseen_bytes(input, used.n_shape_points),
+                     history, shapes);
+}
+
 }  // namespace
 
 std::string explanation(const Case& input, const ResolvedSettings& used,
@@ -187,10 +202,7 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
     line("steps", "not predicted for this method and mesh");
   }
   line("memory", fmt::format("about {:.2g} MB", 1e-6 * used.memory));
-  line("files", input.output.interval > 0.0
-                    ? fmt::format("about {:.2g} MB, {} history rows", 1e-6 * foreseen_bytes(input),
-                                  count_text(input.end_time / input.output.interval))
-                    : "small: no history rows");
+  line("files", files_text(input, used));
   return fmt::to_string(text);
 }
 

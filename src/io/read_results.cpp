@@ -143,6 +143,8 @@ ResolvedSettings used_from(const Json& json) {
   used.first_period = number(json.at("first_period_s"));
   used.initial_energy = number(json.at("initial_energy_J"));
   used.energy_tolerance = number(json.value("energy_tolerance_relative", Json(0.0)));
+  used.shape_interval = number(json.value("shape_interval_s", Json(0.0)));
+  used.n_shape_points = json.value("n_shape_points", std::size_t{0});
   return used;
 }
 
@@ -166,6 +168,16 @@ std::vector<NearMiss> near_misses_from(const Json& json) {
                            near_miss_kind(entry.at("kind").get<std::string>())});
   }
   return near_misses;
+}
+
+std::vector<PlasticZone> plastic_zones_from(const Json& rest) {
+  std::vector<PlasticZone> zones;
+  if (rest.is_null()) return zones;
+  for (const Json& zone : rest.at("plastic_zones")) {
+    zones.push_back(
+        {number(zone.at("from_m")), number(zone.at("to_m")), number(zone.at("rotation_rad"))});
+  }
+  return zones;
 }
 
 Work work_from(const Json& json) {
@@ -263,6 +275,8 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
     result.choice = json.value("choice", std::string());
     result.warnings = json.value("warnings", std::vector<std::string>());
     result.n_history_rows = json.at("counts").at("history_rows").get<std::size_t>();
+    result.n_shape_rows = json.at("counts").value("shape_rows", std::size_t{0});
+    result.plastic_zones = plastic_zones_from(json.value("rest", Json()));
     result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();
     result.near_misses = near_misses_from(json.value("near_misses", Json::array()));
     result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
@@ -329,6 +343,15 @@ RowThinning<SectionRow> section_thinning(std::size_t n_instants, std::size_t n_s
   return {n_instants * n_sections, n_sections, {&SectionRow::curvature, &SectionRow::moment}};
 }
 
+RowThinning<PointRow> point_thinning(std::size_t n_instants, std::size_t n_points) {
+  return {n_instants * n_points, n_points, {&PointRow::displacement}};
+}
+
+// Whole shapes, each with all its points.
+RowThinning<ShapeRow> shape_thinning(std::size_t n_rows, std::size_t n_points) {
+  return {n_rows, n_points, {}};
+}
+
 FinishedRun read_once(const std::filesystem::path& directory) {
   const SealedFiles files(directory);
   FinishedRun run;
@@ -371,6 +394,27 @@ FinishedRun read_once(const std::filesystem::path& directory) {
     if (layout < 3) {  // M had the opposite sign
       for (SectionRow& row : result.section_history) row.moment = -row.moment;
     }
+  }
+  if (const std::size_t n_points = run.input.output.points.size(); n_points > 0) {
+    result.point_history = read("points.csv", [&](std::istream& file, const std::string& name) {
+      return read_thinned(file, name, points_columns(),
+                          point_thinning(result.n_history_rows, n_points));
+    });
+  }
+  if (const std::size_t n_points = result.used.n_shape_points;
+      n_points > 0 && result.n_shape_rows > 0) {
+    result.shapes = read("shapes.csv", [&](std::istream& file, const std::string& name) {
+      return read_thinned(file, name, shapes_columns(),
+                          shape_thinning(result.n_shape_rows, n_points));
+    });
+    if (result.shapes.size() % n_points != 0) {
+      throw ResultsError(
+          fmt::format("{}: has {} rows, which are no whole shapes of {} points; run the case again",
+                      (directory / "shapes.csv").string(), result.shapes.size(), n_points));
+    }
+    result.envelope = read("envelope.csv", [](std::istream& file, const std::string& name) {
+      return read_checked(file, name, envelope_columns());
+    });
   }
   return run;
 }

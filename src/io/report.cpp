@@ -139,6 +139,41 @@ std::string final_velocities_text(const Case& input, const Result& result,
       final_value(result, result.beam_mean_velocity, beam_error, 6, "m/s"));
 }
 
+// The entry of the envelope where a value is largest.
+template <class Value>
+const EnvelopeRow& where_largest(const Result& result, Value value) {
+  return *std::max_element(
+      result.envelope.begin(), result.envelope.end(),
+      [&](const EnvelopeRow& a, const EnvelopeRow& b) { return value(a) < value(b); });
+}
+
+double magnitude(const EnvelopeRow::Range& range) {
+  return std::max(range.largest.value, -range.smallest.value);
+}
+
+std::string bending_text(const Result& result) {
+  const auto moment = [](const EnvelopeRow& row) { return magnitude(row.moment); };
+  const auto strain = [](const EnvelopeRow& row) { return magnitude(row.strain); };
+  const EnvelopeRow& most_bent = where_largest(result, moment);
+  const EnvelopeRow& most_strained = where_largest(result, strain);
+  return fmt::format("moment up to {:.4g} N m at {:.4g} m, outer strain to {:.3g} % at {:.4g} m",
+                     moment(most_bent), most_bent.position, 100.0 * strain(most_strained),
+                     most_strained.position);
+}
+
+std::string permanent_set_text(const Result& result) {
+  const EnvelopeRow& most =
+      where_largest(result, [](const EnvelopeRow& row) { return std::abs(row.permanent_set); });
+  const PlasticZone& hinge =
+      *std::max_element(result.plastic_zones.begin(), result.plastic_zones.end(),
+                        [](const PlasticZone& a, const PlasticZone& b) {
+                          return std::abs(a.rotation) < std::abs(b.rotation);
+                        });
+  return fmt::format(
+      "{:.4g} mm at {:.4g} m against the chord; largest plastic hinge {:.3g} rad at {:.4g} m",
+      1e3 * most.permanent_set, most.position, hinge.rotation, 0.5 * (hinge.from + hinge.to));
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -270,6 +305,10 @@ std::string run_summary(const Case& input, const Result& result) {
        fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
   const FinalErrors errors = final_errors(result);
   line("maxima", maxima_text(result, errors));
+  if (!result.envelope.empty()) {
+    line("bending", bending_text(result));
+    if (!result.plastic_zones.empty()) line("permanent set", permanent_set_text(result));
+  }
   line("final velocities", final_velocities_text(input, result, errors));
   line("conservation",
        result.max_momentum_error

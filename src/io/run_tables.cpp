@@ -68,6 +68,76 @@ Columns<SubImpact> all_events_columns(const std::optional<std::size_t>& n_decide
   return columns;
 }
 
+// A number of nine digits: fields are looked at and integrated, and their files are large.
+Column<ShapeRow> short_column(const char* name, const char* meaning, double ShapeRow::*member) {
+  Column<ShapeRow> column(name, meaning, member);
+  column.append = [member](std::string& text, const ShapeRow& row, std::size_t) {
+    fmt::format_to(std::back_inserter(text), "{:.9g}", row.*member);
+  };
+  return column;
+}
+
+// The four columns of a range: its ends, each with the instant at which it was reached.
+void add_range(Columns<EnvelopeRow>& columns, const std::string& name, const std::string& unit,
+               const char* meaning, EnvelopeRow::Range EnvelopeRow::*range) {
+  using Extreme = EnvelopeRow::Extreme;
+  using Value = double Extreme::*;
+  const auto add = [&](const char* prefix, const char* words, Extreme EnvelopeRow::Range::*end) {
+    const auto column = [&](const std::string& column_name, const std::string& column_meaning,
+                            Value value) {
+      columns.push_back(
+          {column_name, column_meaning, [=](auto& row) -> decltype((row.*range.*end.*value)) {
+             return row.*range.*end.*value;
+           }});
+    };
+    column(prefix + name + unit, std::string(words) + meaning, &Extreme::value);
+    column(prefix + name + "_time_s", "instant at which that was reached", &Extreme::time);
+  };
+  add("max_", "largest ", &EnvelopeRow::Range::largest);
+  add("min_", "smallest ", &EnvelopeRow::Range::smallest);
+}
+
+// Files of older versions may lack these.
+Columns<HistoryRow> reaction_columns() {
+  Columns<HistoryRow> columns = {
+      {"R_0_N",
+       "force of the support at x = 0 on the beam, positive in the direction of the strike; "
+       "empty: free end",
+       &HistoryRow::first_reaction},
+      {"R_l_N", "the same at x = length", &HistoryRow::last_reaction}};
+  for (Column<HistoryRow>& column : columns) column.optional = true;
+  return columns;
+}
+
+Columns<HistoryRow> all_history_columns() {
+  Columns<HistoryRow> columns = {
+      {"time_s", "time", &HistoryRow::time},
+      {"force_N", "contact force", &HistoryRow::force},
+      {"indentation_m", "indentation", &HistoryRow::indentation},
+      {"w_c_m", "displacement of the struck point", &HistoryRow::struck_displacement},
+      {"w_m_m", "displacement of the striker", &HistoryRow::striker_displacement},
+      {"f_c_m", "deflection w_c - w(0) of the struck point", &HistoryRow::struck_deflection},
+      {"u_mf_m", "w_m - w(0)", &HistoryRow::striker_relative},
+      {"v_c_m_per_s", "velocity of the struck point", &HistoryRow::struck_velocity},
+      {"v_m_m_per_s", "velocity of the striker", &HistoryRow::striker_velocity},
+      {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension",
+       &HistoryRow::back_stress},
+      {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
+      {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
+      {"U_e_J", "elastic energy of bending", &HistoryRow::bending_elastic},
+      {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
+      {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
+      {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
+      {"energy_error", "relative error of the sum of these six and D_b_J",
+       &HistoryRow::energy_error},
+      {"momentum_error", "relative error of the momentum; empty where supports take momentum up",
+       &HistoryRow::momentum_error},
+      {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping}};
+  columns.back().optional = true;  // files of older versions lack it
+  for (Column<HistoryRow>& column : reaction_columns()) columns.push_back(std::move(column));
+  return columns;
+}
+
 template <class Row>
 std::string listing(const char* file, const char* rows, const Columns<Row>& columns) {
   std::string text = fmt::format("{}: {}\n", file, rows);
@@ -94,34 +164,6 @@ const Columns<Transition>& transitions_columns() {
   return columns;
 }
 
-static Columns<HistoryRow> all_history_columns() {
-  Columns<HistoryRow> columns = {
-      {"time_s", "time", &HistoryRow::time},
-      {"force_N", "contact force", &HistoryRow::force},
-      {"indentation_m", "indentation", &HistoryRow::indentation},
-      {"w_c_m", "displacement of the struck point", &HistoryRow::struck_displacement},
-      {"w_m_m", "displacement of the striker", &HistoryRow::striker_displacement},
-      {"f_c_m", "deflection w_c - w(0) of the struck point", &HistoryRow::struck_deflection},
-      {"u_mf_m", "w_m - w(0)", &HistoryRow::striker_relative},
-      {"v_c_m_per_s", "velocity of the struck point", &HistoryRow::struck_velocity},
-      {"v_m_m_per_s", "velocity of the striker", &HistoryRow::striker_velocity},
-      {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension",
-       &HistoryRow::back_stress},
-      {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
-      {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
-      {"U_e_J", "elastic energy of bending", &HistoryRow::bending_elastic},
-      {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
-      {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
-      {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
-      {"energy_error", "relative error of the sum of these six and D_b_J",
-       &HistoryRow::energy_error},
-      {"momentum_error", "relative error of the momentum; empty where supports take momentum up",
-       &HistoryRow::momentum_error},
-      {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping}};
-  columns.back().optional = true;  // files of older versions lack it
-  return columns;
-}
-
 const Columns<HistoryRow>& history_columns() {
   static const Columns<HistoryRow> columns = all_history_columns();
   return columns;
@@ -134,6 +176,50 @@ const Columns<SectionRow>& sections_columns() {
       {"curvature_per_m", "curvature", &SectionRow::curvature},
       {"moment_Nm", "bending moment M, E I kappa while elastic", &SectionRow::moment},
       {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature}};
+  return columns;
+}
+
+const Columns<PointRow>& points_columns() {
+  static const Columns<PointRow> columns = {
+      {"time_s", "time", &PointRow::time},
+      {"position_m", "position of the point along the beam", &PointRow::position},
+      {"displacement_m", "displacement of the axis there", &PointRow::displacement},
+      {"velocity_m_per_s", "velocity", &PointRow::velocity}};
+  return columns;
+}
+
+const Columns<ShapeRow>& shapes_columns() {
+  static const Columns<ShapeRow> columns = {
+      {"time_s", "time", &ShapeRow::time},
+      short_column("position_m", "position along the beam, from x = 0 to its length",
+                   &ShapeRow::position),
+      short_column("displacement_m",
+                   "displacement w of the axis, positive in the direction of the "
+                   "strike",
+                   &ShapeRow::displacement),
+      short_column("velocity_m_per_s", "velocity dw/dt", &ShapeRow::velocity),
+      short_column("slope", "slope dw/dx; at a hinge the mean of both sides", &ShapeRow::slope),
+      short_column("curvature_per_m", "curvature", &ShapeRow::curvature),
+      short_column("moment_Nm", "bending moment M, E I kappa while elastic", &ShapeRow::moment),
+      short_column("plastic_curvature_per_m", "curvature - M/(E I)", &ShapeRow::plastic_curvature)};
+  return columns;
+}
+
+const Columns<EnvelopeRow>& envelope_columns() {
+  static const Columns<EnvelopeRow> columns = [] {
+    Columns<EnvelopeRow> all = {{"position_m", "position along the beam", &EnvelopeRow::position}};
+    add_range(all, "displacement", "_m", "displacement", &EnvelopeRow::displacement);
+    add_range(all, "moment", "_Nm", "bending moment", &EnvelopeRow::moment);
+    add_range(all, "strain", "", "strain of the outer fibre behind, positive in tension",
+              &EnvelopeRow::strain);
+    add_range(all, "plastic_curvature", "_per_m", "plastic curvature",
+              &EnvelopeRow::plastic_curvature);
+    all.push_back({"permanent_set_m",
+                   "displacement, against the chord of both ends, of the beam at rest after the "
+                   "run: the double integral of the plastic curvature",
+                   &EnvelopeRow::permanent_set});
+    return all;
+  }();
   return columns;
 }
 
@@ -153,6 +239,10 @@ std::string sections_csv(const std::vector<SectionRow>& sections) {
   return csv_text(sections_columns(), sections);
 }
 
+std::string envelope_csv(const std::vector<EnvelopeRow>& envelope) {
+  return csv_text(envelope_columns(), envelope);
+}
+
 std::string column_listing() {
   return listing("events.csv", "one row per sub-impact", events_columns()) + "\n" +
          listing("transitions.csv", "one row per located event", transitions_columns()) + "\n" +
@@ -160,7 +250,21 @@ std::string column_listing() {
                  history_columns()) +
          "\n" +
          listing("sections.csv", "one row per section of output.sections and row of history.csv",
-                 sections_columns());
+                 sections_columns()) +
+         "\n" +
+         listing("points.csv", "one row per point of output.points and row of history.csv",
+                 points_columns()) +
+         "\n" +
+         listing("shapes.csv",
+                 "one row per point of the whole beam, at instants output.shapes apart and at "
+                 "every "
+                 "event of the contact; numbers beside the time have 9 digits",
+                 shapes_columns()) +
+         "\n" +
+         listing("envelope.csv",
+                 "one row per point of shapes.csv: extremes over its instants and over rows of "
+                 "history.csv, at least 1/4000 of time.end apart",
+                 envelope_columns());
 }
 
 }  // namespace subimpact

@@ -10,5 +10,8 @@ const Columns<SubImpact>& events_columns();
 const Columns<Transition>& transitions_columns();
 const Columns<HistoryRow>& history_columns();
 const Columns<SectionRow>& sections_columns();
+const Columns<PointRow>& points_columns();
+const Columns<ShapeRow>& shapes_columns();
+const Columns<EnvelopeRow>& envelope_columns();
 
 }  // namespace subimpact

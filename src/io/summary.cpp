@@ -85,6 +85,8 @@ Json what_was_used(const Case& input, const ResolvedSettings& used) {
       {"first_period_s", number(used.first_period)},
       {"initial_energy_J", number(used.initial_energy)},
       {"energy_tolerance_relative", number(used.energy_tolerance)},
+      {"shape_interval_s", number(used.shape_interval)},
+      {"n_shape_points", used.n_shape_points},
   };
 }
 
@@ -106,6 +108,7 @@ Json counts(const Result& result, const std::vector<ZoneSummary>& zones) {
       {"transitions", by_kind},
       {"yielded_sections", result.n_yielded_sections},
       {"history_rows", result.n_history_rows},
+      {"shape_rows", result.n_shape_rows},
   };
 }
 
@@ -131,6 +134,25 @@ Json near_miss_list(const std::vector<NearMiss>& near_misses) {
                     {"margin_m", number(here.margin)}});
   }
   return json;
+}
+
+// The largest permanent set, and the plastic hinges; null without shapes, or if a check failed.
+Json rest_of_bending(const Result& result) {
+  if (result.envelope.empty() || result.outcome.first_failure) return nullptr;
+  const auto largest =
+      std::max_element(result.envelope.begin(), result.envelope.end(),
+                       [](const EnvelopeRow& a, const EnvelopeRow& b) {
+                         return std::abs(a.permanent_set) < std::abs(b.permanent_set);
+                       });
+  Json zones = Json::array();
+  for (const PlasticZone& zone : result.plastic_zones) {
+    zones.push_back({{"from_m", number(zone.from)},
+                     {"to_m", number(zone.to)},
+                     {"rotation_rad", number(zone.rotation)}});
+  }
+  return {{"largest_permanent_set_m", number(largest->permanent_set)},
+          {"position_m", number(largest->position)},
+          {"plastic_zones", zones}};
 }
 
 Json work_counts(const Work& work) {
@@ -242,6 +264,7 @@ std::string summary_json(const Case& input, const Result& result) {
       {"dissipated_by_damping",
        {{"contact_J", number(result.contact_damping_loss)},
         {"beam_J", number(result.beam_damping_loss)}}},
+      {"rest", rest_of_bending(result)},
       {"conservation",
        {{"max_energy_error_relative", number(result.max_energy_error)},
         {"max_momentum_error_relative", number(result.max_momentum_error)},

@@ -75,6 +75,13 @@ namespace {
 // Of the paper's example.
 constexpr double bytes_per_history_row = 345.0;
 constexpr double bytes_per_section_row = 97.0;
+constexpr double bytes_per_point_row = 80.0;
+constexpr double bytes_per_shape_row = 105.0;
+
+const Columns<HistoryRow>& columns_of(const HistoryRow&) { return history_columns(); }
+const Columns<SectionRow>& columns_of(const SectionRow&) { return sections_columns(); }
+const Columns<PointRow>& columns_of(const PointRow&) { return points_columns(); }
+const Columns<ShapeRow>& columns_of(const ShapeRow&) { return shapes_columns(); }
 
 void check_space(const OutputDirectory& directory, const Case& input) {
   std::error_code error;
@@ -89,36 +96,62 @@ void check_space(const OutputDirectory& directory, const Case& input) {
 
 }  // namespace
 
-double foreseen_bytes(const Case& input) {
-  if (!(input.output.interval > 0.0)) return 0.0;
-  const double n_sections = static_cast<double>(input.output.sections.size());
-  return input.end_time / input.output.interval *
-         (bytes_per_history_row + n_sections * bytes_per_section_row);
+double foreseen_shapes(const Case& input) {
+  const double interval = input.output.shape_interval(input.end_time);
+  return interval > 0.0 ? input.end_time / interval : 0.0;
+}
+
+double foreseen_bytes(const Case& input, std::optional<std::size_t> n_shape_points) {
+  const auto most_points = static_cast<std::size_t>(input.output.shape_points);
+  const double bytes_per_shape =
+      bytes_per_shape_row * static_cast<double>(n_shape_points.value_or(most_points));
+  const double of_shapes = foreseen_shapes(input) * bytes_per_shape;
+  if (!(input.output.interval > 0.0)) return of_shapes;
+  const double bytes_per_row =
+      bytes_per_history_row +
+      bytes_per_section_row * static_cast<double>(input.output.sections.size()) +
+      bytes_per_point_row * static_cast<double>(input.output.points.size());
+  return of_shapes + input.end_time / input.output.interval * bytes_per_row;
 }
 
 ResultWriter::ResultWriter(const fs::path& directory, const Case& input)
-    : directory_(directory, "run"),
-      history_(std::make_unique<RowFile>("history.csv", csv_heading(history_columns()))) {
+    : directory_(directory, "run") {
   check_space(directory_, input);
-  if (input.output.sections.empty()) return;
-  sections_ = std::make_unique<RowFile>("sections.csv", csv_heading(sections_columns()));
+  const auto file = [](const char* name, const auto& columns) {
+    return std::make_unique<RowFile>(name, csv_heading(columns));
+  };
+  history_ = file("history.csv", history_columns());
+  if (!input.output.sections.empty()) sections_ = file("sections.csv", sections_columns());
+  if (!input.output.points.empty()) points_ = file("points.csv", points_columns());
 }
 
 ResultWriter::~ResultWriter() = default;
 
-void ResultWriter::add(const HistoryRow& row) {
-  history_->add(history_columns(), row);
-  if (history_->is_full()) flush(*history_);
+template <class Row>
+void ResultWriter::add_to(RowFile& file, const Row& row) {
+  file.add(columns_of(row), row);
+  if (file.is_full()) flush(file);
 }
 
-void ResultWriter::add(const SectionRow& row) {
-  sections_->add(sections_columns(), row);
-  if (sections_->is_full()) flush(*sections_);
+void ResultWriter::add(const HistoryRow& row) { add_to(*history_, row); }
+void ResultWriter::add(const SectionRow& row) { add_to(*sections_, row); }
+void ResultWriter::add(const PointRow& row) { add_to(*points_, row); }
+void ResultWriter::add(const ShapeRow& row) {
+  if (!shapes_) {
+    shapes_ = std::make_unique<RowFile>("shapes.csv", csv_heading(shapes_columns()));
+  }
+  add_to(*shapes_, row);
+}
+
+template <class Use>
+void ResultWriter::for_each_file(Use use) {
+  for (const auto* file : {&history_, &sections_, &points_, &shapes_}) {
+    if (*file) use(**file);
+  }
 }
 
 void ResultWriter::restart() {
-  history_->restart();
-  if (sections_) sections_->restart();
+  for_each_file([](RowFile& file) { file.restart(); });
 }
 
 void ResultWriter::flush(RowFile& rows) {
@@ -138,8 +171,7 @@ void ResultWriter::write_or_relocate(Write write) {
       return;
     } catch (const OutputError& error) {
       directory_.relocate(error.what());  // throws the second time
-      history_->leave_directory();
-      if (sections_) sections_->leave_directory();
+      for_each_file([](RowFile& file) { file.leave_directory(); });
     }
   }
 }
@@ -155,8 +187,8 @@ void ResultWriter::finish(const Case& input, const Result& result) {
   if (!lost_.empty()) throw OutputError(lost_);
   write_or_relocate([&] {
     const fs::path& place = directory_.staging();
-    write_rows(*history_);
-    if (sections_) write_rows(*sections_);
+    for_each_file([this](RowFile& file) { write_rows(file); });
+    if (!result.envelope.empty()) write_file(place / "envelope.csv", envelope_csv(result.envelope));
     write_file(place / "events.csv", events_csv(result));
     write_file(place / "transitions.csv", transitions_csv(result.transitions));
     write_file(place / "summary.json", summary_json(input, result));
@@ -168,6 +200,8 @@ void write_results(const fs::path& directory, const Case& input, const Result& r
   ResultWriter files(directory, input);
   for (const HistoryRow& row : result.history) files.add(row);
   for (const SectionRow& row : result.section_history) files.add(row);
+  for (const PointRow& row : result.point_history) files.add(row);
+  for (const ShapeRow& row : result.shapes) files.add(row);
   files.finish(input, result);
 }
 

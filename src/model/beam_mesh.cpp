@@ -27,6 +27,15 @@ double BeamMesh::curvature(std::size_t section, std::span<const double> unknowns
   return sum;
 }
 
+SparseFunctional BeamMesh::curvature_functional(std::size_t section) const {
+  const SectionStencil row = section_stencil(section);
+  SparseFunctional functional;
+  for (std::size_t i = 0; i < row.coefficients.size(); ++i) {
+    functional.terms.push_back({row.first + i, row.coefficients[i]});
+  }
+  return functional;
+}
+
 void BeamMesh::add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const {
   const std::size_t n = shear_stiffness_.size();
   const std::size_t bandwidth = shear_stiffness_.half_bandwidth();

@@ -24,6 +24,26 @@ std::size_t count_unknowns(const Beam& beam, std::size_t n_cells, bool half) {
   return (half ? n_cells / 2 + 1 : n_cells) - slaved;
 }
 
+// sum += factor * functional, without terms that cancel.
+void add(SparseFunctional& sum, double factor, const SparseFunctional& functional) {
+  for (const auto& [unknown, coefficient] : functional.terms) {
+    const auto same = std::find_if(sum.terms.begin(), sum.terms.end(),
+                                   [&](const auto& term) { return term.unknown == unknown; });
+    if (same == sum.terms.end()) {
+      sum.terms.push_back({unknown, factor * coefficient});
+    } else {
+      same->coefficient += factor * coefficient;
+    }
+  }
+  std::erase_if(sum.terms, [](const auto& term) { return term.coefficient == 0.0; });
+}
+
+// A place in units of the spacing, without rounding where it is a centre or a face.
+double snapped(double at) {
+  const double nearest = 0.5 * std::round(2.0 * at);
+  return std::abs(at - nearest) < 1e-10 ? nearest : at;
+}
+
 // Share of the first unknown in the outermost cell of a clamped end.
 constexpr double clamped_share = 1.0 / 9.0;
 
@@ -73,6 +93,7 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
                    ? mass_per_length_ * spacing_ * static_cast<double>(n_cells)
                    : beam.mass();
   assemble_mass();
+  if (!symmetric()) assemble_moment();
   place_sections();
   place_strike(position);
   if (ends_[0] == EndSupport::free) {  // no curvature there
@@ -119,6 +140,72 @@ void CellMesh::assemble_mass() {
   if (!symmetric() && ends_[1] == EndSupport::pinned) {
     mass_.at(n_unknowns() - 1, n_unknowns() - 1) += 2.0 * coupling;
   }
+}
+
+// Between two centres the rotary inertia of a link has the momentum J (v[i+1] - v[i]); at a pinned
+// end half a link has J v.
+void CellMesh::assemble_moment() {
+  moment_functional_.assign(n_unknowns(), 0.0);
+  for (std::size_t i = 0; i < n_cells_; ++i) {
+    const double x = (static_cast<double>(i) + first_centre_) * spacing_;
+    cell(i).add_to(moment_functional_, mass_per_length_ * spacing_ * x);
+  }
+  if (ends_[0] != EndSupport::pinned) cell(0).add_to(moment_functional_, -rotary_inertia_);
+  if (ends_[1] != EndSupport::pinned) {
+    cell(n_cells_ - 1).add_to(moment_functional_, rotary_inertia_);
+  }
+}
+
+// The displacement of a cell's centre, from the one before the first to the one after the last,
+// which continue the beam beyond its ends (in the half model: into the mirrored half).
+SparseFunctional CellMesh::continued_cell(long i) const {
+  const long n = static_cast<long>(n_cells_);
+  if (symmetric() && i > n / 2) i = n - 1 - i;
+  if (i >= 0 && i < n) return cell(static_cast<std::size_t>(i));
+  const std::size_t outermost = i < 0 ? 0 : n_cells_ - 1;
+  const EndSupport end = ends_[i < 0 ? 0 : 1];
+  SparseFunctional displacement;
+  add(displacement,
+      end == EndSupport::pinned    ? -1.0
+      : end == EndSupport::clamped ? 1.0
+                                   : 2.0,
+      cell(outermost));
+  if (end == EndSupport::free) add(displacement, -1.0, cell(i < 0 ? 1 : n_cells_ - 2));
+  return displacement;
+}
+
+std::optional<SparseFunctional> CellMesh::displacement_at(double x) const {
+  const double cells = static_cast<double>(n_cells_);
+  const double at = std::clamp(snapped(x / spacing_ - first_centre_), -first_centre_,
+                               cells - 1.0 + first_centre_);  // in spacings, from the first centre
+  SparseFunctional displacement;
+  const bool before = at < 0.0;
+  if ((before || at > cells - 1.0) && ends_[before ? 0 : 1] == EndSupport::clamped) {
+    // Within the outer half of the end cell: the parabola.
+    const double from_end = 1.0 - 2.0 * (before ? -at : at - (cells - 1.0));
+    add(displacement, from_end * from_end, cell(before ? 0 : n_cells_ - 1));
+    return displacement;
+  }
+  const double left = std::floor(at);
+  const auto i = static_cast<long>(left);
+  add(displacement, 1.0 - (at - left), continued_cell(i));
+  add(displacement, at - left, continued_cell(i + 1));
+  return displacement;
+}
+
+std::optional<SparseFunctional> CellMesh::slope_at(double x) const {
+  const double n_faces = static_cast<double>(n_cells_) + 1.0;  // both ends among them
+  const double at = std::clamp(snapped(x / spacing_ - first_centre_) + 0.5, 0.0, n_faces - 1.0);
+  const double left = std::min(std::floor(at), n_faces - 2.0);
+  const auto face = static_cast<long>(left);  // between the centres face - 1 and face
+  const double share = at - left;
+  SparseFunctional slope;
+  for (const long i : {face, face + 1}) {
+    const double factor = (i == face ? 1.0 - share : share) / spacing_;
+    add(slope, factor, continued_cell(i));
+    add(slope, -factor, continued_cell(i - 1));
+  }
+  return slope;
 }
 
 void CellMesh::place_sections() {

@@ -47,6 +47,10 @@ class CellMesh final : public BeamMesh {
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
+  /// Linear between centres, as the strike is shared between them.
+  std::optional<SparseFunctional> displacement_at(double x) const override;
+  /// Linear between the faces of cells, where it is the difference of the centres beside them.
+  std::optional<SparseFunctional> slope_at(double x) const override;
   /// (4 c/dx^2)/sqrt(1 + 4 r^2/dx^2) with c = sqrt(E I/(rho A)): the infinite grid's. Supported
   /// ends are constraints on mirrored grids, which cannot exceed it.
   double highest_frequency(double bending_stiffness) const override;
@@ -60,7 +64,9 @@ class CellMesh final : public BeamMesh {
   using EndStencil = std::array<double, 2>;
 
   SparseFunctional cell(std::size_t i) const;
+  SparseFunctional continued_cell(long i) const;
   void assemble_mass();
+  void assemble_moment();
   void place_sections();
   void place_strike(double position);
 

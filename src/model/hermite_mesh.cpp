@@ -82,6 +82,7 @@ HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elemen
     for (const Node& node : nodes_) translation_[node.displacement] = 1.0;
   }
   assemble_mass();
+  if (!symmetric()) assemble_moment();
   gather_elements(sections_per_element);
   const double struck_at = position * beam.length;
   const auto nearer = [&](double x, double y) {
@@ -177,6 +178,24 @@ void HermiteMesh::assemble_mass() {
             mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       }
     }
+  }
+}
+
+// integral of rho A N x + J N' over the elements.
+void HermiteMesh::assemble_moment() {
+  moment_functional_.assign(n_unknowns(), 0.0);
+  double left = 0.0;
+  for (std::size_t e = 0; e < n_elements_; ++e) {
+    const double a = lengths_[e];
+    const double s = a / slope_unit_;
+    const double share = mass_per_length_ * a;
+    add_local(unknowns_of(e),
+              {share * (left / 2.0 + 3.0 * a / 20.0) - rotary_inertia_,
+               share * s * (left / 12.0 + a / 30.0),
+               share * (left / 2.0 + 7.0 * a / 20.0) + rotary_inertia_,
+               -share * s * (left / 12.0 + a / 20.0)},
+              moment_functional_);
+    left += a;
   }
 }
 
@@ -373,6 +392,52 @@ void HermiteMesh::bending_forces(std::span<const double> moments, std::span<doub
 BeamMesh::SectionStencil HermiteMesh::section_stencil(std::size_t section) const {
   const Row& row = rows_[section];
   return {row.first, std::span(row.coefficients).first(row.size)};
+}
+
+std::pair<std::size_t, double> HermiteMesh::element_at(double x) const {
+  constexpr double at_node = 1e-9;  // distance in units of an element's length
+  double left = 0.0;
+  std::size_t e = 0;
+  for (; e + 1 < n_elements_ && x >= left + (1.0 - at_node) * lengths_[e]; ++e) {
+    left += lengths_[e];
+  }
+  const double z = (x - left) / lengths_[e];
+  return {e, z < at_node ? 0.0 : z > 1.0 - at_node ? 1.0 : z};
+}
+
+SparseFunctional HermiteMesh::of_element(std::size_t element, const Local& coefficients) const {
+  const auto unknowns = unknowns_of(element);
+  SparseFunctional functional;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (unknowns[i] == none || coefficients[i] == 0.0) continue;
+    functional.terms.push_back({unknowns[i], coefficients[i]});
+  }
+  return functional;
+}
+
+std::optional<SparseFunctional> HermiteMesh::displacement_at(double x) const {
+  const auto [element, z] = element_at(x);
+  const double s = lengths_[element] / slope_unit_;
+  return of_element(element,
+                    {(1.0 - z) * (1.0 - z) * (1.0 + 2.0 * z), s * z * (1.0 - z) * (1.0 - z),
+                     z * z * (3.0 - 2.0 * z), -s * z * z * (1.0 - z)});
+}
+
+std::optional<SparseFunctional> HermiteMesh::slope_at(double x) const {
+  const auto [element, z] = element_at(x);
+  const double a = lengths_[element];
+  const double of_displacements = 6.0 * z * (1.0 - z) / a;
+  const auto at_start = is_hinge(element) ? nodes_[element].slope_before : none;
+  if (z == 0.0 && element > 0 && at_start != none) {  // the mean of both sides
+    SparseFunctional slope;
+    for (const std::size_t unknown : {at_start, nodes_[element].slope_after}) {
+      slope.terms.push_back({unknown, 0.5 / slope_unit_});
+    }
+    return slope;
+  }
+  if (symmetric() && element + 1 == n_elements_ && z == 1.0) return SparseFunctional{};
+  return of_element(element, {-of_displacements, (1.0 - z) * (1.0 - 3.0 * z) / slope_unit_,
+                              of_displacements, z * (3.0 * z - 2.0) / slope_unit_});
 }
 
 // An element by itself, with springs on its slopes, N/m.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "model/element_grading.h"
@@ -58,6 +59,8 @@ class HermiteMesh final : public BeamMesh {
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
+  std::optional<SparseFunctional> displacement_at(double x) const override;
+  std::optional<SparseFunctional> slope_at(double x) const override;
   /// Bisected to 5e-6 from above.
   double highest_frequency(double bending_stiffness) const override;
   /// In closed form if all elements are equal, none beside a hinge, and not one end is free, the
@@ -124,6 +127,10 @@ class HermiteMesh final : public BeamMesh {
                            std::array<double, 2> springs, double bending_stiffness) const;
   double highest_element_frequency_squared(double bending_stiffness) const;
   void assemble_mass();
+  void assemble_moment();
+  // The element that contains x (m), and where in it, from 0 to 1.
+  std::pair<std::size_t, double> element_at(double x) const;
+  SparseFunctional of_element(std::size_t element, const Local& coefficients) const;
   template <std::size_t points>
   void curvatures_in_runs(const double* unknowns, double* kappa) const;
   template <std::size_t points>

@@ -36,11 +36,9 @@ ModalMesh::ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_st
   for (std::size_t k = 0; k < n; ++k) {
     mass_.at(k, k) = modal_mass_;
     stiffness_.push_back(modal_mass_ * modes_.frequencies[k] * modes_.frequencies[k]);
-    struck_point_.terms.push_back({k, physical_->struck_point()(modes_.shape(k))});
-    first_end_.terms.push_back({k, physical_->first_end()(modes_.shape(k))});
-    struck_point_.dense.push_back(struck_point_.terms.back().coefficient);
-    first_end_.dense.push_back(first_end_.terms.back().coefficient);
   }
+  struck_point_ = in_modes(physical_->struck_point());
+  first_end_ = in_modes(physical_->first_end());
   const auto weights = physical_->section_weights();
   const auto positions = physical_->section_positions();
   weights_.assign(weights.begin(), weights.end());
@@ -51,14 +49,41 @@ ModalMesh::ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_st
     to_modal(physical_->translation(), translation_);
   }
   momentum_functional_.resize(n);
+  if (!physical_->moment_functional().empty()) moment_functional_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    momentum_functional_[k] =
-        dot(physical_->momentum_functional().data(), modes_.shape(k).data(), n);
+    const double* shape = modes_.shape(k).data();
+    momentum_functional_[k] = dot(physical_->momentum_functional().data(), shape, n);
+    if (moment_functional_.empty()) continue;
+    moment_functional_[k] = dot(physical_->moment_functional().data(), shape, n);
   }
   beam_mass_ = physical_->beam_mass();
   for (std::size_t k = 0; k < n; ++k) {
     struck_curvature_.push_back(physical_->curvature(struck_section_, modes_.shape(k)));
   }
+}
+
+SparseFunctional ModalMesh::in_modes(const SparseFunctional& physical) const {
+  SparseFunctional modal;
+  if (physical.is_zero()) return modal;
+  for (std::size_t k = 0; k < n_unknowns(); ++k) {
+    modal.dense.push_back(physical(modes_.shape(k)));
+    modal.terms.push_back({k, modal.dense.back()});
+  }
+  return modal;
+}
+
+SparseFunctional ModalMesh::curvature_functional(std::size_t section) const {
+  return in_modes(physical_->curvature_functional(section));
+}
+
+std::optional<SparseFunctional> ModalMesh::displacement_at(double x) const {
+  const auto physical = physical_->displacement_at(x);
+  return physical ? std::optional(in_modes(*physical)) : std::nullopt;
+}
+
+std::optional<SparseFunctional> ModalMesh::slope_at(double x) const {
+  const auto physical = physical_->slope_at(x);
+  return physical ? std::optional(in_modes(*physical)) : std::nullopt;
 }
 
 double ModalMesh::scale_of_frequencies(double bending_stiffness) const {

@@ -32,6 +32,9 @@ class ModalMesh final : public BeamMesh {
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   double curvature(std::size_t section, std::span<const double> unknowns) const override;
+  SparseFunctional curvature_functional(std::size_t section) const override;
+  std::optional<SparseFunctional> displacement_at(double x) const override;
+  std::optional<SparseFunctional> slope_at(double x) const override;
   /// That of the last mode.
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
@@ -45,6 +48,7 @@ class ModalMesh final : public BeamMesh {
   void to_modal(std::span<const double> physical, std::span<double> modal) const;
 
  private:
+  SparseFunctional in_modes(const SparseFunctional& physical) const;
   // Frequencies with this bending stiffness over those with that of the modes. Throws
   // std::logic_error if it is another one and sections shear.
   double scale_of_frequencies(double bending_stiffness) const;

@@ -12,7 +12,7 @@ constexpr double no_curvature[] = {0.0};
 }  // namespace
 
 RigidMesh::RigidMesh(const Beam& beam, double position)
-    : BeamMesh(degrees_of_freedom(position), 0, false) {
+    : BeamMesh(degrees_of_freedom(position), 0, false), length_(beam.length) {
   const double l = beam.length;
   mass_.at(0, 0) = beam.mass();
   struck_point_.terms = {{0, 1.0}};
@@ -40,6 +40,17 @@ void RigidMesh::bending_forces(std::span<const double>, std::span<double> forces
 }
 
 BeamMesh::SectionStencil RigidMesh::section_stencil(std::size_t) const { return {0, no_curvature}; }
+
+std::optional<SparseFunctional> RigidMesh::displacement_at(double x) const {
+  SparseFunctional displacement{{{0, 1.0}}, {}};
+  if (n_unknowns() == 2) displacement.terms.push_back({1, x - 0.5 * length_});
+  return displacement;
+}
+
+std::optional<SparseFunctional> RigidMesh::slope_at(double) const {
+  if (n_unknowns() == 1) return SparseFunctional{};
+  return SparseFunctional{{{1, 1.0}}, {}};
+}
 
 double RigidMesh::highest_frequency(double) const { return 0.0; }
 

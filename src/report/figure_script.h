@@ -99,6 +99,8 @@ FigureScript indentation_figure(const Case& input, const Result& result);
 FigureScript energies_figure(const Case& input, const Result& result);
 FigureScript timeline_figure(const Case& input, const Result& result);
 FigureScript bending_figure(const Case& input, const Result& result);
+FigureScript shapes_figure(const Case& input, const Result& result);
+FigureScript envelope_figure(const Case& input, const Result& result);
 /// Those for which the run has data, marked if the run did not complete.
 std::vector<FigureScript> figure_scripts(const Case& input, const Result& result);
 

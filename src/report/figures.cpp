@@ -58,6 +58,11 @@ std::vector<std::string> figures_left_out(const Case& input, const Result& resul
   } else if (input.output.sections.size() > most_bending_panels) {
     reasons.push_back(sections_left_out(input.output.sections));
   }
+  if (result.shapes.empty()) {
+    reasons.push_back(
+        "shapes, envelope: the run kept no shapes; run it again with output.shapes above 0, or "
+        "without it");
+  }
   return reasons;
 }
 
@@ -71,6 +76,8 @@ std::vector<FigureScript> figure_scripts(const Case& input, const Result& result
   }
   figures.push_back(timeline_figure(input, result));
   if (!result.section_history.empty()) figures.push_back(bending_figure(input, result));
+  if (!result.shapes.empty()) figures.push_back(shapes_figure(input, result));
+  if (!result.envelope.empty()) figures.push_back(envelope_figure(input, result));
   const std::string caveat = outcome_caveat(result);
   const std::string undecided = undecided_mark(result);
   for (FigureScript& figure : figures) {

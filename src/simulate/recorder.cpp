@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "numerics/hermite.h"
 #include "numerics/trajectory_root.h"
@@ -31,6 +33,11 @@ double maximum_in(const Function& f, double low, double high) {
 // end.
 constexpr double tolerated_rounding = 64.0;
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// Rows and shapes nearer than this, relative to the time, are of one instant.
+constexpr double same_instant = 1e-12;
+
 }  // namespace
 
 Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
@@ -54,8 +61,18 @@ void Recorder::on_approach(double end, StruckBeam& beam) {
   }
 }
 
+void Recorder::keep_fields(const FieldOptions& options) {
+  auto fields = std::make_unique<FieldRecorder>(accounts_.beam(), options, result_);
+  if (fields->is_needed()) fields_ = std::move(fields);
+}
+
+void Recorder::send_rows_to(RowSink& rows) {
+  rows_ = &rows;
+  if (fields_) fields_->send_rows_to(rows);
+}
+
 void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
-  if (interval_ > 0.0) add_rows_within(step, beam);
+  if (interval_ > 0.0 || fields_) add_rows_within(step, beam);
   if (!result_.first_section_yield) {
     result_.first_section_yield = first_flow_.find(beam, step.ends());
   }
@@ -70,32 +87,45 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
 }
 
 void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
-  for (;; ++next_row_) {
-    const double t = static_cast<double>(next_row_) * interval_;
-    if (t >= step.t1()) return;  // the end itself is the next step's start
+  for (;;) {
+    const double row_time = interval_ > 0.0 ? static_cast<double>(next_row_) * interval_ : never;
+    const double shape_time = fields_ ? fields_->next_shape() : never;
+    const bool both =
+        row_time < never && std::abs(row_time - shape_time) <= same_instant * row_time;
+    const double t = both ? row_time : std::min(row_time, shape_time);
+    if (!(t < step.t1())) return;  // the end itself is the next step's start
+    const bool row = t == row_time;
+    const bool shape = both || t == shape_time;
+    if (row) ++next_row_;
     if (t <= step.t0()) {
-      add_row(t, step.y0(), accounts_);
+      add_rows(t, row, shape, step.y0(), accounts_);
       continue;
     }
     step.corrected_state_at(t, state_, correction_);
     if (beam.depends_on_velocity()) {
-      add_damped_row(t, step, beam);
+      add_damped_rows(t, row, shape, step, beam);
     } else if (correction_.is_empty()) {
-      add_row(t, state_, accounts_);
+      add_rows(t, row, shape, state_, accounts_);
     } else {
       const SectionField reached = correction_.reversed(beam.sections());
       Accounts accounts(beam, reached);
-      add_row(t, state_, accounts);
+      add_rows(t, row, shape, state_, accounts);
     }
   }
 }
 
-void Recorder::add_damped_row(double time, const ObservedStep& step, StruckBeam& beam) {
+void Recorder::add_damped_rows(double time, bool row, bool shape, const ObservedStep& step,
+                               StruckBeam& beam) {
   const Losses before = beam.losses();
   const State y = state_;
   beam.add_losses(losses_.over(step, time, y, beam));
-  add_row(time, y, accounts_);
+  add_rows(time, row, shape, y, accounts_);
   beam.set_losses(before);
+}
+
+void Recorder::add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts) {
+  if (row) add_row(time, y, accounts);
+  if (shape) fields_->add_shape(time, y, accounts);
 }
 
 void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
@@ -174,6 +204,7 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
 void Recorder::before_event(const Transition& event, const State& y, StruckBeam& beam) {
   force_.forget_neighbour();
   add_event_row(event, y);
+  if (fields_) fields_->add_shape(event.time, y, accounts_);
   result_.transitions.push_back(event);
   if (event.kind == EventKind::contact_begins) {
     in_contact_ = true;
@@ -237,6 +268,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
   if (is_good && interval_ > 0.0 && last_row_time_ < time) {
     add_row(time, y, accounts_);
   }
+  if (fields_) fields_->finish(time, y, accounts_, is_good);
   if (in_contact_) close_sub_impact(y, beam);
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
@@ -269,6 +301,7 @@ void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
     result_.history.push_back(row);
   }
   add_section_rows(row.time, y, accounts);
+  if (fields_) fields_->follow(row.time, y, accounts);
 }
 
 void Recorder::check_push(HistoryRow& row) const {
@@ -327,6 +360,7 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   row.energy_error = audit_.energy_error(energies);
   row.momentum_error = audit_.momentum_error(y);
   row.beam_damping = energies.beam_damping;
+  if (fields_) fields_->add_reactions(row, y, accounts);
   return row;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <memory>
+
 #include "simulate/event_loop.h"
+#include "simulate/field_recorder.h"
 #include "simulate/force_quadrature.h"
 #include "simulate/near_miss_search.h"
 #include "subimpact/simulate/result.h"
@@ -18,8 +21,11 @@ class Recorder final : public RunObserver {
   /// Keeps the bending of these sections (indices) too, at every history row.
   void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
 
+  /// Keeps the fields along the beam, as far as they are asked for.
+  void keep_fields(const FieldOptions& options);
+
   /// Rows go to `rows` in place of the result.
-  void send_rows_to(RowSink& rows) { rows_ = &rows; }
+  void send_rows_to(RowSink& rows);
 
   void on_approach(double end, StruckBeam& beam) override;
   void on_step(const ObservedStep& step, StruckBeam& beam) override;
@@ -43,12 +49,15 @@ class Recorder final : public RunObserver {
   void begin(NearMissKind kind, const StruckBeam& beam);
   void close_sub_impact(const State& y, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
+  // A history row, a shape, or both.
+  void add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts);
   void integrate_force(const ObservedStep& step, const StruckBeam& beam);
   void follow_peak(double indentation, const StruckBeam& beam);
   // The peak of a damped force, which comes before that of the indentation.
   void follow_damped_force(const ObservedStep& step, const StruckBeam& beam);
   // The state within the step, in state_, with what is lost up to there.
-  void add_damped_row(double time, const ObservedStep& step, StruckBeam& beam);
+  void add_damped_rows(double time, bool row, bool shape, const ObservedStep& step,
+                       StruckBeam& beam);
   void look_for_peak(const ObservedStep& step, StruckBeam& beam);
   // Contact only pushes: a force below zero by no more than the tolerance is none.
   void check_push(HistoryRow& row) const;
@@ -79,6 +88,7 @@ class Recorder final : public RunObserver {
   State state_;
   SectionCorrection correction_;  // of a state within a step
   std::vector<std::size_t> sections_;
+  std::unique_ptr<FieldRecorder> fields_;  // none: no field is kept
   std::vector<long> steps_in_contact_;
 };
 

@@ -12,6 +12,7 @@
 #include "numerics/mass_solver.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
+#include "system/beam_field.h"
 #include "system/contact_event_functions.h"
 #include "system/contact_resonance.h"
 
@@ -375,6 +376,24 @@ void check(const Problem& problem, const Options& options) {
   if (!positive(options.solver.rtol)) refuse("solver.rtol", "is not positive; allowed: above 0");
 }
 
+// A mesh of a user's own may give no displacements along the beam.
+double shape_interval(const Options& options, const BeamMesh& mesh) {
+  const std::optional<double>& asked = options.output.shapes;
+  if (BeamField::is_available(mesh)) return options.output.shape_interval(options.end_time);
+  const auto refuse = [](const char* key) {
+    throw InvalidCase(key,
+                      "is given, but this mesh gives no displacements along the beam; leave it "
+                      "out, or give the mesh displacement_at() and slope_at()");
+  };
+  if (asked && *asked > 0.0) refuse("output.shapes");
+  if (!options.output.points.empty()) refuse("output.points");
+  return 0.0;
+}
+
+std::size_t most_shape_points(const Options& options) {
+  return static_cast<std::size_t>(options.output.shape_points);
+}
+
 ResolvedSettings settings_of(const Problem& problem, const Options& options,
                              const StruckBeam& beam) {
   ResolvedSettings used;
@@ -420,6 +439,11 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
     }
   }
   used.energy_tolerance = energy_tolerance(options, used);
+  used.shape_interval = shape_interval(options, beam.mesh());
+  if (used.shape_interval > 0.0) {
+    used.n_shape_points =
+        BeamField(beam, problem.beam.length, most_shape_points(options)).whole_size();
+  }
   used.memory = memory_of(options, beam);
   used.decomposition = decomposition_of(options, beam);
   return used;
@@ -441,6 +465,23 @@ std::vector<std::size_t> sections_at(const std::vector<double>& fractions, doubl
   return sections;
 }
 
+FieldOptions field_options(const Problem& problem, const Options& options,
+                           const ResolvedSettings& used) {
+  FieldOptions fields;
+  fields.shape_interval = used.shape_interval;
+  fields.most_points = most_shape_points(options);
+  fields.end_time = options.end_time;
+  fields.length = problem.beam.length;
+  fields.thickness = problem.beam.thickness;
+  fields.struck_at = problem.striker.position * problem.beam.length;
+  fields.yield_curvature = problem.beam.yield_curvature();
+  fields.reactions = options.output.interval > 0.0;
+  for (const double fraction : options.output.points) {
+    fields.points.push_back(fraction * problem.beam.length);
+  }
+  return fields;
+}
+
 RunOptions run_options(const Problem& problem, const Options& options, const ResolvedSettings& used,
                        const BeamMesh& mesh) {
   RunOptions run;
@@ -458,6 +499,7 @@ RunOptions run_options(const Problem& problem, const Options& options, const Res
   run.limits = {used.energy_tolerance, tolerated_momentum};
   run.history_interval = options.output.interval;
   run.sections = sections_at(options.output.sections, problem.beam.length, mesh);
+  run.fields = field_options(problem, options, used);
   run.zone_gap = options.output.zone_gap * used.first_period;
   run.subzone_gap = options.output.subzone_gap * used.first_period;
   run.fixed_step = used.step;

@@ -157,6 +157,7 @@ Result simulate(StruckBeam& beam, Integrator& integrator, const RunOptions& opti
   Audit audit(beam, beam.initial_state(), options.limits);
   Recorder recorder(beam, options.history_interval, options.loop.events, audit, result);
   recorder.keep_sections(options.sections);
+  recorder.keep_fields(options.fields);
   if (rows != nullptr) recorder.send_rows_to(*rows);
   std::optional<Observers> observers;
   if (observer != nullptr) observers.emplace(recorder, *observer);

@@ -6,6 +6,7 @@
 
 #include "simulate/audit.h"
 #include "simulate/event_loop.h"
+#include "simulate/field_recorder.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
@@ -18,9 +19,10 @@ struct RunOptions {
   AuditLimits limits;
   double history_interval = 0.0;      ///< s between history rows; 0: none
   std::vector<std::size_t> sections;  ///< indices of those whose bending is kept
-  double zone_gap = 0.0;              ///< s
-  double subzone_gap = 0.0;           ///< s
-  std::optional<double> fixed_step;   ///< s, of the integrator; contacts of few steps are noted
+  FieldOptions fields;
+  double zone_gap = 0.0;             ///< s
+  double subzone_gap = 0.0;          ///< s
+  std::optional<double> fixed_step;  ///< s, of the integrator; contacts of few steps are noted
   /// The beam's material: the run ends once no more contact can follow; empty: at the end time.
   std::optional<Beam> stops_without_contact;
 };

@@ -79,6 +79,30 @@ TEST(AMeshOfOnesOwn, GivesTheBitsOfTheBuiltInOneThatItIs) {
   }
 }
 
+TEST(AMeshOfOnesOwn, WithoutDisplacementsHasNoShapesAndRefusesThoseAskedFor) {
+  Case input = short_case();
+  EXPECT_FALSE(simulate(input).shapes.empty());
+  const CellMesh cells(input.scene.beam, 0.5, 51, CellMesh::Extent::half);
+  input.parts.mesh = std::make_shared<CountingMesh>(cells);
+  const Result result = simulate(input);
+  EXPECT_TRUE(result.shapes.empty());
+  EXPECT_TRUE(result.envelope.empty());
+  EXPECT_EQ(result.used.shape_interval, 0.0);
+  const auto key_refused = [](const Case& given) -> std::string {
+    try {
+      resolve(given);
+      return {};
+    } catch (const InvalidCase& refused) {
+      return refused.key;
+    }
+  };
+  Case shapes = input, points = input;
+  shapes.output.shapes = 1e-5;
+  points.output.points = {0.5};
+  EXPECT_EQ(key_refused(shapes), "output.shapes");
+  EXPECT_EQ(key_refused(points), "output.points");
+}
+
 TEST(ARun, BuildsItsModelOnce) {
   Case input = short_case();
   input.model.section = SectionKind::elastic;

@@ -53,7 +53,8 @@ TEST(Columns, AreListedByTable) {
   const Finished finished = run_program({"columns"});
   EXPECT_EQ(finished.status, 0);
   for (const char* piece :
-       {"events.csv: one row per sub-impact\n", "history.csv: ", "\n  w_c_m ", "sections.csv: "}) {
+       {"events.csv: one row per sub-impact\n", "history.csv: ", "\n  w_c_m ",
+        "sections.csv: ", "points.csv: ", "shapes.csv: ", "envelope.csv: ", "\n  max_moment_Nm "}) {
     expect_in(finished.output, piece);
   }
 }

@@ -35,8 +35,8 @@ TEST(Plot, DrawsTheFiguresOfARunIntoItsDirectory) {
   const Finished finished = run_program({"plot", "here"}, directory.path);
   EXPECT_EQ(finished.status, 0) << finished.errors;
   EXPECT_EQ(finished.errors, "");
-  for (const std::string name :
-       {"response", "first-sub-impact", "indentation", "energies", "timeline", "bending"}) {
+  for (const std::string name : {"response", "first-sub-impact", "indentation", "energies",
+                                 "timeline", "bending", "shapes", "envelope"}) {
     expect_in(finished.output, name + ".svg, " + name + ".png");
     EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / (name + ".svg")));
     EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / (name + ".png")));

@@ -268,7 +268,8 @@ TEST(Run, TakesTheDiskThatIsForetold) {
   ASSERT_EQ(finished.status, 0) << finished.errors;
   const std::filesystem::path here = directory.path / "here";
   const auto taken = static_cast<double>(std::filesystem::file_size(here / "history.csv") +
-                                         std::filesystem::file_size(here / "sections.csv"));
+                                         std::filesystem::file_size(here / "sections.csv") +
+                                         std::filesystem::file_size(here / "shapes.csv"));
   const double foreseen = foreseen_bytes(read_results(here).input);
   EXPECT_GT(foreseen, 0.8 * taken);
   EXPECT_LT(foreseen, 1.3 * taken);

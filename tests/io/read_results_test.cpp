@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -46,7 +47,8 @@ void make_older(const std::filesystem::path& directory, std::string summary, con
 TEST(ReadResults, IsTheInverseOfWritingThem) {
   const Case paper =
       read_case_file(SUBIMPACT_PAPER_CASE,
-                     {parse_override("time.end=2e-5"), parse_override("output.sections=0.5,0.3")})
+                     {parse_override("time.end=2e-5"), parse_override("output.sections=0.5,0.3"),
+                      parse_override("output.points=0.1,0.9")})
           .value;
   Case linear = read_case_text(small_case_text(), "small.toml").value;
   linear.scene.contact = {ContactKind::linear, 1e8, {}, {}, {}};
@@ -68,6 +70,12 @@ TEST(ReadResults, IsTheInverseOfWritingThem) {
     EXPECT_EQ(history_csv(run.result.history), history_csv(result.history));
     EXPECT_EQ(sections_csv(run.result.section_history), sections_csv(result.section_history));
     EXPECT_EQ(run.result.section_history.empty(), input.output.sections.empty());
+    EXPECT_EQ(envelope_csv(run.result.envelope), envelope_csv(result.envelope));
+    ASSERT_EQ(run.result.shapes.size(), result.shapes.size());
+    const ShapeRow& last = result.shapes.back();
+    EXPECT_EQ(run.result.shapes.back().time, last.time);
+    EXPECT_NEAR(run.result.shapes.back().velocity, last.velocity, 1e-8 * std::abs(last.velocity));
+    EXPECT_EQ(run.result.point_history.size(), input.output.points.size() * result.history.size());
   }
 }
 

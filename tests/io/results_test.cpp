@@ -115,10 +115,13 @@ TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
 TEST(HistoryCsv, HasTheAgreedColumnsAndAsManyInEveryRow) {
   const Table rows = parse_csv(history_csv(sample_result().history));
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{
-                         "time_s", "force_N", "indentation_m", "w_c_m", "w_m_m", "f_c_m", "u_mf_m",
-                         "v_c_m_per_s", "v_m_m_per_s", "stress_back_Pa", "U_m_J", "U_k_J", "U_e_J",
-                         "U_p_J", "U_c_J", "D_c_J", "energy_error", "momentum_error", "D_b_J"}));
+  EXPECT_EQ(rows[0],
+            (std::vector<std::string>{
+                "time_s", "force_N",      "indentation_m",  "w_c_m",       "w_m_m",
+                "f_c_m",  "u_mf_m",       "v_c_m_per_s",    "v_m_m_per_s", "stress_back_Pa",
+                "U_m_J",  "U_k_J",        "U_e_J",          "U_p_J",       "U_c_J",
+                "D_c_J",  "energy_error", "momentum_error", "D_b_J",       "R_0_N",
+                "R_l_N"}));
   EXPECT_EQ(rows[1].size(), rows[0].size());
   EXPECT_EQ(number(rows[1][0]), 1e-6 / 3.0);
   EXPECT_EQ(number(rows[1][1]), 1822.9000000000001);
@@ -140,8 +143,8 @@ TEST(ColumnListing, NamesAndExplainsEveryColumnOfEveryTable) {
   const std::string listing = column_listing();
   Result result = sample_result();
   result.sub_impacts[0].start_error = 1e-9;
-  for (const std::string& table :
-       {events_csv(result), transitions_csv({}), history_csv({}), sections_csv({})}) {
+  for (const std::string& table : {events_csv(result), transitions_csv({}), history_csv({}),
+                                   sections_csv({}), envelope_csv({})}) {
     const Table rows = parse_csv(table);
     for (const std::string& column : rows[0]) {
       const std::size_t at = listing.find("\n  " + column + " ");
@@ -253,6 +256,7 @@ TEST(WriteResults, OfRowsAsTheyAreMadeAreThoseOfTheWholeResult) {
   input.end_time = 3e-4;
   input.output.interval = 1e-7;
   input.output.sections = {0.5, 0.25};
+  input.output.points = {0.3};
   const Result whole = simulate(input);
   write_results(at_once.path, input, whole);
   ResultWriter files(as_made.path, input);
@@ -260,7 +264,10 @@ TEST(WriteResults, OfRowsAsTheyAreMadeAreThoseOfTheWholeResult) {
   EXPECT_TRUE(without_rows.history.empty());
   EXPECT_EQ(without_rows.n_history_rows, whole.history.size());
   files.finish(input, without_rows);
-  for (const char* name : {"events.csv", "transitions.csv", "history.csv", "sections.csv"}) {
+  EXPECT_TRUE(without_rows.shapes.empty());
+  EXPECT_EQ(without_rows.n_shape_rows, whole.shapes.size());
+  for (const char* name : {"events.csv", "transitions.csv", "history.csv", "sections.csv",
+                           "points.csv", "shapes.csv", "envelope.csv"}) {
     EXPECT_EQ(read_file(as_made.path / name), read_file(at_once.path / name)) << name;
   }
   EXPECT_GT(fs::file_size(as_made.path / "history.csv"), 1'000'000u);

@@ -260,11 +260,11 @@ TEST(Figures, AreDrawnAgainFromTheirScriptsAlone) {
   }
 }
 
-TEST(Figures, OfARunAreSixEachAsSvgAndPngAndScript) {
+TEST(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
   const TemporaryDirectory directory;
   const Case input = short_case({parse_override("output.sections=0.5,0.4,0.3")});
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
-  EXPECT_EQ(figures.drawn.size(), 6u);
+  EXPECT_EQ(figures.drawn.size(), 8u);
   EXPECT_TRUE(figures.left_out.empty());
   for (const DrawnFigure& figure : figures.drawn) {
     expect_in(content(directory.path / (figure.name + ".svg")), "</svg>");
@@ -286,9 +286,10 @@ TEST(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
   ASSERT_EQ(figures.drawn.size(), 1u);
   EXPECT_EQ(figures.drawn[0].name, "timeline");
-  ASSERT_EQ(figures.left_out.size(), 2u);
+  ASSERT_EQ(figures.left_out.size(), 3u);
   expect_in(figures.left_out[0], "output.interval above 0");
   expect_in(figures.left_out[1], "output.sections=0.5");
+  expect_in(figures.left_out[2], "output.shapes above 0");
 }
 
 TEST(Figures, AreDrawnForElasticRigidAndOpenRunsToo) {

@@ -126,11 +126,26 @@ TEST(HtmlReport, IsWellFormedAndNeedsNothingFromOutside) {
 TEST(HtmlReport, HoldsCaseWordsTableFiguresMethodErrorBarsAndConservation) {
   const FinishedRun run = small_run();
   const std::string page = page_of(run);
-  for (const char* piece :
-       {"Beam &lt;A&gt; &amp; &quot;B&quot;", "In words", "Figures", "figure-response",
-        "figure-bending", "Figure 6.", "Sub-impacts", "peak force", "Case", "striker.velocity",
-        "15.9 m/s", "Method", "erk, table dop853", "Error bars", "--error-bars", "Conservation",
-        "Total momentum is conserved", "subimpact 1.2.3, SUNDIALS 6.4.1"}) {
+  for (const char* piece : {"Beam &lt;A&gt; &amp; &quot;B&quot;",
+                            "In words",
+                            "Figures",
+                            "figure-response",
+                            "figure-bending",
+                            "figure-shapes",
+                            "figure-envelope",
+                            "Figure 8.",
+                            "Sub-impacts",
+                            "peak force",
+                            "Case",
+                            "striker.velocity",
+                            "15.9 m/s",
+                            "Method",
+                            "erk, table dop853",
+                            "Error bars",
+                            "--error-bars",
+                            "Conservation",
+                            "Total momentum is conserved",
+                            "subimpact 1.2.3, SUNDIALS 6.4.1"}) {
     expect_in(page, piece);
   }
   std::size_t n_rows = 0;

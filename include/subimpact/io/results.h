@@ -19,13 +19,17 @@ namespace subimpact {
 /// or removed. 1: files without that key; 4: manifest.json lies beside it.
 constexpr int summary_layout = 4;
 
-/// Writes events.csv, transitions.csv, history.csv and summary.json, and sections.csv if
-/// output.sections is not empty. All files appear as one, with a manifest.json, or none does (see
+/// Writes events.csv, transitions.csv, history.csv and summary.json; shapes.csv and envelope.csv
+/// unless output.shapes is 0; sections.csv and points.csv if output.sections and output.points are
+/// not empty. All files appear as one, with a manifest.json, or none does (see
 /// OutputDirectory). Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
-/// Bytes that the files of a run take, roughly: those of its rows.
-double foreseen_bytes(const Case& input);
+/// Bytes that the files of a run take, roughly: those of its rows, with `n_shape_points` points in
+/// a shape (ResolvedSettings), or as many as output.shape_points allows.
+double foreseen_bytes(const Case& input, std::optional<std::size_t> n_shape_points = {});
+/// Shapes of a run, without those of events.
+double foreseen_shapes(const Case& input);
 
 /// The same for a run that is still to come: the directory is locked and known to be writable
 /// before the run, and rows go to their files as they are made.
@@ -41,6 +45,8 @@ class ResultWriter final : public RowSink {
 
   void add(const HistoryRow& row) override;
   void add(const SectionRow& row) override;
+  void add(const PointRow& row) override;
+  void add(const ShapeRow& row) override;
 
   /// Discards the rows so far: another run begins.
   void restart();
@@ -55,13 +61,18 @@ class ResultWriter final : public RowSink {
 
  private:
   class RowFile;
+  template <class Row>
+  void add_to(RowFile& file, const Row& row);
   void flush(RowFile& rows);
   void write_rows(RowFile& rows);
   template <class Write>
   void write_or_relocate(Write write);
 
   OutputDirectory directory_;
-  std::unique_ptr<RowFile> history_, sections_;
+  template <class Use>
+  void for_each_file(Use use);
+
+  std::unique_ptr<RowFile> history_, sections_, points_, shapes_;  // none: no such rows
   std::string lost_;  // why rows could be written nowhere
 };
 
@@ -78,6 +89,7 @@ std::string events_csv(const Result& result);
 std::string transitions_csv(const std::vector<Transition>& transitions);
 std::string history_csv(const std::vector<HistoryRow>& history);
 std::string sections_csv(const std::vector<SectionRow>& sections);
+std::string envelope_csv(const std::vector<EnvelopeRow>& envelope);
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct SparseFunctional {
   std::vector<Term> terms;
   std::vector<double> dense;  ///< the same, one coefficient per unknown, where the terms are many
 
+  /// Whether it is zero whatever the unknowns are.
+  bool is_zero() const { return terms.empty() && dense.empty(); }
   double operator()(std::span<const double> unknowns) const {
     if (!dense.empty()) return of_all(unknowns);
     double sum = 0.0;
@@ -80,6 +83,9 @@ class BeamMesh {
   std::span<const double> translation() const { return translation_; }
   /// Momentum of the beam for 1 m/s of each unknown, kg.
   std::span<const double> momentum_functional() const { return momentum_functional_; }
+  /// Moment of momentum of the beam about x = 0 for 1 m/s of each unknown, kg m: the integral of
+  /// rho A x w_t + J w_xt. Empty where a mesh does not give it, and on one half of a beam.
+  std::span<const double> moment_functional() const { return moment_functional_; }
   double beam_mass() const { return beam_mass_; }  ///< kg, of the whole beam
   /// Whether only one half is stored.
   bool symmetric() const { return symmetric_; }
@@ -104,6 +110,14 @@ class BeamMesh {
 
   /// Curvature of one section, 1/m.
   virtual double curvature(std::size_t section, std::span<const double> unknowns) const;
+  /// The same as coefficients on the unknowns.
+  virtual SparseFunctional curvature_functional(std::size_t section) const;
+  /// Displacement w of the axis at x (m, from 0 to the end of the part modelled) and its slope w',
+  /// as coefficients on the unknowns; where the slope jumps, the mean of both sides, and at an end
+  /// the slope within the beam. Nothing on a mesh that does not give them: a run then has no
+  /// shapes.
+  virtual std::optional<SparseFunctional> displacement_at(double /*x*/) const { return {}; }
+  virtual std::optional<SparseFunctional> slope_at(double /*x*/) const { return {}; }
   /// Half bandwidth of B^T B and K_s.
   std::size_t stiffness_bandwidth() const;
   /// result += B^T W diag(tangents) B + K_s, N/m; `tangents` = dM/dkappa of the sections, N m2. The
@@ -141,6 +155,7 @@ class BeamMesh {
   std::size_t struck_section_ = 0;
   std::vector<double> translation_;
   std::vector<double> momentum_functional_;
+  std::vector<double> moment_functional_;
   double beam_mass_ = 0.0;
   bool symmetric_;
 };

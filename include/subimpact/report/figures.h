@@ -42,9 +42,9 @@ std::vector<std::string> figures_left_out(const Case& input, const Result& resul
 /// Draws into a directory, as SVG and PNG: `response` (force and displacements), `first-sub-impact`
 /// (force and back stress), `indentation` (force against indentation), `energies` (with zones),
 /// `timeline` (start, duration and impulse of every sub-impact), `bending` (moment against
-/// curvature of the sections kept). The gnuplot scripts, tables included, stay beside them. Figures
-/// of a run that did not complete state this above their panels. Throws GnuplotMissing, and
-/// OutputError if a file cannot be written.
+/// curvature of the sections kept), `shapes` and `envelope` (along the beam). The gnuplot scripts,
+/// tables included, stay beside them. Figures of a run that did not complete state this above their
+/// panels. Throws GnuplotMissing, and OutputError if a file cannot be written.
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
                           const Result& result);
 

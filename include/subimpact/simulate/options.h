@@ -3,6 +3,8 @@
 /// Options of a run: method, tolerances, events, output. Each member is a key of the case file
 /// ("solver.rtol"); case_keys() (see case/case_keys.h) lists them with units, defaults and ranges.
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -63,11 +65,25 @@ struct OutputOptions {
   double zone_gap = 0.1;         ///< in first flexural periods
   double subzone_gap = 0.02;     ///< in first flexural periods
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
+  std::vector<double> points;    ///< points whose motion is kept, as fractions of the length
+  /// s between shapes, the fields along the whole beam; 0: none, and no envelope; empty: such that
+  /// there are some 400, or none in a run without history rows.
+  std::optional<double> shapes;
+  int shape_points = 101;  ///< most points of a shape, along the whole beam
+
+  /// s between shapes of a run that ends at `end_time` (s); 0: none. Where it is left open, shapes
+  /// are of instants that have history rows, so that they cost no further states.
+  double shape_interval(double end_time) const {
+    if (shapes) return *shapes;
+    return interval > 0.0 ? interval * std::max(std::round(end_time / 400.0 / interval), 1.0) : 0.0;
+  }
 
   /// For refined runs, of which only the sub-impacts matter.
   void keep_no_rows() {
     interval = 0.0;
     sections.clear();
+    points.clear();
+    shapes = 0.0;
   }
 };
 

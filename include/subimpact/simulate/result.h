@@ -12,6 +12,7 @@
 #include "subimpact/ode/work_counts.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
+#include "subimpact/system/plastic_zone.h"
 
 namespace subimpact {
 
@@ -38,6 +39,8 @@ struct HistoryRow {
   /// take momentum up.
   std::optional<double> momentum_error;
   double beam_damping = 0.0;  ///< D_b
+  /// N, of the supports on the beam, positive in the direction of the strike; none at a free end.
+  std::optional<double> first_reaction, last_reaction;
 };
 
 /// One row of sections.csv: a section whose bending is kept, at the time of a history row.
@@ -49,6 +52,47 @@ struct SectionRow {
   double plastic_curvature;  ///< kappa - M/(E I), 1/m
 };
 
+/// One row of points.csv: a point of the beam's axis at the time of a history row.
+struct PointRow {
+  double time;          ///< s
+  double position;      ///< x, m
+  double displacement;  ///< m
+  double velocity;      ///< m/s
+};
+
+/// One row of shapes.csv: a point of the whole beam at one instant.
+struct ShapeRow {
+  double time;               ///< s
+  double position;           ///< x, m
+  double displacement;       ///< w, m
+  double velocity;           ///< m/s
+  double slope;              ///< dw/dx
+  double curvature;          ///< kappa, 1/m
+  double moment;             ///< M, N m
+  double plastic_curvature;  ///< kappa - M/(E I), 1/m
+};
+
+/// One row of envelope.csv: the extremes at a point of the beam over the run.
+struct EnvelopeRow {
+  struct Extreme {
+    double value = 0.0;
+    double time = 0.0;  ///< s
+  };
+  struct Range {
+    Extreme smallest, largest;
+    void include(double value, double time) {
+      if (value < smallest.value) smallest = {value, time};
+      if (value > largest.value) largest = {value, time};
+    }
+  };
+  double position = 0.0;       ///< x, m
+  Range displacement;          ///< m
+  Range moment;                ///< N m
+  Range strain;                ///< -kappa h/2, of the outer fibre behind; tension: above 0
+  Range plastic_curvature;     ///< 1/m
+  double permanent_set = 0.0;  ///< m: displacement at rest against the chord
+};
+
 /// Takes the rows of a run as they are made, so that they need not be held in memory. Called in the
 /// order of the files, in the thread of the run.
 class RowSink {
@@ -57,6 +101,10 @@ class RowSink {
   virtual void add(const HistoryRow& row) = 0;
   /// The sections of output.sections, at the time of the history row before.
   virtual void add(const SectionRow& row) = 0;
+  /// The points of output.points, at the time of the history row before.
+  virtual void add(const PointRow& /*row*/) {}
+  /// The points of a shape, one after another in ascending order of x.
+  virtual void add(const ShapeRow& /*row*/) {}
 };
 
 /// How a simulation ended.
@@ -118,6 +166,8 @@ struct ResolvedSettings {
   double first_period = 0.0;        ///< T1 of the beam in bending, s
   double initial_energy = 0.0;      ///< J
   double energy_tolerance = 0.0;    ///< relative to the initial energy
+  double shape_interval = 0.0;      ///< s between shapes; 0: none
+  std::size_t n_shape_points = 0;   ///< points of a shape, along the whole beam
   double memory = 0.0;              ///< bytes that a run takes, roughly
   /// Cost of the natural modes, in entries of right-hand sides that take as long; 0: none needed.
   double decomposition = 0.0;
@@ -171,9 +221,15 @@ struct Result {
   /// half of the largest distance there. Those within a free flight that the exponential method
   /// passes in one step are left out.
   std::vector<NearMiss> near_misses;
-  std::vector<HistoryRow> history;            ///< empty if a RowSink took the rows
-  std::vector<SectionRow> section_history;    ///< of output.sections, in that order at each time
-  std::size_t n_history_rows = 0;             ///< wherever they went
+  std::vector<HistoryRow> history;          ///< empty if a RowSink took the rows
+  std::vector<SectionRow> section_history;  ///< of output.sections, in that order at each time
+  std::size_t n_history_rows = 0;           ///< wherever they went
+  std::vector<PointRow> point_history;      ///< of output.points, in that order at each time
+  std::vector<ShapeRow> shapes;             ///< empty if a RowSink took the rows
+  std::size_t n_shape_rows = 0;             ///< wherever they went
+  std::vector<EnvelopeRow> envelope;        ///< in ascending order of x; with shapes
+  /// The plastic hinges of the whole beam at the end, in ascending order of x; with shapes.
+  std::vector<PlasticZone> plastic_zones;
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
   /// s: the time from which it is proven that no contact follows; searched with time.stop =

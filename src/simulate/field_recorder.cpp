@@ -1,0 +1,138 @@
+#include "simulate/field_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace subimpact {
+namespace {
+
+// History rows that the envelope follows, at most, roughly.
+constexpr double most_followed = 4000.0;
+
+// Plastic curvature in units of the yield curvature below which it is rounding.
+constexpr double least_plastic = 1e-9;
+
+}  // namespace
+
+FieldRecorder::FieldRecorder(const StruckBeam& beam, const FieldOptions& options, Result& result)
+    : beam_(beam),
+      options_(options),
+      result_(result),
+      field_(beam, options.length, options.shape_interval > 0.0 ? options.most_points : 0),
+      envelope_(field_.size()) {
+  const BeamMesh& mesh = beam.mesh();
+  if (options.reactions) reactions_.emplace(beam, options.length, options.struck_at);
+  if (reactions_ && !reactions_->exist()) reactions_.reset();
+  for (const double x : options.points) {
+    const double within = mesh.symmetric() ? std::min(x, options.length - x) : x;
+    points_.push_back({x, *mesh.displacement_at(within)});
+  }
+  for (std::size_t i = 0; i < field_.size(); ++i) envelope_[i].position = field_.position(i);
+}
+
+double FieldRecorder::next_shape() const {
+  if (!has_shapes()) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(next_shape_) * options_.shape_interval;
+}
+
+void FieldRecorder::add_shape(double time, const State& y, Accounts& accounts) {
+  if (!has_shapes()) return;
+  if (time >= next_shape() * (1.0 - 1e-12)) ++next_shape_;
+  if (!(time > last_shape_time_)) return;
+  last_shape_time_ = time;
+  if (!std::ranges::all_of(y, [](double x) { return std::isfinite(x); })) return;
+  field_.read(y, accounts);
+  widen_envelope(time);
+  for (std::size_t i = 0; i < field_.size(); ++i) add_row(time, field_.position(i), 1.0, i, y);
+  for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
+    add_row(time, field_.mirrored_position(i), -1.0, i, y);
+  }
+}
+
+void FieldRecorder::add_row(double time, double position, double sense, std::size_t station,
+                            const State& y) {
+  const ShapeRow row{time,
+                     position,
+                     field_.displacement(station),
+                     field_.velocity(station, y),
+                     sense * field_.slope(station, y),
+                     field_.curvature(station),
+                     field_.moment(station),
+                     field_.plastic_curvature(station)};
+  ++result_.n_shape_rows;
+  if (rows_ != nullptr) {
+    rows_->add(row);
+  } else {
+    result_.shapes.push_back(row);
+  }
+}
+
+void FieldRecorder::follow(double time, const State& y, Accounts& accounts) {
+  add_points(time, y);
+  if (!has_shapes()) return;
+  if (time - last_followed_time_ < options_.end_time / most_followed) return;
+  field_.read(y, accounts);
+  widen_envelope(time);
+}
+
+void FieldRecorder::add_points(double time, const State& y) {
+  for (const Point& point : points_) {
+    const PointRow row{time, point.position, point.displacement(beam_.beam_positions(y)),
+                       point.displacement(beam_.beam_velocities(y))};
+    if (rows_ != nullptr) {
+      rows_->add(row);
+    } else {
+      result_.point_history.push_back(row);
+    }
+  }
+}
+
+void FieldRecorder::widen_envelope(double time) {
+  last_followed_time_ = time;
+  const double outer = 0.5 * options_.thickness;
+  for (std::size_t i = 0; i < field_.size(); ++i) {
+    EnvelopeRow& here = envelope_[i];
+    here.displacement.include(field_.displacement(i), time);
+    here.moment.include(field_.moment(i), time);
+    here.strain.include(-outer * field_.curvature(i), time);  // behind
+    here.plastic_curvature.include(field_.plastic_curvature(i), time);
+  }
+}
+
+void FieldRecorder::add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const {
+  if (!reactions_) return;
+  const SupportReactions::Forces forces = reactions_->at(y, accounts);
+  row.first_reaction = forces[0];
+  row.last_reaction = forces[1];
+}
+
+void FieldRecorder::finish(double time, const State& y, Accounts& accounts, bool is_good) {
+  if (!has_shapes()) return;
+  if (is_good) {
+    add_shape(time, y, accounts);
+    add_rest(y, accounts);
+  }
+  result_.envelope = envelope_;
+  for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
+    result_.envelope.push_back(envelope_[i]);
+    result_.envelope.back().position = field_.mirrored_position(i);
+  }
+}
+
+void FieldRecorder::add_rest(const State& y, Accounts& accounts) {
+  if (!beam_.sections().can_yield()) return;
+  const Accounts::Bending bending = accounts.bending(y);
+  std::vector<double> plastic(bending.curvatures.size());
+  for (std::size_t i = 0; i < plastic.size(); ++i) {
+    plastic[i] = bending.curvatures[i] - bending.moments[i] / beam_.sections().stiffness();
+  }
+  const PermanentSet set(beam_.mesh(), options_.length, plastic);
+  for (std::size_t i = 0; i < field_.size(); ++i) {
+    envelope_[i].permanent_set = set.at(field_.position(i));
+  }
+  result_.plastic_zones = plastic_zones(beam_.mesh(), options_.length, plastic,
+                                        least_plastic * options_.yield_curvature);
+}
+
+}  // namespace subimpact

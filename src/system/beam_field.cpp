@@ -1,0 +1,191 @@
+#include "system/beam_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace subimpact {
+namespace {
+
+// Positions nearer than this part of the length are one.
+constexpr double same_place = 1e-9;
+
+double end_of_part(const BeamMesh& mesh, double length) {
+  return mesh.symmetric() ? 0.5 * length : length;
+}
+
+}  // namespace
+
+std::optional<EndSupport> support_at(const BeamMesh& mesh, double x) {
+  const auto displacement = mesh.displacement_at(x);
+  const auto slope = mesh.slope_at(x);
+  if (!displacement || !slope) return std::nullopt;
+  if (!displacement->is_zero()) return EndSupport::free;
+  // A section at the very end is the hinge of a clamped end.
+  const auto positions = mesh.section_positions();
+  const double tolerance = same_place * (positions.back() - positions.front());
+  const bool has_hinge =
+      std::abs(positions.front() - x) <= tolerance || std::abs(positions.back() - x) <= tolerance;
+  return slope->is_zero() || has_hinge ? EndSupport::clamped : EndSupport::pinned;
+}
+
+// --- BeamField ---------------------------------------------------------------------------------
+
+BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_stations)
+    : beam_(beam),
+      length_(length),
+      bending_stiffness_(beam.sections().stiffness()),
+      in_modes_(!beam.modal_stiffness().empty()) {
+  const BeamMesh& mesh = beam.mesh();
+  if (most_stations == 0 || !is_available(mesh)) return;
+  const auto positions = mesh.section_positions();
+  const std::size_t last = mesh.n_sections() - 1;
+  const double end = end_of_part(mesh, length);
+  const double tolerance = same_place * length;
+  const std::size_t most =
+      std::max<std::size_t>(mesh.symmetric() ? most_stations / 2 + 1 : most_stations, 5);
+  const std::size_t stride = std::max<std::size_t>((last + most - 4) / (most - 4), 1);
+  if (positions[0] > tolerance) add_end(0.0, 0, std::min<std::size_t>(1, last));
+  for (std::size_t i = 0; i <= last; ++i) {
+    const bool chosen = i % stride == mesh.struck_section() % stride;
+    if (chosen || i == 0 || i == last) add_station(positions[i], i);
+  }
+  if (positions[last] < end - tolerance) add_end(end, last, last > 0 ? last - 1 : 0);
+  if (mesh.symmetric()) {
+    n_mirrored_ = static_cast<std::size_t>(
+        std::count_if(stations_.begin(), stations_.end(),
+                      [&](const Station& s) { return s.position < end - tolerance; }));
+  }
+  displacements_.resize(size());
+  curvatures_.resize(size());
+  moments_.resize(size());
+}
+
+void BeamField::add_station(double x, std::size_t section) {
+  const BeamMesh& mesh = beam_.mesh();
+  Station station{x, *mesh.displacement_at(x), *mesh.slope_at(x), section, section, 1.0, 0.0, {}};
+  if (in_modes_) station.curvature = mesh.curvature_functional(section);
+  stations_.push_back(std::move(station));
+}
+
+void BeamField::add_end(double x, std::size_t nearest, std::size_t next) {
+  const BeamMesh& mesh = beam_.mesh();
+  add_station(x, nearest);
+  Station& station = stations_.back();
+  const bool at_mid_span = mesh.symmetric() && x > 0.0;
+  const auto positions = mesh.section_positions();
+  if (at_mid_span || support_at(mesh, x) == EndSupport::clamped) {
+    if (nearest == next) return;
+    station.next = next;
+    station.next_share = (x - positions[nearest]) / (positions[next] - positions[nearest]);
+    station.share = 1.0 - station.next_share;
+  } else {
+    station.share = 0.0;
+  }
+  if (!in_modes_) return;
+  const SparseFunctional other = mesh.curvature_functional(next);
+  for (std::size_t k = 0; k < station.curvature.dense.size(); ++k) {
+    station.curvature.dense[k] =
+        station.share * station.curvature.dense[k] + station.next_share * other.dense[k];
+  }
+}
+
+void BeamField::read(const State& y, Accounts& accounts) {
+  const auto unknowns = beam_.beam_positions(y);
+  Accounts::Bending bending;
+  if (!in_modes_) bending = accounts.bending(y);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Station& here = stations_[i];
+    displacements_[i] = here.displacement(unknowns);
+    if (in_modes_) {  // elastic
+      curvatures_[i] = here.curvature(unknowns);
+      moments_[i] = bending_stiffness_ * curvatures_[i];
+      continue;
+    }
+    const auto of_sections = [&](std::span<const double> values) {
+      return here.share * values[here.section] + here.next_share * values[here.next];
+    };
+    curvatures_[i] = of_sections(bending.curvatures);
+    moments_[i] = of_sections(bending.moments);
+  }
+}
+
+// --- the whole beam ------------------------------------------------------------------------------
+
+std::vector<PlacedSection> sections_of_whole_beam(const BeamMesh& mesh, double length) {
+  std::vector<PlacedSection> sections;
+  const auto positions = mesh.section_positions();
+  const auto weights = mesh.section_weights();
+  const double middle = 0.5 * length * (1.0 - same_place);
+  for (std::size_t i = 0; i < mesh.n_sections(); ++i) {
+    const bool has_image = mesh.symmetric() && positions[i] < middle;
+    sections.push_back({positions[i], has_image ? 0.5 * weights[i] : weights[i], i});
+  }
+  if (!mesh.symmetric()) return sections;
+  for (std::size_t i = mesh.n_sections(); i-- > 0;) {
+    if (positions[i] >= middle) continue;
+    sections.push_back({length - positions[i], 0.5 * weights[i], i});
+  }
+  return sections;
+}
+
+PermanentSet::PermanentSet(const BeamMesh& mesh, double length,
+                           std::span<const double> plastic_curvatures)
+    : sections_(sections_of_whole_beam(mesh, length)) {
+  double rotation = 0.0, moment = 0.0;
+  for (const PlacedSection& here : sections_) {
+    rotation += plastic_curvatures[here.section] * here.length;
+    moment += plastic_curvatures[here.section] * here.length * here.position;
+    rotations_.push_back(rotation);
+    moments_.push_back(moment);
+  }
+  const double l = length;
+  const double s = rotation * l - moment;  // w(l) of the double integral
+  const auto is_clamped = [&](double x) { return support_at(mesh, x) == EndSupport::clamped; };
+  const auto is_held = [&](double x) { return support_at(mesh, x) != EndSupport::free; };
+  const bool first = is_clamped(0.0) && (mesh.symmetric() || is_held(l));
+  const bool last = mesh.symmetric() ? first : is_clamped(l) && is_held(0.0);
+  if (first && last) {  // w = w' = 0 at l
+    c2_ = (rotation * l - 3.0 * s) / (l * l);
+    c3_ = (2.0 * s - rotation * l) / (l * l * l);
+  } else if (first) {  // w = M = 0 at l
+    c2_ = -1.5 * s / (l * l);
+    c3_ = 0.5 * s / (l * l * l);
+  } else if (last) {  // w = w' = 0 at l, M = 0 at 0
+    c3_ = 0.5 * (s - rotation * l) / (l * l * l);
+    c1_ = -s / l - c3_ * l * l;
+  } else {
+    c1_ = -s / l;
+  }
+}
+
+double PermanentSet::at(double x) const {
+  const auto after =
+      std::lower_bound(sections_.begin(), sections_.end(), x,
+                       [](const PlacedSection& s, double at) { return s.position < at; });
+  const auto n = static_cast<std::size_t>(after - sections_.begin());
+  const double integral = n > 0 ? rotations_[n - 1] * x - moments_[n - 1] : 0.0;
+  return integral + x * (c1_ + x * (c2_ + x * c3_));
+}
+
+std::vector<PlasticZone> plastic_zones(const BeamMesh& mesh, double length,
+                                       std::span<const double> plastic_curvatures, double least) {
+  std::vector<PlasticZone> zones;
+  double sign = 0.0;  // of the zone that is open; 0: none
+  for (const PlacedSection& here : sections_of_whole_beam(mesh, length)) {
+    const double kappa = plastic_curvatures[here.section];
+    if (!(std::abs(kappa) > least)) {
+      sign = 0.0;
+      continue;
+    }
+    const double half = 0.5 * here.length;
+    if (kappa * sign <= 0.0) {
+      zones.push_back({std::max(here.position - half, 0.0), here.position, 0.0});
+    }
+    sign = kappa;
+    zones.back().to = std::min(here.position + half, length);
+    zones.back().rotation += kappa * here.length;
+  }
+  return zones;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "subimpact/model/scene.h"
+#include "subimpact/system/plastic_zone.h"
+#include "system/accounts.h"
+
+namespace subimpact {
+
+/// How a mesh holds the beam's end at x (m): free, pinned or clamped, as its functionals of the
+/// displacement and the slope there show. `x` must be an end of the part modelled. Nothing on a
+/// mesh without such functionals.
+std::optional<EndSupport> support_at(const BeamMesh& mesh, double x);
+
+/// The field along the beam at some stations: displacement w, slope w', velocity, curvature kappa,
+/// moment M and plastic curvature kappa - M/(E I).
+///
+/// Stations are sections of the mesh, where curvature and moment are those of the equations of
+/// motion, and both ends of the part modelled. At a free or pinned end M = 0; at a clamped end
+/// without a section of its own, curvature and moment continue those of the two nearest sections in
+/// a straight line. On a half model mirrored_* give the other half.
+class BeamField {
+ public:
+  /// Some `most_stations` stations on the whole beam of length `length` (m), spread evenly over the
+  /// sections, the struck, the first and the last one among them; fewer if there are fewer
+  /// sections, and none for 0. `beam` must outlive this.
+  BeamField(const StruckBeam& beam, double length, std::size_t most_stations);
+
+  /// Whether the mesh gives displacements; otherwise there are no stations.
+  static bool is_available(const BeamMesh& mesh) {
+    return mesh.displacement_at(0.0) && mesh.slope_at(0.0);
+  }
+
+  std::size_t size() const { return stations_.size(); }
+  /// Stations of the whole beam: the same, and the mirrored ones.
+  std::size_t whole_size() const { return size() + n_mirrored(); }
+  /// Of the part modelled; those of the stations with x < l - x have a mirror image at l - x.
+  std::size_t n_mirrored() const { return n_mirrored_; }
+  double position(std::size_t station) const { return stations_[station].position; }
+  double mirrored_position(std::size_t station) const { return length_ - position(station); }
+
+  /// Reads curvatures, moments and displacements of a state.
+  void read(const State& y, Accounts& accounts);
+  double displacement(std::size_t i) const { return displacements_[i]; }
+  double curvature(std::size_t i) const { return curvatures_[i]; }
+  double moment(std::size_t i) const { return moments_[i]; }
+  double plastic_curvature(std::size_t i) const {
+    return curvatures_[i] - moments_[i] / bending_stiffness_;
+  }
+  /// Of a state, m/s and without unit.
+  double velocity(std::size_t i, const State& y) const {
+    return stations_[i].displacement(beam_.beam_velocities(y));
+  }
+  double slope(std::size_t i, const State& y) const {
+    return stations_[i].slope(beam_.beam_positions(y));
+  }
+
+ private:
+  struct Station {
+    double position;  // m
+    SparseFunctional displacement, slope;
+    // The curvature is the sum of those of two sections with these shares.
+    std::size_t section, next;
+    double share, next_share;
+    SparseFunctional curvature;  // where the unknowns are modes
+  };
+  void add_station(double x, std::size_t section);
+  void add_end(double x, std::size_t nearest, std::size_t next);
+
+  const StruckBeam& beam_;
+  double length_;
+  double bending_stiffness_;
+  bool in_modes_;
+  std::vector<Station> stations_;
+  std::size_t n_mirrored_ = 0;
+  std::vector<double> displacements_, curvatures_, moments_;
+};
+
+/// A section of the whole beam, with its share of the length.
+struct PlacedSection {
+  double position;      ///< x, m
+  double length;        ///< integration weight, m
+  std::size_t section;  ///< index in the mesh; of a mirrored section, that of its image
+};
+/// In ascending order of x; on a half model with the mirrored half.
+std::vector<PlacedSection> sections_of_whole_beam(const BeamMesh& mesh, double length);
+
+/// The displacement w_p(x) (m) of a beam at rest with the plastic curvatures of its sections (1/m),
+/// against its own chord: their double integral, each section with its weight,
+///
+///     w_p(x) = sum over x_j < x of kappa_p,j W_j (x - x_j) - (the chord's value).
+///
+/// Hinges are sections. In that shape all moments are gone. A beam clamped at one end and held at
+/// the other keeps residual moments M = E I (a + b x) at rest; there a x^2/2 + b x^3/6 is added,
+/// with the a and b that the supports require, as long as these moments make nothing yield.
+class PermanentSet {
+ public:
+  PermanentSet(const BeamMesh& mesh, double length, std::span<const double> plastic_curvatures);
+  double at(double x) const;
+
+ private:
+  std::vector<PlacedSection> sections_;
+  std::vector<double> rotations_, moments_;  // sums up to each section: of R_j and R_j x_j
+  double c1_ = 0.0, c2_ = 0.0, c3_ = 0.0;    // of x, x^2, x^3
+};
+
+/// Those of the whole beam where the plastic curvature exceeds `least` (1/m), in ascending order of
+/// x.
+std::vector<PlasticZone> plastic_zones(const BeamMesh& mesh, double length,
+                                       std::span<const double> plastic_curvatures, double least);
+
+}  // namespace subimpact

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "system/accounts.h"
+
+namespace subimpact {
+
+/// The forces of the supports on the beam, N, positive in the direction of the strike.
+///
+/// They follow from the balances of momentum and of moment of momentum about x = 0,
+///
+///     R_0 + R_l = p.w'' - F,     R_l l = d.w'' - F x_s + M(0) - M(l),
+///
+/// with p and d the functionals of momentum and moment of momentum (BeamMesh), F at x_s, and the
+/// moments M at clamped ends (zero at others). The accelerations w'' = Mass^-1 (-B^T W M + S F) are
+/// eliminated once, so that a state costs one sum over the sections:
+///
+///     p.w'' = -sum W_j (B g)_j M_j + F S.g,   Mass g = p.
+///
+/// With the moments of the equations of motion the sum R_0 + R_l closes their balance of momentum
+/// to rounding.
+class SupportReactions {
+ public:
+  /// `struck_at`: x_s, m. `beam` must outlive this.
+  SupportReactions(const StruckBeam& beam, double length, double struck_at);
+
+  /// Whether any end is held, on a mesh that gives displacements at the ends.
+  bool exist() const { return held_[0] || held_[1]; }
+
+  /// At x = 0 and x = l; nothing at a free end, or where a mesh gives no moment functional to
+  /// distinguish the two.
+  using Forces = std::array<std::optional<double>, 2>;
+  Forces at(const State& y, Accounts& accounts) const;
+
+ private:
+  // A functional of the accelerations, as one of moments (or of modes) and contact force.
+  struct Eliminated {
+    std::vector<double> of_moments;  // -W_j (B g)_j; in modes, of the unknowns: -stiffness g
+    double of_force = 0.0;           // S.g
+  };
+  Eliminated eliminated(std::span<const double> functional) const;
+  static double value(const Eliminated& of, std::span<const double> moments, double force);
+  // Adds sign times the moment at a clamped end.
+  void add_end_moment(double sign, double x, bool first, Eliminated& to) const;
+
+  const StruckBeam& beam_;
+  double length_, struck_at_;
+  std::array<bool, 2> held_{};
+  Eliminated momentum_;
+  std::optional<Eliminated> moment_;  // d.w'' + M(0) - M(l)
+};
+
+}  // namespace subimpact

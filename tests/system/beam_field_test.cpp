@@ -1,0 +1,314 @@
+// Fields along the beam, read through the mesh's functionals of displacement and slope, against
+// static solutions of dense matrices and of textbooks.
+
+#include "system/beam_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "dense.h"
+#include "model/cell_mesh.h"
+#include "model/hermite_mesh.h"
+#include "model/modal_mesh.h"
+#include "model/rigid_mesh.h"
+#include "order_table.h"
+#include "paper_scene.h"
+#include "print.h"
+#include "random_walk.h"
+#include "struck_beam_of.h"
+#include "system/support_reactions.h"
+
+namespace subimpact {
+namespace {
+
+using Ends = std::array<EndSupport, 2>;
+constexpr EndSupport free_end = EndSupport::free;
+constexpr EndSupport pinned = EndSupport::pinned;
+constexpr EndSupport clamped = EndSupport::clamped;
+
+constexpr double third = 1.0 / 3.0;
+
+Beam beam_with(Ends ends) {
+  Beam beam = paper_beam();
+  beam.ends = ends;
+  return beam;
+}
+
+enum class Kind { cells, hermite, hinged };
+std::ostream& operator<<(std::ostream& out, Kind kind) {
+  return out << (kind == Kind::cells ? "cells" : kind == Kind::hermite ? "hermite" : "hinged");
+}
+
+// `n`: cells or elements of the whole beam.
+std::shared_ptr<const BeamMesh> make_mesh(Kind kind, const Beam& beam, double position,
+                                          std::size_t n, bool half = false) {
+  if (kind == Kind::cells) {
+    return std::make_shared<CellMesh>(beam, position, n,
+                                      half ? CellMesh::Extent::half : CellMesh::Extent::whole);
+  }
+  HermiteMesh::Options options;
+  options.hinges = kind == Kind::hinged;
+  return std::make_shared<HermiteMesh>(
+      beam, position, n, 2, half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole, options);
+}
+
+class Meshes : public testing::TestWithParam<std::tuple<Kind, Ends>> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    , Meshes,
+    testing::Combine(testing::Values(Kind::cells, Kind::hermite, Kind::hinged),
+                     testing::Values(Ends{free_end, free_end}, Ends{pinned, pinned},
+                                     Ends{clamped, free_end}, Ends{pinned, clamped},
+                                     Ends{clamped, clamped})),
+    NamedAsPrinted{});
+
+TEST_P(Meshes, ShowTheirSupportsByDisplacementAndSlopeOfTheEnds) {
+  const auto [kind, ends] = GetParam();
+  const auto mesh = make_mesh(kind, beam_with(ends), third, 33);
+  const double l = paper_beam().length;
+  EXPECT_EQ(support_at(*mesh, 0.0), ends[0]);
+  EXPECT_EQ(support_at(*mesh, l), ends[1]);
+  const ModalMesh modal(mesh, paper_beam().bending_stiffness());
+  EXPECT_EQ(support_at(modal, 0.0), ends[0]);
+  EXPECT_EQ(support_at(modal, l), ends[1]);
+}
+
+TEST_P(Meshes, HaveTheirOwnDisplacementOfTheStruckPointAndOfTheFirstEnd) {
+  const auto [kind, ends] = GetParam();
+  const Beam beam = beam_with(ends);
+  for (const bool half : {false, true}) {
+    if (half && ends[0] != ends[1]) continue;
+    const std::size_t n = kind == Kind::cells ? 33 : 32;
+    const auto mesh = make_mesh(kind, beam, half ? 0.5 : third, n, half);
+    const std::vector<double> q = random_numbers(7, mesh->n_unknowns());
+    const double struck_at = (half ? 0.5 : third) * beam.length;
+    EXPECT_NEAR((*mesh->displacement_at(struck_at))(q), mesh->struck_point()(q), 1e-12);
+    EXPECT_NEAR((*mesh->displacement_at(0.0))(q), mesh->first_end()(q), 1e-12);
+    if (half) {
+      EXPECT_EQ((*mesh->slope_at(struck_at))(q), 0.0);
+    }
+  }
+}
+
+// Slopes are derivatives of displacements, and curvatures those of slopes, where they are smooth.
+TEST_P(Meshes, HaveSlopesThatAreDerivativesOfTheirDisplacements) {
+  const auto [kind, ends] = GetParam();
+  if (kind == Kind::hinged) return;  // its slope jumps
+  const Beam beam = beam_with(ends);
+  const double l = beam.length;
+  OrderTable table("slope against differences of displacements");
+  for (const std::size_t n : {33u, 66u, 132u}) {
+    const auto mesh = make_mesh(kind, beam, third, n);
+    // The shape of its softest deformation.
+    const NaturalModes modes = mesh->natural_modes(beam.bending_stiffness());
+    const auto q = modes.shape(3);
+    double largest = 0.0, error = 0.0;
+    for (double x = 0.05 * l; x < l; x += 0.0731 * l) {
+      const double h =
+          0.01 * l;  // of a fixed difference, so that kinks between centres average out
+      const double w0 = (*mesh->displacement_at(x - h))(q), w1 = (*mesh->displacement_at(x + h))(q);
+      double mean = 0.0;  // of the slope between them
+      constexpr int parts = 64;
+      for (int k = 0; k < parts; ++k) {
+        mean += (*mesh->slope_at(x - h + (k + 0.5) * 2.0 * h / parts))(q) / parts;
+      }
+      largest = std::max(largest, std::abs(mean));
+      error = std::max(error, std::abs((w1 - w0) / (2.0 * h) - mean));
+    }
+    table.add(static_cast<double>(n), error / largest);
+    if (kind == Kind::hermite) {
+      EXPECT_LT(error, 2e-5 * largest);
+    }
+  }
+  if (kind == Kind::cells) table.expect_overall_order_within(1.5, 2.6);
+}
+
+TEST(AFreeMesh, HasTheMomentOfMomentumOfARigidRotation) {
+  const Beam beam = paper_beam();
+  for (const Kind kind : {Kind::cells, Kind::hermite, Kind::hinged}) {
+    const auto mesh = make_mesh(kind, beam, third, 33);
+    const std::size_t n = mesh->n_unknowns();
+    // The rotation x: the motion without curvature that no translation is.
+    const Eigen::MatrixXd stiffness = stiffness_matrix(*mesh, 1.0);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness);
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      const Eigen::VectorXd rigid = solver.eigenvectors().col(k);
+      const double w0 = (*mesh->displacement_at(0.0))(entries(rigid));
+      const double turn =
+          ((*mesh->displacement_at(beam.length))(entries(rigid)) - w0) / beam.length;
+      double moment = 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        moment += mesh->moment_functional()[i] * rigid(static_cast<Eigen::Index>(i));
+      }
+      const double m = beam.mass(), l = beam.length;
+      const double expected =
+          w0 * m * l / 2.0 + turn * (m * l * l / 3.0 + beam.rotary_inertia() * l);
+      const double size = std::abs(w0) * m * l / 2.0 + std::abs(turn) * m * l * l / 3.0;
+      // Cells: the mass of a cell is at its centre, m l^2/3 less a twelfth of a cell's square; the
+      // outer halves of free end cells have no rotary inertia.
+      EXPECT_NEAR(moment, expected, (kind == Kind::cells ? 4e-4 : 1e-9) * size) << kind;
+    }
+  }
+}
+
+// --- the permanent set ------------------------------------------------------------------------
+
+// The unknowns of the beam at rest: of least elastic energy with plastic curvatures as they are.
+Eigen::VectorXd at_rest(const BeamMesh& mesh, const std::vector<double>& plastic) {
+  std::vector<double> moments(plastic.begin(), plastic.end());
+  Eigen::VectorXd load(index(mesh.n_unknowns()));
+  mesh.bending_forces(moments, entries(load));
+  return stiffness_matrix(mesh, 1.0).completeOrthogonalDecomposition().solve(-load);
+}
+
+double largest_difference(const BeamMesh& mesh, double length, const std::vector<double>& plastic,
+                          const std::vector<double>& places, double& largest) {
+  const Eigen::VectorXd q = at_rest(mesh, plastic);
+  const auto w = [&](double x) { return (*mesh.displacement_at(x))(entries(q)); };
+  const PermanentSet set(mesh, length, plastic);
+  const double end = mesh.symmetric() ? 0.0 : w(length);
+  const double start = w(0.0);
+  double difference = 0.0;
+  for (const double x : places) {
+    const double chord = start + (mesh.symmetric() ? 0.0 : (end - start) * x / length);
+    largest = std::max(largest, std::abs(set.at(x)));
+    difference = std::max(difference, std::abs(set.at(x) - (w(x) - chord)));
+  }
+  return difference;
+}
+
+TEST_P(Meshes, LieAtRestAsTheDoubleIntegralOfTheirPlasticCurvature) {
+  const auto [kind, ends] = GetParam();
+  const Beam beam = beam_with(ends);
+  for (const bool half : {false, true}) {
+    if (half && ends[0] != ends[1]) continue;
+    const std::size_t n = kind == Kind::cells ? 33 : 36;
+    const auto mesh = make_mesh(kind, beam, half ? 0.5 : third, n, half);
+    const double part = half ? 0.5 * beam.length : beam.length;
+    std::vector<double> places;  // nodes and centres, where sums of sections are exact
+    if (kind == Kind::cells) {
+      const auto positions = mesh->section_positions();
+      places.assign(positions.begin(), positions.end());
+    } else {
+      for (int i = 0; i <= 36; ++i) {
+        if (i * beam.length / 36.0 < part * (1.0 + 1e-9)) places.push_back(i * beam.length / 36.0);
+      }
+    }
+    const std::vector<double> plastic = random_numbers(11, mesh->n_sections());
+    double largest = 0.0;
+    const double difference =
+        largest_difference(*mesh, beam.length, plastic, places, largest) / largest;
+    std::printf("permanent set, %zu sections: off by %.1e of the largest\n", mesh->n_sections(),
+                difference);
+    // A clamped end of cells is a parabola through its first centres, to second order.
+    const bool is_clamped = ends[0] == clamped || ends[1] == clamped;
+    EXPECT_LT(difference, kind == Kind::cells && is_clamped ? 0.03 : 1e-10);
+  }
+}
+
+// --- reactions -------------------------------------------------------------------------------
+
+// Under a constant force at rest, by textbook; `ends` decide the share of x = 0.
+double share_of_first(Ends ends, double xi) {
+  const double eta = 1.0 - xi;  // distance from the far end
+  if (ends[0] == free_end) return 0.0;
+  if (ends[1] == free_end) return 1.0;
+  if (ends == Ends{clamped, clamped}) return eta * eta * (1.0 + 2.0 * xi);
+  if (ends == Ends{pinned, clamped}) return 0.5 * eta * eta * (2.0 + xi);
+  if (ends == Ends{clamped, pinned}) return 1.0 - 0.5 * xi * xi * (3.0 - xi);
+  return eta;
+}
+
+class Reactions : public testing::TestWithParam<std::tuple<Kind, Ends, bool>> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    , Reactions,
+    testing::Combine(testing::Values(Kind::cells, Kind::hermite),
+                     testing::Values(Ends{pinned, pinned}, Ends{clamped, free_end},
+                                     Ends{pinned, clamped}, Ends{clamped, clamped}),
+                     testing::Bool()),
+    NamedAsPrinted{});
+
+TEST_P(Reactions, CarryAConstantForceAsInTextbooks) {
+  const auto [kind, ends, in_modes] = GetParam();
+  Scene scene = paper_scene();
+  scene.beam.ends = ends;
+  scene.contact.kind = ContactKind::linear;
+  scene.contact.stiffness = 1e6;
+  const double xi = ends == Ends{clamped, free_end} ? 0.6 : third;
+  scene.striker.position = xi;
+  const double stiffness = scene.beam.bending_stiffness();
+  const std::size_t n_parts = kind == Kind::cells ? 201 : 30;
+  std::shared_ptr<const BeamMesh> mesh = make_mesh(kind, scene.beam, xi, n_parts);
+  if (in_modes) mesh = std::make_shared<ModalMesh>(mesh, stiffness);
+  const std::size_t n = mesh->n_unknowns();
+  constexpr double force = 10.0;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(index(n));
+  mesh->struck_point().add_to(entries(load), force);
+  const Eigen::VectorXd q = stiffness_matrix(*mesh, stiffness).ldlt().solve(load);
+  StruckBeam beam = struck_beam_of(scene, mesh, SectionField(mesh->n_sections(), stiffness));
+  State y(2 * (n + 1), 0.0);
+  std::copy(q.data(), q.data() + n, y.begin());
+  y[n] = mesh->struck_point()(entries(q)) + force / 1e6;
+  beam.contact().set(ContactBranch::elastic, {});
+  Accounts accounts(beam);
+  const SupportReactions reactions(beam, scene.beam.length, xi * scene.beam.length);
+  ASSERT_TRUE(reactions.exist());
+  const auto [first, last] = reactions.at(y, accounts);
+  const double share = share_of_first(ends, xi);
+  // Cells bend at clamped ends to second order in their length.
+  const double tolerance = kind == Kind::cells ? 2e-3 : 1e-6;
+  EXPECT_EQ(first.has_value(), ends[0] != free_end);
+  EXPECT_EQ(last.has_value(), ends[1] != free_end);
+  EXPECT_NEAR(first.value_or(0.0), -force * share, tolerance * force);
+  EXPECT_NEAR(last.value_or(0.0), -force * (1.0 - share), tolerance * force);
+  EXPECT_NEAR(first.value_or(0.0) + last.value_or(0.0), -force, 1e-6 * force);
+}
+
+// --- stations ----------------------------------------------------------------------------------
+
+TEST(BeamField, KeepsAsManyStationsAsAskedForAndTheStruckOneAmongThem) {
+  Scene scene = paper_scene();
+  for (const bool half : {false, true}) {
+    auto mesh = std::make_shared<CellMesh>(scene.beam, 0.5, 2001,
+                                           half ? CellMesh::Extent::half : CellMesh::Extent::whole);
+    StruckBeam beam = struck_beam_of(
+        scene, mesh, SectionField(mesh->n_sections(), scene.beam.bending_stiffness()));
+    for (const std::size_t most : {5u, 51u, 101u, 400u, 100000u}) {
+      const BeamField field(beam, scene.beam.length, most);
+      EXPECT_LE(field.whole_size(), std::min<std::size_t>(most + 2, 2001u)) << most;
+      EXPECT_GE(field.whole_size(), std::min<std::size_t>(most / 2, 2001u)) << most;
+      EXPECT_EQ(field.position(0), 0.0);
+      bool has_struck = false;
+      for (std::size_t i = 0; i < field.size(); ++i) {
+        has_struck |= std::abs(field.position(i) - 0.5 * scene.beam.length) < 1e-9;
+      }
+      EXPECT_TRUE(has_struck) << most;
+    }
+    EXPECT_EQ(BeamField(beam, scene.beam.length, 0).size(), 0u);
+  }
+}
+
+TEST(PlasticZones, AreNeighboursOfOneSignWithTheIntegralOfTheirCurvature) {
+  const Beam beam = paper_beam();
+  const CellMesh mesh(beam, 0.5, 21, CellMesh::Extent::half);
+  std::vector<double> plastic(mesh.n_sections(), 0.0);
+  plastic[2] = 1.0;
+  plastic[3] = 2.0;
+  plastic[4] = -1.0;
+  plastic.back() = 5.0;
+  const std::vector<PlasticZone> zones = plastic_zones(mesh, beam.length, plastic, 1e-3);
+  ASSERT_EQ(zones.size(), 5u);
+  const double dx = beam.length / 21.0;
+  EXPECT_NEAR(zones[0].rotation, 3.0 * dx, 1e-12);
+  EXPECT_NEAR(zones[0].to - zones[0].from, 2.0 * dx, 1e-12);
+  EXPECT_NEAR(zones[1].rotation, -dx, 1e-12);
+  EXPECT_NEAR(zones[2].rotation, 5.0 * dx, 1e-12);  // at mid-span, whole
+  EXPECT_NEAR(zones[3].rotation, -dx, 1e-12);
+  EXPECT_NEAR(zones[4].from, beam.length - zones[0].to, 1e-12);
+}
+
+}  // namespace
+}  // namespace subimpact
