@@ -106,7 +106,9 @@ void add_error_parts(const Result& result, fmt::memory_buffer& text) {
 // 8800 for 8796.3, 5.8 for 5.7933.
 std::string with_two_digits(double value) {
   const double size = std::abs(value);
-  return with_decimals(value, size > 0.0 ? 1 - static_cast<int>(std::floor(std::log10(size))) : 0);
+  return with_decimals(value, size > 0.0 && std::isfinite(size)
+                                  ? 1 - static_cast<int>(std::floor(std::log10(size)))
+                                  : 0);
 }
 
 // "8796.3 +- 0.8 N"; "8800 N (error not known)" where it is infinite; without an error estimate
