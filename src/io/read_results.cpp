@@ -276,10 +276,10 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
                       interval_from(outcome.value("first_failure_s", Json()))};
     result.choice = json.value("choice", std::string());
     result.warnings = json.value("warnings", std::vector<std::string>());
-      result.n_history_rows = integer<std::size_t>(json.at("counts").at("history_rows"));
-      result.n_shape_rows = integer<std::size_t>(json.at("counts").value("shape_rows", Json(0)));
-      result.plastic_zones = plastic_zones_from(json.value("rest", Json()));
-      result.n_yielded_sections = integer<std::size_t>(json.at("counts").at("yielded_sections"));
+    result.n_history_rows = integer<std::size_t>(json.at("counts").at("history_rows"));
+    result.n_shape_rows = integer<std::size_t>(json.at("counts").value("shape_rows", Json(0)));
+    result.plastic_zones = plastic_zones_from(json.value("rest", Json()));
+    result.n_yielded_sections = integer<std::size_t>(json.at("counts").at("yielded_sections"));
     result.near_misses = near_misses_from(json.value("near_misses", Json::array()));
     result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
     result.first_contact_yield = optional_number(json.at("first_yield").at("contact_s"));
