@@ -6,6 +6,7 @@
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/validity.h"
 
 namespace subimpact {
 
@@ -14,6 +15,9 @@ ResolvedRun resolve(const Case& input) {
   check(input);
   ResolvedRun run = resolve(problem_of(input), input);
   run.parts().warnings = doubtful_units(input);
+  run.parts().warnings_of_result = [input](const Result& result) {
+    return beyond_the_model(input, result);
+  };
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   run.parts().setup_seconds = taken.count();
   return run;

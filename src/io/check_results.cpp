@@ -64,7 +64,7 @@ const Numbers<ShapeRow> numbers_of_shapes = {
     {"position_m", &ShapeRow::position},
     {"displacement_m", &ShapeRow::displacement},
     {"velocity_m_per_s", &ShapeRow::velocity},
-    {"slope", &ShapeRow::slope},
+    {"rotation_rad", &ShapeRow::rotation},
     {"curvature_per_m", &ShapeRow::curvature},
     {"moment_Nm", &ShapeRow::moment},
     {"plastic_curvature_per_m", &ShapeRow::plastic_curvature}};

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/json_integer.h"
 #include "io/sealed_files.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/versions.h"
@@ -38,7 +39,8 @@ std::map<std::string, Seal> seals_from(const Json& json) {
     if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
       throw ResultsError(fmt::format("\"{}\" is not the name of a file of results", name));
     }
-    seals[name] = {entry.at("bytes").get<std::uintmax_t>(), entry.at("sha256").get<std::string>()};
+    seals[name] = {integer<std::uintmax_t>(entry.at("bytes")),
+                   entry.at("sha256").get<std::string>()};
   }
   return seals;
 }
@@ -82,7 +84,7 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
   if (!fs::exists(fs::symlink_status(path, ignored))) return {};
   try {
     const Json json = Json::parse(read_whole_file(path));
-    if (json.at("subimpact_manifest").get<int>() > manifest_layout) {
+    if (integer<int>(json.at("subimpact_manifest")) > manifest_layout) {
       throw ResultsError("a later version of this program wrote it; use that version");
     }
     Manifest manifest;
@@ -98,6 +100,9 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
   } catch (const ResultsError& error) {
     throw ResultsError(fmt::format("{}: {}", path.string(), error.what()));
   } catch (const nlohmann::json::exception& error) {
+    throw ResultsError(
+        fmt::format("{}: is not a manifest of this program ({})", path.string(), error.what()));
+  } catch (const std::out_of_range& error) {
     throw ResultsError(
         fmt::format("{}: is not a manifest of this program ({})", path.string(), error.what()));
   }

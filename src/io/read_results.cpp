@@ -10,6 +10,7 @@
 #include "case/other_names.h"
 #include "io/check_results.h"
 #include "io/csv_reader.h"
+#include "io/json_integer.h"
 #include "io/read_summary.h"
 #include "io/row_thinning.h"
 #include "io/run_tables.h"
@@ -48,7 +49,7 @@ KeyValue key_value(const CaseKey& key, const Json& json) {
     case KeyType::flag:
       return json.get<bool>();
     case KeyType::count:
-      return json.get<std::int64_t>();
+      return integer<std::int64_t>(json);
     case KeyType::number:
       return json == "inf" ? infinity : json.get<double>();
     case KeyType::text:
@@ -120,8 +121,8 @@ void read_contact_stiffness(const Json& json, ResolvedSettings& used) {
 ResolvedSettings used_from(const Json& json) {
   ResolvedSettings used;
   used.half_model = json.at("half_model").get<bool>();
-  used.n_unknowns = json.at("n_unknowns").get<std::size_t>();
-  used.n_sections = json.at("n_sections").get<std::size_t>();
+  used.n_unknowns = integer<std::size_t>(json.at("n_unknowns"));
+  used.n_sections = integer<std::size_t>(json.at("n_sections"));
   used.mesh = json.at("mesh").get<std::string>();
   used.contact_law = json.value("contact_law", "");
   used.section = json.value("section", "");
@@ -134,7 +135,8 @@ ResolvedSettings used_from(const Json& json) {
   used.table = optional_text(json.at("table"));
   used.events = value_of<EventHandling>(json.at("events").get<std::string>());
   used.reversals = value_of<ReversalHandling>(json.at("reversals").get<std::string>());
-  if (const Json& order = json.at("max_order"); !order.is_null()) used.max_order = order.get<int>();
+  if (const Json& order = json.at("max_order"); !order.is_null())
+    used.max_order = integer<int>(order);
   used.position_tolerance = number(json.at("position_tolerance_m"), 0.0);
   used.velocity_tolerance = number(json.at("velocity_tolerance_m_per_s"), 0.0);
   read_contact_stiffness(json, used);
@@ -182,16 +184,16 @@ std::vector<PlasticZone> plastic_zones_from(const Json& rest) {
 
 Work work_from(const Json& json) {
   Work work;
-  work.steps = json.at("steps").get<long>();
-  work.rejected_steps = json.at("rejected_steps").get<long>();
-  work.partial_steps = json.at("partial_steps").get<long>();
-  work.right_hand_sides = json.at("right_hand_sides").get<long>();
-  work.mass_solves = json.at("mass_solves").get<long>();
-  work.jacobians = json.at("jacobians").get<long>();
-  work.factorisations = json.at("factorisations").get<long>();
-  work.roots = json.at("roots").get<long>();
-  work.nonlinear_iterations = json.at("nonlinear_iterations").get<long>();
-  work.nonlinear_failures = json.at("nonlinear_failures").get<long>();
+  work.steps = integer<long>(json.at("steps"));
+  work.rejected_steps = integer<long>(json.at("rejected_steps"));
+  work.partial_steps = integer<long>(json.at("partial_steps"));
+  work.right_hand_sides = integer<long>(json.at("right_hand_sides"));
+  work.mass_solves = integer<long>(json.at("mass_solves"));
+  work.jacobians = integer<long>(json.at("jacobians"));
+  work.factorisations = integer<long>(json.at("factorisations"));
+  work.roots = integer<long>(json.at("roots"));
+  work.nonlinear_iterations = integer<long>(json.at("nonlinear_iterations"));
+  work.nonlinear_failures = integer<long>(json.at("nonlinear_failures"));
   work.setup_seconds = number(json.at("setup_s"));
   work.wall_seconds = number(json.at("wall_s"));
   return work;
@@ -209,7 +211,7 @@ std::optional<ErrorEstimate> error_estimate_from(const Json& json) {
   estimate.largest_error = number(json.at("max_time_error_s"));
   if (const Json& index = renamed(json, "first_unresolved_index", "first_undecided_index");
       !index.is_null()) {
-    estimate.first_unresolved = index.get<std::size_t>() - 1;
+    estimate.first_unresolved = integer<std::size_t>(index) - 1;
   }
   estimate.reason = optional_text(json.at("reason")).value_or("");
   for (const Json& entry : json.at("parts")) {
@@ -219,7 +221,7 @@ std::optional<ErrorEstimate> error_estimate_from(const Json& json) {
     part.largest_error = number(entry.at("max_error_s"));
     if (const Json& index = renamed(entry, "first_unresolved_index", "first_undecided_index");
         !index.is_null()) {
-      part.first_unresolved = index.get<std::size_t>() - 1;
+      part.first_unresolved = integer<std::size_t>(index) - 1;
     }
     part.reason = optional_text(entry.at("reason")).value_or("");
     estimate.parts.push_back(std::move(part));
@@ -274,10 +276,10 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
                       interval_from(outcome.value("first_failure_s", Json()))};
     result.choice = json.value("choice", std::string());
     result.warnings = json.value("warnings", std::vector<std::string>());
-    result.n_history_rows = json.at("counts").at("history_rows").get<std::size_t>();
-    result.n_shape_rows = json.at("counts").value("shape_rows", std::size_t{0});
+    result.n_history_rows = integer<std::size_t>(json.at("counts").at("history_rows"));
+    result.n_shape_rows = integer<std::size_t>(json.at("counts").value("shape_rows", Json(0)));
     result.plastic_zones = plastic_zones_from(json.value("rest", Json()));
-    result.n_yielded_sections = json.at("counts").at("yielded_sections").get<std::size_t>();
+    result.n_yielded_sections = integer<std::size_t>(json.at("counts").at("yielded_sections"));
     result.near_misses = near_misses_from(json.value("near_misses", Json::array()));
     result.first_section_yield = optional_number(json.at("first_yield").at("section_s"));
     result.first_contact_yield = optional_number(json.at("first_yield").at("contact_s"));

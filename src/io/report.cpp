@@ -14,6 +14,7 @@
 #include "io/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/validity.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
@@ -106,7 +107,9 @@ void add_error_parts(const Result& result, fmt::memory_buffer& text) {
 // 8800 for 8796.3, 5.8 for 5.7933.
 std::string with_two_digits(double value) {
   const double size = std::abs(value);
-  return with_decimals(value, size > 0.0 ? 1 - static_cast<int>(std::floor(std::log10(size))) : 0);
+  return with_decimals(value, size > 0.0 && std::isfinite(size)
+                                  ? 1 - static_cast<int>(std::floor(std::log10(size)))
+                                  : 0);
 }
 
 // "8796.3 +- 0.8 N"; "8800 N (error not known)" where it is infinite; without an error estimate
@@ -272,6 +275,16 @@ std::string sub_impact_table(const Result& result) {
   return text;
 }
 
+std::string neglected_shear_words(const Case& input, const Result& result) {
+  const std::optional<double> share = neglected_shear(input, result);
+  if (!share) return {};
+  const SubImpact& first = result.sub_impacts.front();
+  return fmt::format(
+      "shear, which would lengthen the first contact by some {:.1g} % ({:.0g} us); beam.theory = "
+      "\"timoshenko\" has it",
+      100.0 * *share, us * *share * (*first.end - first.start));
+}
+
 std::string run_summary(const Case& input, const Result& result) {
   const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
   const Work& work = result.work;
@@ -323,6 +336,8 @@ std::string run_summary(const Case& input, const Result& result) {
   line("work", fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"),
                            work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
                            counted(work.roots, "event"), duration_text(work.wall_seconds)));
+  const std::string left_out = neglected_shear_words(input, result);
+  if (!left_out.empty()) line("left out", left_out);
   for (const std::string& warning : result.warnings) line("warning", warning);
   return fmt::to_string(text);
 }

@@ -198,7 +198,11 @@ const Columns<ShapeRow>& shapes_columns() {
                    "strike",
                    &ShapeRow::displacement),
       short_column("velocity_m_per_s", "velocity dw/dt", &ShapeRow::velocity),
-      short_column("slope", "slope dw/dx; at a hinge the mean of both sides", &ShapeRow::slope),
+      short_column(
+          "rotation_rad",
+          "rotation of the section, dw/dx where sections do not shear; at a hinge the mean "
+          "of both sides",
+          &ShapeRow::rotation),
       short_column("curvature_per_m", "curvature", &ShapeRow::curvature),
       short_column("moment_Nm", "bending moment M, E I kappa while elastic", &ShapeRow::moment),
       short_column("plastic_curvature_per_m", "curvature - M/(E I)", &ShapeRow::plastic_curvature)};

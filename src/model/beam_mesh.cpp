@@ -10,6 +10,19 @@ double SparseFunctional::of_all(std::span<const double> unknowns) const {
   return dot(dense.data(), unknowns.data(), dense.size());
 }
 
+void SparseFunctional::add(double factor, const SparseFunctional& other) {
+  for (const auto& [unknown, coefficient] : other.terms) {
+    const auto same =
+        std::ranges::find_if(terms, [&](const Term& term) { return term.unknown == unknown; });
+    if (same == terms.end()) {
+      terms.push_back({unknown, factor * coefficient});
+    } else {
+      same->coefficient += factor * coefficient;
+    }
+  }
+  std::erase_if(terms, [](const Term& term) { return term.coefficient == 0.0; });
+}
+
 std::size_t BeamMesh::stiffness_bandwidth() const {
   std::size_t bandwidth = shear_stiffness_.half_bandwidth();
   for (std::size_t i = 0; i < n_sections(); ++i) {

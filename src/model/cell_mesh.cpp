@@ -24,20 +24,6 @@ std::size_t count_unknowns(const Beam& beam, std::size_t n_cells, bool half) {
   return (half ? n_cells / 2 + 1 : n_cells) - slaved;
 }
 
-// sum += factor * functional, without terms that cancel.
-void add(SparseFunctional& sum, double factor, const SparseFunctional& functional) {
-  for (const auto& [unknown, coefficient] : functional.terms) {
-    const auto same = std::find_if(sum.terms.begin(), sum.terms.end(),
-                                   [&](const auto& term) { return term.unknown == unknown; });
-    if (same == sum.terms.end()) {
-      sum.terms.push_back({unknown, factor * coefficient});
-    } else {
-      same->coefficient += factor * coefficient;
-    }
-  }
-  std::erase_if(sum.terms, [](const auto& term) { return term.coefficient == 0.0; });
-}
-
 // A place in units of the spacing, without rounding where it is a centre or a face.
 double snapped(double at) {
   const double nearest = 0.5 * std::round(2.0 * at);
@@ -165,12 +151,11 @@ SparseFunctional CellMesh::continued_cell(long i) const {
   const std::size_t outermost = i < 0 ? 0 : n_cells_ - 1;
   const EndSupport end = ends_[i < 0 ? 0 : 1];
   SparseFunctional displacement;
-  add(displacement,
-      end == EndSupport::pinned    ? -1.0
-      : end == EndSupport::clamped ? 1.0
-                                   : 2.0,
-      cell(outermost));
-  if (end == EndSupport::free) add(displacement, -1.0, cell(i < 0 ? 1 : n_cells_ - 2));
+  displacement.add(end == EndSupport::pinned    ? -1.0
+                   : end == EndSupport::clamped ? 1.0
+                                                : 2.0,
+                   cell(outermost));
+  if (end == EndSupport::free) displacement.add(-1.0, cell(i < 0 ? 1 : n_cells_ - 2));
   return displacement;
 }
 
@@ -183,17 +168,17 @@ std::optional<SparseFunctional> CellMesh::displacement_at(double x) const {
   if ((before || at > cells - 1.0) && ends_[before ? 0 : 1] == EndSupport::clamped) {
     // Within the outer half of the end cell: the parabola.
     const double from_end = 1.0 - 2.0 * (before ? -at : at - (cells - 1.0));
-    add(displacement, from_end * from_end, cell(before ? 0 : n_cells_ - 1));
+    displacement.add(from_end * from_end, cell(before ? 0 : n_cells_ - 1));
     return displacement;
   }
   const double left = std::floor(at);
   const auto i = static_cast<long>(left);
-  add(displacement, 1.0 - (at - left), continued_cell(i));
-  add(displacement, at - left, continued_cell(i + 1));
+  displacement.add(1.0 - (at - left), continued_cell(i));
+  displacement.add(at - left, continued_cell(i + 1));
   return displacement;
 }
 
-std::optional<SparseFunctional> CellMesh::slope_at(double x) const {
+std::optional<SparseFunctional> CellMesh::rotation_at(double x) const {
   const double n_faces = static_cast<double>(n_cells_) + 1.0;  // both ends among them
   const double at = std::clamp(snapped(x / spacing_ - first_centre_) + 0.5, 0.0, n_faces - 1.0);
   const double left = std::min(std::floor(at), n_faces - 2.0);
@@ -202,8 +187,8 @@ std::optional<SparseFunctional> CellMesh::slope_at(double x) const {
   SparseFunctional slope;
   for (const long i : {face, face + 1}) {
     const double factor = (i == face ? 1.0 - share : share) / spacing_;
-    add(slope, factor, continued_cell(i));
-    add(slope, -factor, continued_cell(i - 1));
+    slope.add(factor, continued_cell(i));
+    slope.add(-factor, continued_cell(i - 1));
   }
   return slope;
 }

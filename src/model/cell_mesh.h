@@ -50,7 +50,7 @@ class CellMesh final : public BeamMesh {
   /// Linear between centres, as the strike is shared between them.
   std::optional<SparseFunctional> displacement_at(double x) const override;
   /// Linear between the faces of cells, where it is the difference of the centres beside them.
-  std::optional<SparseFunctional> slope_at(double x) const override;
+  std::optional<SparseFunctional> rotation_at(double x) const override;
   /// (4 c/dx^2)/sqrt(1 + 4 r^2/dx^2) with c = sqrt(E I/(rho A)): the infinite grid's. Supported
   /// ends are constraints on mirrored grids, which cannot exceed it.
   double highest_frequency(double bending_stiffness) const override;

@@ -423,7 +423,7 @@ std::optional<SparseFunctional> HermiteMesh::displacement_at(double x) const {
                      z * z * (3.0 - 2.0 * z), -s * z * z * (1.0 - z)});
 }
 
-std::optional<SparseFunctional> HermiteMesh::slope_at(double x) const {
+std::optional<SparseFunctional> HermiteMesh::rotation_at(double x) const {
   const auto [element, z] = element_at(x);
   const double a = lengths_[element];
   const double of_displacements = 6.0 * z * (1.0 - z) / a;

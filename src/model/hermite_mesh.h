@@ -60,7 +60,7 @@ class HermiteMesh final : public BeamMesh {
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
-  std::optional<SparseFunctional> slope_at(double x) const override;
+  std::optional<SparseFunctional> rotation_at(double x) const override;
   /// Bisected to 5e-6 from above.
   double highest_frequency(double bending_stiffness) const override;
   /// In closed form if all elements are equal, none beside a hinge, and not one end is free, the

@@ -81,8 +81,8 @@ std::optional<SparseFunctional> ModalMesh::displacement_at(double x) const {
   return physical ? std::optional(in_modes(*physical)) : std::nullopt;
 }
 
-std::optional<SparseFunctional> ModalMesh::slope_at(double x) const {
-  const auto physical = physical_->slope_at(x);
+std::optional<SparseFunctional> ModalMesh::rotation_at(double x) const {
+  const auto physical = physical_->rotation_at(x);
   return physical ? std::optional(in_modes(*physical)) : std::nullopt;
 }
 

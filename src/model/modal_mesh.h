@@ -34,7 +34,7 @@ class ModalMesh final : public BeamMesh {
   double curvature(std::size_t section, std::span<const double> unknowns) const override;
   SparseFunctional curvature_functional(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
-  std::optional<SparseFunctional> slope_at(double x) const override;
+  std::optional<SparseFunctional> rotation_at(double x) const override;
   /// That of the last mode.
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;

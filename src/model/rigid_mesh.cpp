@@ -47,7 +47,7 @@ std::optional<SparseFunctional> RigidMesh::displacement_at(double x) const {
   return displacement;
 }
 
-std::optional<SparseFunctional> RigidMesh::slope_at(double) const {
+std::optional<SparseFunctional> RigidMesh::rotation_at(double) const {
   if (n_unknowns() == 1) return SparseFunctional{};
   return SparseFunctional{{{1, 1.0}}, {}};
 }

@@ -20,7 +20,7 @@ class RigidMesh final : public BeamMesh {
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
-  std::optional<SparseFunctional> slope_at(double x) const override;
+  std::optional<SparseFunctional> rotation_at(double x) const override;
   double highest_frequency(double bending_stiffness) const override;  ///< 0
   std::string description() const override { return "a rigid body"; }
 

@@ -64,6 +64,7 @@ SectionHistory& SectionField::stored_history(std::size_t section) {
     slot = static_cast<int>(memory_.size());
     memory_.emplace_back();
     memory_.back().reversals.reserve(8);
+    at_rest_.push_back({});
   }
   return memory_[static_cast<std::size_t>(slot)];
 }
@@ -154,6 +155,7 @@ void SectionField::commit_reversal(std::size_t section, double curvature) {
   SectionHistory& history = stored_history(section);
   if (history.direction == 0) ++n_yielded_;
   law_->commit(history, curvature);
+  at_rest_[static_cast<std::size_t>(slot_[section])].is_known = false;
   const ElasticWindow window = law_->window(history);
   low_[section] = window.low;
   high_[section] = window.high;
@@ -175,13 +177,30 @@ std::size_t SectionField::commit(std::span<const double> curvatures,
   return n_flowed;
 }
 
+const SectionField::AtRest& SectionField::at_rest(std::size_t section) const {
+  AtRest& rest = at_rest_[static_cast<std::size_t>(slot_[section])];
+  if (rest.is_known) return rest;
+  const SectionHistory& now = history(section);
+  const double inside = 0.5 * (low_[section] + high_[section]);
+  const double moment = stiffness_ * inside - offset_[section];
+  const double elastic = law_->elastic_energy(now, inside);
+  rest = {elastic - 0.5 * moment * moment / stiffness_, law_->work(now, inside) - elastic, true};
+  return rest;
+}
+
 SectionField::Energies SectionField::energies(std::span<const double> curvatures,
                                               std::span<const double> weights) const {
+  const double half_compliance = 0.5 / stiffness_;
   Energies sum;
   for (std::size_t i = 0; i < curvatures.size(); ++i) {
     const double k = curvatures[i];
-    if (!has_yielded(i) && k >= low_[i] && k <= high_[i]) {
-      sum.elastic += weights[i] * 0.5 * stiffness_ * k * k;
+    if (k >= low_[i] && k <= high_[i]) {
+      const double moment = stiffness_ * k - offset_[i];
+      sum.elastic += weights[i] * half_compliance * moment * moment;
+      if (!has_yielded(i)) continue;
+      const AtRest& rest = at_rest(i);
+      sum.elastic += weights[i] * rest.elastic;
+      sum.plastic += weights[i] * rest.plastic;
       continue;
     }
     const double elastic = law_->elastic_energy(history(i), k);

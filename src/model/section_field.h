@@ -95,6 +95,14 @@ class SectionField {
 
  private:
   SectionHistory& stored_history(std::size_t section);
+  // Energies of a yielded section without moment; while nothing flows, a moment M adds M^2/(2
+  // stiffness) to the elastic one. They follow from the history alone, and are computed when first
+  // needed after each flow.
+  struct AtRest {
+    double elastic, plastic;  // J/m
+    bool is_known;
+  };
+  const AtRest& at_rest(std::size_t section) const;
 
   std::optional<SectionLaw> law_;
   Storage storage_;
@@ -102,6 +110,7 @@ class SectionField {
   AlignedVector low_, high_, offset_;  // windows
   std::vector<int> slot_;              // index into memory_, -1: never yielded
   std::vector<SectionHistory> memory_;
+  mutable std::vector<AtRest> at_rest_;  // of each history
   std::vector<Flow> flowing_;
   std::size_t n_yielded_ = 0;
 };

@@ -45,6 +45,14 @@ Shapes make_shapes() {
 
 const Shapes shapes = make_shapes();
 
+double lagrange(std::size_t a, double x) {
+  double value = 1.0;
+  for (std::size_t b = 0; b < n_nodes; ++b) {
+    if (b != a) value *= (x - nodes[b]) / (nodes[a] - nodes[b]);
+  }
+  return value;
+}
+
 std::size_t elements_before(double position, std::size_t n_elements) {
   return static_cast<std::size_t>(std::clamp(
       std::lround(position * static_cast<double>(n_elements)), 0L, static_cast<long>(n_elements)));
@@ -124,8 +132,10 @@ void SpectralMesh::place_elements(const Beam& beam, double position) {
 
 void SpectralMesh::assemble_mass(const Beam& beam) {
   momentum_functional_.assign(n_unknowns(), 0.0);
+  if (!symmetric()) moment_functional_.assign(n_unknowns(), 0.0);
   const double per_length[2] = {beam.mass_per_length(),
                                 beam.rotary_inertia() / (gyration_ * gyration_)};
+  double start = 0.0;
   for (const Element& element : elements_) {
     for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
       const std::size_t unknown = element.unknowns[i];
@@ -133,7 +143,11 @@ void SpectralMesh::assemble_mass(const Beam& beam) {
       const double mass = copies_ * per_length[i % 2] * element.length * node_weights[i / 2];
       mass_.at(unknown, unknown) += mass;
       if (i % 2 == 0) momentum_functional_[unknown] += mass;
+      if (symmetric()) continue;
+      const double x = start + nodes[i / 2] * element.length;
+      moment_functional_[unknown] += mass * (i % 2 == 0 ? x : gyration_);
     }
+    start += element.length;
   }
 }
 
@@ -184,6 +198,34 @@ void SpectralMesh::place_sections() {
     }
     start += element.length;
   }
+}
+
+SparseFunctional SpectralMesh::interpolated(double x, std::size_t which) const {
+  std::size_t e = 0;
+  double start = 0.0;
+  for (; e + 1 < elements_.size() && x > start + elements_[e].length; ++e) {
+    start += elements_[e].length;
+  }
+  const Element& element = elements_[e];
+  const double place = std::clamp((x - start) / element.length, 0.0, 1.0);
+  constexpr double rounding = 1e-12;
+  SparseFunctional functional;
+  for (std::size_t a = 0; a < n_nodes; ++a) {
+    const double value = lagrange(a, place);
+    const std::size_t unknown = element.unknowns[2 * a + which];
+    if (unknown != held && std::abs(value) > rounding) functional.terms.push_back({unknown, value});
+  }
+  return functional;
+}
+
+std::optional<SparseFunctional> SpectralMesh::displacement_at(double x) const {
+  return interpolated(x, 0);
+}
+
+std::optional<SparseFunctional> SpectralMesh::rotation_at(double x) const {
+  SparseFunctional rotation;
+  rotation.add(1.0 / gyration_, interpolated(x, 1));
+  return rotation;
 }
 
 void SpectralMesh::read(const Element& element, const double* unknowns, Values& values) {

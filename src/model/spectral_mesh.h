@@ -41,6 +41,9 @@ class SpectralMesh final : public BeamMesh {
   SectionStencil section_stencil(std::size_t section) const override;
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
+  /// Polynomials of degree 4 in each element.
+  std::optional<SparseFunctional> displacement_at(double x) const override;
+  std::optional<SparseFunctional> rotation_at(double x) const override;
   /// The highest frequency of a single element.
   double highest_frequency(double bending_stiffness) const override;
   std::string description() const override;
@@ -66,6 +69,9 @@ class SpectralMesh final : public BeamMesh {
   void assemble_mass(const Beam& beam);
   void assemble_shear();
   void place_sections();
+  // The unknowns of the displacements (0) or the rotations r phi (1) at x, with Lagrange's
+  // polynomials there.
+  SparseFunctional interpolated(double x, std::size_t which) const;
 
   std::size_t n_elements_;  // of the whole beam
   std::size_t n_before_;    // the strike

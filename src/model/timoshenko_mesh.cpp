@@ -60,6 +60,7 @@ TimoshenkoMesh::TimoshenkoMesh(const Beam& beam, double position, std::size_t n_
   assemble_shear();
   place_sections();
   struck_point_.terms = {{node(before), 1.0}};
+  if (!symmetric()) assemble_moment();
   if (ends_[0] == EndSupport::free) {  // no curvature there
     const double share = 0.5 * sides_[0].length / sides_[before > 0 ? 0 : 1].length;
     first_end_.terms = {{node(0), 1.0 + share}, {node(1), -share}};
@@ -97,6 +98,17 @@ void TimoshenkoMesh::assemble_mass() {
   }
 }
 
+// The momentum of the rigid rotation w = x, phi = 1.
+void TimoshenkoMesh::assemble_moment() {
+  moment_functional_.resize(n_unknowns());
+  for (std::size_t k = 0; k < n_unknowns(); ++k) {
+    moment_functional_[k] = gyration_ * mass_.at(k, k);
+  }
+  for (std::size_t i = 0; i < n_nodes_; ++i) {
+    moment_functional_[node(i)] = node_position(i) * mass_.at(node(i), node(i));
+  }
+}
+
 void TimoshenkoMesh::assemble_shear() {
   shear_stiffness_ = BandedMatrix(n_unknowns(), 2);
   struct Term {
@@ -129,21 +141,88 @@ void TimoshenkoMesh::assemble_shear() {
   }
 }
 
+double TimoshenkoMesh::length() const {
+  return sides_[0].length * (static_cast<double>(sides_[0].n_cells) + 0.5) +
+         sides_[1].length * (static_cast<double>(sides_[1].n_cells) + 0.5);
+}
+
+double TimoshenkoMesh::node_position(std::size_t i) const {
+  if (i <= sides_[0].n_cells) return (static_cast<double>(i) + 0.5) * sides_[0].length;
+  return length() - (static_cast<double>(n_nodes_ - 1 - i) + 0.5) * sides_[1].length;
+}
+
+TimoshenkoMesh::Place TimoshenkoMesh::displacement_place(long i) const {
+  const auto n = static_cast<long>(n_nodes_);
+  if (i >= 0 && i < n) {
+    const auto at = static_cast<std::size_t>(i);
+    return {node_position(at), {{{node(at), 1.0}}, {}}};
+  }
+  const std::size_t end = i < 0 ? 0 : 1;
+  Place place{i < 0 ? 0.0 : length(), {}};
+  if (ends_[end] != EndSupport::free) return place;
+  const Place outer = displacement_place(i < 0 ? 0 : n - 1);
+  const Place inner = displacement_place(i < 0 ? 1 : n - 2);
+  place.value = between(outer, inner, place.x);
+  return place;
+}
+
+TimoshenkoMesh::Place TimoshenkoMesh::rotation_place(long j) const {
+  const auto n = static_cast<long>(n_nodes_) - 1;
+  if (j >= 0 && j < n) {
+    const auto before = static_cast<std::size_t>(j);
+    return {0.5 * (node_position(before) + node_position(before + 1)),
+            {{{node(before) + 1, 1.0 / gyration_}}, {}}};
+  }
+  const bool at_mid_span = symmetric() && j >= n;
+  const std::size_t end = j < 0 ? 0 : 1;
+  Place place{at_mid_span ? 0.5 * length() : j < 0 ? 0.0 : length(), {}};
+  if (at_mid_span || ends_[end] == EndSupport::clamped) return place;
+  if (ends_[end] == EndSupport::free) {
+    place.value = rotation_place(j < 0 ? 0 : n - 1).value;
+  } else {
+    place.value.terms = {{end_face(end).rotation, 1.0 / gyration_}};
+  }
+  return place;
+}
+
+SparseFunctional TimoshenkoMesh::between(const Place& before, const Place& after, double x) {
+  const double share = (x - before.x) / (after.x - before.x);
+  SparseFunctional value;
+  value.add(1.0 - share, before.value);
+  value.add(share, after.value);
+  return value;
+}
+
+double TimoshenkoMesh::cells_up_to(double x) const {
+  const double before = static_cast<double>(sides_[0].n_cells);
+  const double after = static_cast<double>(sides_[1].n_cells);
+  if (x <= (before + 0.5) * sides_[0].length) return x / sides_[0].length;
+  return before + after + 1.0 - (length() - x) / sides_[1].length;
+}
+
+std::optional<SparseFunctional> TimoshenkoMesh::displacement_at(double x) const {
+  const auto last = static_cast<long>(n_nodes_) - (symmetric() ? 2 : 1);
+  const auto i = std::clamp(static_cast<long>(std::floor(cells_up_to(x) - 0.5)), -1L, last);
+  return between(displacement_place(i), displacement_place(i + 1), x);
+}
+
+std::optional<SparseFunctional> TimoshenkoMesh::rotation_at(double x) const {
+  const auto last = static_cast<long>(n_nodes_) - 2;
+  const auto j = std::clamp(static_cast<long>(std::floor(cells_up_to(x))) - 1, -1L, last);
+  return between(rotation_place(j), rotation_place(j + 1), x);
+}
+
 void TimoshenkoMesh::place_sections() {
   const std::size_t first = ends_[0] == EndSupport::free ? 1 : 0;
   const std::size_t end = has_far_end() && ends_[1] == EndSupport::free ? n_nodes_ - 1 : n_nodes_;
   const std::size_t struck = sides_[0].n_cells;
-  const double length = sides_[0].length * (static_cast<double>(struck) + 0.5) +
-                        sides_[1].length * (static_cast<double>(sides_[1].n_cells) + 0.5);
   for (std::size_t i = first; i < end; ++i) {
     const bool is_mirror = symmetric() && i == struck;
     const double weight = (is_mirror ? 1.0 : copies()) * cell_length(i);
     const double slope = 1.0 / (gyration_ * cell_length(i));
     slopes_.push_back(slope);
     weights_.push_back(weight);
-    positions_.push_back(i <= struck ? (static_cast<double>(i) + 0.5) * sides_[0].length
-                                     : length - (static_cast<double>(n_nodes_ - 1 - i) + 0.5) *
-                                                    sides_[1].length);
+    positions_.push_back(node_position(i));
     const bool has_before = node(i) > 0;
     const bool has_after = node(i) + 1 < n_unknowns();
     if (is_mirror) {

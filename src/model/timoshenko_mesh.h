@@ -48,6 +48,10 @@ class TimoshenkoMesh final : public BeamMesh {
   SectionStencil section_stencil(std::size_t section) const override;
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
+  /// Straight between nodes; at the face of a free end continued from the two nodes next to it.
+  std::optional<SparseFunctional> displacement_at(double x) const override;
+  /// Straight between faces; constant in the end cell of a free end, where nothing bends.
+  std::optional<SparseFunctional> rotation_at(double x) const override;
   /// The upper branch of the infinite grid of the shorter cells at its shortest wave.
   double highest_frequency(double bending_stiffness) const override;
   std::string description() const override;
@@ -64,7 +68,22 @@ class TimoshenkoMesh final : public BeamMesh {
   double cell_length(std::size_t cell) const;
   void assemble_mass();
   void assemble_shear();
+  void assemble_moment();
   void place_sections();
+  // A place where a displacement or a rotation is an unknown, or follows from the support.
+  struct Place {
+    double x;  // m
+    SparseFunctional value;
+  };
+  static SparseFunctional between(const Place& before, const Place& after, double x);
+  // The nodes, with the ends as numbers -1 and n_nodes_; faces j between the nodes j and j + 1,
+  // with the ends as numbers -1 and n_nodes_ - 1, or mid-span as the last of a half model.
+  Place displacement_place(long i) const;
+  Place rotation_place(long j) const;
+  double node_position(std::size_t i) const;
+  double length() const;  // of the whole beam, m
+  // How many cells lie before x, in cells, counted from the first face.
+  double cells_up_to(double x) const;
   // The face of a supported end.
   struct EndFace {
     std::size_t node, rotation;  // unknowns; the rotation of a pinned end only

@@ -69,7 +69,7 @@ class Integrator {
   virtual bool is_event_free() const { return false; }
 
   /// The integral of the square of each velocity from the start of the last step to t, where the
-  /// method has a closed form of it; false where it has none.
+  /// method has it in closed form; returns false where the method has none.
   virtual bool integrate_squared_velocities(double /*t*/, std::span<double> /*result*/) {
     return false;
   }

@@ -37,8 +37,6 @@ class RunObserver {
 
 struct LoopOptions {
   double end_time = 0.0;  ///< s
-  /// s: when striker and beam first touch. Until then the striker moves uniformly, the beam rests.
-  double first_touch = 0.0;
   EventHandling events = EventHandling::located;
   /// Tolerance of the section correction (m/s, see SectionCorrector); infinite: no correction,
   /// histories of sections advance at step ends only.
@@ -50,6 +48,8 @@ struct LoopOptions {
   double shortest_contact = 0.0;
   /// Whether a branch of the contact left and regained within one step is looked for.
   bool double_roots = true;
+  /// s: when striker and beam first touch. Until then the striker moves uniformly, the beam rests.
+  double first_touch = 0.0;
 };
 
 /// The loop that all methods share: take a step, find its first event, end the step there, change

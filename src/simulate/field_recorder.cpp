@@ -56,7 +56,7 @@ void FieldRecorder::add_row(double time, double position, double sense, std::siz
                      position,
                      field_.displacement(station),
                      field_.velocity(station, y),
-                     sense * field_.slope(station, y),
+                     sense * field_.rotation(station, y),
                      field_.curvature(station),
                      field_.moment(station),
                      field_.plastic_curvature(station)};
@@ -127,7 +127,7 @@ void FieldRecorder::add_rest(const State& y, Accounts& accounts) {
   for (std::size_t i = 0; i < plastic.size(); ++i) {
     plastic[i] = bending.curvatures[i] - bending.moments[i] / beam_.sections().stiffness();
   }
-  const PermanentSet set(beam_.mesh(), options_.length, plastic);
+  const PermanentSet set(beam_.mesh(), options_.length, options_.shear_flexibility, plastic);
   for (std::size_t i = 0; i < field_.size(); ++i) {
     envelope_[i].permanent_set = set.at(field_.position(i));
   }

@@ -12,15 +12,16 @@ namespace subimpact {
 
 /// Which fields along the beam a run keeps.
 struct FieldOptions {
-  double shape_interval = 0.0;   ///< s; 0: no shapes, no envelope
-  std::size_t most_points = 0;   ///< of a shape
-  std::vector<double> points;    ///< x of those whose motion is kept, m
-  bool reactions = false;        ///< whether there are history rows, which hold them
-  double end_time = 0.0;         ///< s
-  double length = 0.0;           ///< m
-  double thickness = 0.0;        ///< m
-  double struck_at = 0.0;        ///< m
-  double yield_curvature = 0.0;  ///< 1/m; infinite: no plastic zones
+  double shape_interval = 0.0;     ///< s; 0: no shapes, no envelope
+  std::size_t most_points = 0;     ///< of a shape
+  std::vector<double> points;      ///< x of those whose motion is kept, m
+  bool reactions = false;          ///< whether there are history rows, which hold them
+  double end_time = 0.0;           ///< s
+  double length = 0.0;             ///< m
+  double thickness = 0.0;          ///< m
+  double struck_at = 0.0;          ///< m
+  double shear_flexibility = 0.0;  ///< E I/(k G A), m2; 0: sections do not shear
+  double yield_curvature = 0.0;    ///< 1/m; infinite: no plastic zones
 };
 
 /// Records shapes, envelope, permanent set, plastic zones, support reactions and the motion of

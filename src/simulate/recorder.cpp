@@ -62,6 +62,7 @@ void Recorder::on_approach(double end, StruckBeam& beam) {
 }
 
 void Recorder::keep_fields(const FieldOptions& options) {
+  deformation_.emplace(accounts_.beam(), options.length);
   auto fields = std::make_unique<FieldRecorder>(accounts_.beam(), options, result_);
   if (fields->is_needed()) fields_ = std::move(fields);
 }
@@ -223,6 +224,7 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
 
 void Recorder::after_event(const Transition& event, const State& y, StruckBeam& beam) {
   if (event.kind == EventKind::contact_ends) {
+    if (deformation_) deformation_->include(y);
     SubImpact& ended = result_.sub_impacts.back();
     ended.end = event.time;
     ended.end_rate = beam.indentation_rate(y);
@@ -269,6 +271,11 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     add_row(time, y, accounts_);
   }
   if (fields_) fields_->finish(time, y, accounts_, is_good);
+  if (deformation_) {
+    deformation_->include(y);
+    result_.largest_rotation = deformation_->largest_rotation();
+    result_.largest_displacement = deformation_->largest_displacement();
+  }
   if (in_contact_) close_sub_impact(y, beam);
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
@@ -339,6 +346,7 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   const Energies energies = accounts.energies(y);
   audit_.check(time, y, energies);
   const Accounts::Displacements at = accounts.displacements(y);
+  if (deformation_) deformation_->include_displacement(at.struck);
   const StruckBeam& beam = accounts.beam();
   HistoryRow row{};
   row.time = time;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "simulate/event_loop.h"
 #include "simulate/field_recorder.h"
 #include "simulate/force_quadrature.h"
 #include "simulate/near_miss_search.h"
 #include "subimpact/simulate/result.h"
+#include "system/deformation.h"
 
 namespace subimpact {
 
@@ -88,7 +90,8 @@ class Recorder final : public RunObserver {
   State state_;
   SectionCorrection correction_;  // of a state within a step
   std::vector<std::size_t> sections_;
-  std::unique_ptr<FieldRecorder> fields_;  // none: no field is kept
+  std::unique_ptr<FieldRecorder> fields_;   // none: no field is kept
+  std::optional<Deformation> deformation_;  // seen at separations, at rows and at the end
   std::vector<long> steps_in_contact_;
 };
 

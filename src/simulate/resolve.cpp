@@ -383,7 +383,7 @@ double shape_interval(const Options& options, const BeamMesh& mesh) {
   const auto refuse = [](const char* key) {
     throw InvalidCase(key,
                       "is given, but this mesh gives no displacements along the beam; leave it "
-                      "out, or give the mesh displacement_at() and slope_at()");
+                      "out, or give the mesh displacement_at() and rotation_at()");
   };
   if (asked && *asked > 0.0) refuse("output.shapes");
   if (!options.output.points.empty()) refuse("output.points");
@@ -474,6 +474,9 @@ FieldOptions field_options(const Problem& problem, const Options& options,
   fields.length = problem.beam.length;
   fields.thickness = problem.beam.thickness;
   fields.struck_at = problem.striker.position * problem.beam.length;
+  if (problem.beam.shears()) {
+    fields.shear_flexibility = problem.beam.bending_stiffness() / problem.beam.shear_stiffness();
+  }
   fields.yield_curvature = problem.beam.yield_curvature();
   fields.reactions = options.output.interval > 0.0;
   for (const double fraction : options.output.points) {

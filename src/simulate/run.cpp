@@ -225,6 +225,10 @@ Result simulate(ResolvedRun run, const Progress& progress, Observer* observer, R
     add_remedy(result.outcome, parts);
   }
   result.warnings.insert(result.warnings.begin(), parts.warnings.begin(), parts.warnings.end());
+  if (parts.warnings_of_result) {
+    const std::vector<std::string> more = parts.warnings_of_result(result);
+    result.warnings.insert(result.warnings.end(), more.begin(), more.end());
+  }
   result.given = std::move(parts.given);
   result.used = std::move(parts.settings);
   return result;

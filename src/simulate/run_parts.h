@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct RunParts {
   ResolvedSettings settings;
   RunOptions run;
   std::vector<std::string> warnings;  ///< for the result, before those of the run
+  /// Those that follow from the result, after those of the run; may be empty.
+  std::function<std::vector<std::string>(const Result&)> warnings_of_result;
   double setup_seconds = 0.0;
 };
 

@@ -17,15 +17,15 @@ double end_of_part(const BeamMesh& mesh, double length) {
 
 std::optional<EndSupport> support_at(const BeamMesh& mesh, double x) {
   const auto displacement = mesh.displacement_at(x);
-  const auto slope = mesh.slope_at(x);
-  if (!displacement || !slope) return std::nullopt;
+  const auto rotation = mesh.rotation_at(x);
+  if (!displacement || !rotation) return std::nullopt;
   if (!displacement->is_zero()) return EndSupport::free;
   // A section at the very end is the hinge of a clamped end.
   const auto positions = mesh.section_positions();
   const double tolerance = same_place * (positions.back() - positions.front());
   const bool has_hinge =
       std::abs(positions.front() - x) <= tolerance || std::abs(positions.back() - x) <= tolerance;
-  return slope->is_zero() || has_hinge ? EndSupport::clamped : EndSupport::pinned;
+  return rotation->is_zero() || has_hinge ? EndSupport::clamped : EndSupport::pinned;
 }
 
 // --- BeamField ---------------------------------------------------------------------------------
@@ -62,7 +62,8 @@ BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_sta
 
 void BeamField::add_station(double x, std::size_t section) {
   const BeamMesh& mesh = beam_.mesh();
-  Station station{x, *mesh.displacement_at(x), *mesh.slope_at(x), section, section, 1.0, 0.0, {}};
+  Station station{x, *mesh.displacement_at(x), *mesh.rotation_at(x), section, section, 1.0, 0.0,
+                  {}};
   if (in_modes_) station.curvature = mesh.curvature_functional(section);
   stations_.push_back(std::move(station));
 }
@@ -128,7 +129,7 @@ std::vector<PlacedSection> sections_of_whole_beam(const BeamMesh& mesh, double l
   return sections;
 }
 
-PermanentSet::PermanentSet(const BeamMesh& mesh, double length,
+PermanentSet::PermanentSet(const BeamMesh& mesh, double length, double shear_flexibility,
                            std::span<const double> plastic_curvatures)
     : sections_(sections_of_whole_beam(mesh, length)) {
   double rotation = 0.0, moment = 0.0;
@@ -144,15 +145,21 @@ PermanentSet::PermanentSet(const BeamMesh& mesh, double length,
   const auto is_held = [&](double x) { return support_at(mesh, x) != EndSupport::free; };
   const bool first = is_clamped(0.0) && (mesh.symmetric() || is_held(l));
   const bool last = mesh.symmetric() ? first : is_clamped(l) && is_held(0.0);
-  if (first && last) {  // w = w' = 0 at l
-    c2_ = (rotation * l - 3.0 * s) / (l * l);
-    c3_ = (2.0 * s - rotation * l) / (l * l * l);
-  } else if (first) {  // w = M = 0 at l
-    c2_ = -1.5 * s / (l * l);
-    c3_ = 0.5 * s / (l * l * l);
-  } else if (last) {  // w = w' = 0 at l, M = 0 at 0
-    c3_ = 0.5 * (s - rotation * l) / (l * l * l);
-    c1_ = -s / l - c3_ * l * l;
+  const double sheared = shear_flexibility * l;
+  if (first && last) {  // neither displacement nor rotation at l
+    const double b = (s - 0.5 * rotation * l) / (l * l * l / 12.0 + sheared);
+    c1_ = -shear_flexibility * b;
+    c2_ = -0.5 * rotation / l - 0.25 * b * l;
+    c3_ = b / 6.0;
+  } else if (first) {  // neither displacement nor moment at l
+    const double b = s / (l * l * l / 3.0 + sheared);
+    c1_ = -shear_flexibility * b;
+    c2_ = -0.5 * b * l;
+    c3_ = b / 6.0;
+  } else if (last) {  // neither displacement nor rotation at l, no moment at 0
+    const double b = (s - rotation * l) / (l * l * l / 3.0 + sheared);
+    c1_ = -s / l - b * l * l / 6.0;
+    c3_ = b / 6.0;
   } else {
     c1_ = -s / l;
   }

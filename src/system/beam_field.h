@@ -12,12 +12,12 @@
 namespace subimpact {
 
 /// How a mesh holds the beam's end at x (m): free, pinned or clamped, as its functionals of the
-/// displacement and the slope there show. `x` must be an end of the part modelled. Nothing on a
+/// displacement and the rotation there show. `x` must be an end of the part modelled. Nothing on a
 /// mesh without such functionals.
 std::optional<EndSupport> support_at(const BeamMesh& mesh, double x);
 
-/// The field along the beam at some stations: displacement w, slope w', velocity, curvature kappa,
-/// moment M and plastic curvature kappa - M/(E I).
+/// The field along the beam at some stations: displacement w, rotation of the section, velocity,
+/// curvature kappa, moment M and plastic curvature kappa - M/(E I).
 ///
 /// Stations are sections of the mesh, where curvature and moment are those of the equations of
 /// motion, and both ends of the part modelled. At a free or pinned end M = 0; at a clamped end
@@ -32,7 +32,7 @@ class BeamField {
 
   /// Whether the mesh gives displacements; otherwise there are no stations.
   static bool is_available(const BeamMesh& mesh) {
-    return mesh.displacement_at(0.0) && mesh.slope_at(0.0);
+    return mesh.displacement_at(0.0) && mesh.rotation_at(0.0);
   }
 
   std::size_t size() const { return stations_.size(); }
@@ -51,18 +51,18 @@ class BeamField {
   double plastic_curvature(std::size_t i) const {
     return curvatures_[i] - moments_[i] / bending_stiffness_;
   }
-  /// Of a state, m/s and without unit.
+  /// Of a state, m/s and rad.
   double velocity(std::size_t i, const State& y) const {
     return stations_[i].displacement(beam_.beam_velocities(y));
   }
-  double slope(std::size_t i, const State& y) const {
-    return stations_[i].slope(beam_.beam_positions(y));
+  double rotation(std::size_t i, const State& y) const {
+    return stations_[i].rotation(beam_.beam_positions(y));
   }
 
  private:
   struct Station {
     double position;  // m
-    SparseFunctional displacement, slope;
+    SparseFunctional displacement, rotation;
     // The curvature is the sum of those of two sections with these shares.
     std::size_t section, next;
     double share, next_share;
@@ -95,11 +95,13 @@ std::vector<PlacedSection> sections_of_whole_beam(const BeamMesh& mesh, double l
 ///     w_p(x) = sum over x_j < x of kappa_p,j W_j (x - x_j) - (the chord's value).
 ///
 /// Hinges are sections. In that shape all moments are gone. A beam clamped at one end and held at
-/// the other keeps residual moments M = E I (a + b x) at rest; there a x^2/2 + b x^3/6 is added,
-/// with the a and b that the supports require, as long as these moments make nothing yield.
+/// the other keeps residual moments M = E I (a + b x) at rest; there a x^2/2 + b x^3/6 - s b x is
+/// added, with the a and b that the supports require, as long as these moments make nothing yield.
+/// `shear_flexibility` is s = E I/(k G A), m2, zero where sections do not shear.
 class PermanentSet {
  public:
-  PermanentSet(const BeamMesh& mesh, double length, std::span<const double> plastic_curvatures);
+  PermanentSet(const BeamMesh& mesh, double length, double shear_flexibility,
+               std::span<const double> plastic_curvatures);
   double at(double x) const;
 
  private:

@@ -15,10 +15,12 @@ SupportReactions::SupportReactions(const StruckBeam& beam, double length, double
   held_ = {is_held(0.0), is_held(end)};
   if (!exist()) return;
   momentum_ = eliminated(mesh.momentum_functional());
+  add_damping(momentum_);
   if (mesh.moment_functional().empty()) return;
   moment_ = eliminated(mesh.moment_functional());
   add_end_moment(1.0, 0.0, true, *moment_);
   add_end_moment(-1.0, end, false, *moment_);
+  add_damping(*moment_);
 }
 
 SupportReactions::Eliminated SupportReactions::eliminated(
@@ -28,15 +30,20 @@ SupportReactions::Eliminated SupportReactions::eliminated(
   beam_.mass_solver().solve(g);
   Eliminated result;
   result.of_force = mesh.struck_point()(g);
-  const auto modal = beam_.modal_stiffness();
-  if (!modal.empty()) {
-    for (std::size_t k = 0; k < g.size(); ++k) result.of_moments.push_back(-modal[k] * g[k]);
+  if (in_modes()) {
+    for (std::size_t k = 0; k < g.size(); ++k) {
+      result.of_unknowns.push_back(-beam_.modal_stiffness()[k] * g[k]);
+    }
     return result;
   }
   result.of_moments.resize(mesh.n_sections());
   mesh.curvatures(g, result.of_moments);
   const auto weights = mesh.section_weights();
   for (std::size_t j = 0; j < weights.size(); ++j) result.of_moments[j] *= -weights[j];
+  if (mesh.shears()) {
+    result.of_unknowns.resize(g.size());
+    mesh.add_shear_forces(g, result.of_unknowns);
+  }
   return result;
 }
 
@@ -48,35 +55,65 @@ void SupportReactions::add_end_moment(double sign, double x, bool first, Elimina
   const std::size_t next = first ? 1 : nearest - 1;
   const double next_share = (x - positions[nearest]) / (positions[next] - positions[nearest]);
   const auto add = [&](std::size_t section, double share) {
-    if (beam_.modal_stiffness().empty()) {
-      to.of_moments[section] += share;
-    } else {
-      mesh.curvature_functional(section).add_to(to.of_moments,
+    if (in_modes()) {
+      mesh.curvature_functional(section).add_to(to.of_unknowns,
                                                 share * beam_.sections().stiffness());
+    } else {
+      to.of_moments[section] += share;
     }
   };
   add(nearest, sign * (1.0 - next_share));
   add(next, sign * next_share);
 }
 
-double SupportReactions::value(const Eliminated& of, std::span<const double> moments,
-                               double force) {
-  double sum = force * of.of_force;
-  for (std::size_t j = 0; j < of.of_moments.size(); ++j) sum += of.of_moments[j] * moments[j];
-  return sum;
+// Damping inside the beam adds to each elastic moment and shear force beta times its rate; in a
+// mode c/omega^2 times, where c is its own damping, without alpha.
+void SupportReactions::add_damping(Eliminated& to) const {
+  const BeamMesh& mesh = beam_.mesh();
+  const BeamDamping& damping = beam_.damping();
+  if (in_modes()) {
+    if (damping.is_none()) return;
+    to.of_velocities.resize(mesh.n_unknowns(), 0.0);
+    for (std::size_t k = 0; k < mesh.n_unknowns(); ++k) {
+      const double squared = beam_.modal_stiffness()[k] / mesh.mass().at(k, k);
+      if (squared == 0.0) continue;
+      to.of_velocities[k] = (beam_.modal_damping()[k] - damping.mass) / squared * to.of_unknowns[k];
+    }
+    return;
+  }
+  if (damping.stiffness == 0.0) return;
+  to.of_velocities = to.of_unknowns;
+  to.of_velocities.resize(mesh.n_unknowns(), 0.0);
+  for (std::size_t j = 0; j < mesh.n_sections(); ++j) {
+    mesh.curvature_functional(j).add_to(to.of_velocities,
+                                        beam_.sections().stiffness() * to.of_moments[j]);
+  }
+  for (double& coefficient : to.of_velocities) coefficient *= damping.stiffness;
+}
+
+double SupportReactions::value(const Eliminated& of, const State& y,
+                               std::span<const double> moments) const {
+  const auto sum = [](std::span<const double> coefficients, std::span<const double> values) {
+    double result = 0.0;
+    for (std::size_t i = 0; i < coefficients.size(); ++i) result += coefficients[i] * values[i];
+    return result;
+  };
+  double value = beam_.contact_force(y) * of.of_force;
+  value += sum(of.of_moments, moments);
+  value += sum(of.of_unknowns, beam_.beam_positions(y));
+  return value + sum(of.of_velocities, beam_.beam_velocities(y));
 }
 
 SupportReactions::Forces SupportReactions::at(const State& y, Accounts& accounts) const {
   const double force = beam_.contact_force(y);
-  const bool in_modes = !beam_.modal_stiffness().empty();
-  const std::span<const double> moments =
-      in_modes ? beam_.beam_positions(y) : accounts.bending(y).moments;
-  const double sum = value(momentum_, moments, force) - force;
+  std::span<const double> moments;
+  if (!in_modes()) moments = accounts.bending(y).moments;
+  const double sum = value(momentum_, y, moments) - force;
   if (beam_.mesh().symmetric()) return {0.5 * sum, 0.5 * sum};
   if (!held_[1]) return {sum, std::nullopt};
   if (!held_[0]) return {std::nullopt, sum};
   if (!moment_) return {};
-  const double last = (value(*moment_, moments, force) - force * struck_at_) / length_;
+  const double last = (value(*moment_, y, moments) - force * struck_at_) / length_;
   return {sum - last, last};
 }
 

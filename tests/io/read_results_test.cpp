@@ -1,4 +1,5 @@
 #include "subimpact/io/read_results.h"
+#include "io/json_integer.h"
 
 #include <gtest/gtest.h>
 
@@ -92,6 +93,15 @@ TEST(ReadResults, TakesAKeyUnderTheNameItHadBefore) {
   EXPECT_EQ(run.input.solver.rtol, 3e-7);
   ASSERT_EQ(run.result.warnings.size(), 1u);
   expect_in(run.result.warnings.front(), "without checksums");
+}
+
+TEST(ReadResults, RefusesNumbersThatAreNoIntegersWhereIntegersStand) {
+  for (const char* number : {"1e300", "-1e300", "0.5", "18446744073709551616"}) {
+    EXPECT_THROW(integer<int>(nlohmann::json::parse(number)), std::out_of_range) << number;
+  }
+  EXPECT_THROW(integer<std::size_t>(nlohmann::json::parse("-1")), std::out_of_range);
+  EXPECT_EQ(integer<int>(nlohmann::json::parse("-7")), -7);
+  EXPECT_EQ(integer<long>(nlohmann::json::parse("9007199254740993")), 9007199254740993L);
 }
 
 TEST(ReadResults, KeepsWarningsAndTheFirstFailure) {

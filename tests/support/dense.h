@@ -17,8 +17,8 @@ inline std::span<double> entries(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
-/// The stiffness matrix of an elastic beam on a mesh, column by column out of curvatures and
-/// forces.
+/// The stiffness matrix of an elastic beam on a mesh, column by column out of curvatures, forces
+/// and shear forces.
 inline Eigen::MatrixXd stiffness_matrix(const BeamMesh& mesh, double bending_stiffness) {
   const Eigen::Index n = index(mesh.n_unknowns());
   Eigen::MatrixXd stiffness(n, n);
@@ -29,6 +29,7 @@ inline Eigen::MatrixXd stiffness_matrix(const BeamMesh& mesh, double bending_sti
     mesh.curvatures(entries(unit), kappa);
     for (double& value : kappa) value *= bending_stiffness;
     mesh.bending_forces(kappa, entries(forces));
+    if (mesh.shears()) mesh.add_shear_forces(entries(unit), entries(forces));
     stiffness.col(j) = -forces;
   }
   return stiffness;

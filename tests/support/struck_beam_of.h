@@ -15,7 +15,7 @@ inline StruckBeam struck_beam_of(const Scene& scene, std::shared_ptr<const BeamM
   return StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), make_contact_law(scene),
                                     scene.striker.mass, scene.striker.velocity,
                                     0.5 * scene.beam.youngs_modulus * scene.beam.thickness,
-                                    std::move(solver)});
+                                    std::move(solver), 0.0, scene.beam.damping});
 }
 
 }  // namespace subimpact

@@ -29,6 +29,8 @@ struct SparseFunctional {
     for (const Term& term : terms) sum += term.coefficient * unknowns[term.unknown];
     return sum;
   }
+  /// Adds `factor` times another functional of few terms; terms that cancel go.
+  void add(double factor, const SparseFunctional& other);
   /// forces += amount * coefficients: the generalised force of a point load `amount`.
   void add_to(std::span<double> forces, double amount) const {
     if (!dense.empty()) {
@@ -84,7 +86,8 @@ class BeamMesh {
   /// Momentum of the beam for 1 m/s of each unknown, kg.
   std::span<const double> momentum_functional() const { return momentum_functional_; }
   /// Moment of momentum of the beam about x = 0 for 1 m/s of each unknown, kg m: the integral of
-  /// rho A x w_t + J w_xt. Empty where a mesh does not give it, and on one half of a beam.
+  /// rho A x w_t + J phi_t, with the rotation phi of sections. Empty where a mesh does not give it,
+  /// and on one half of a beam.
   std::span<const double> moment_functional() const { return moment_functional_; }
   double beam_mass() const { return beam_mass_; }  ///< kg, of the whole beam
   /// Whether only one half is stored.
@@ -112,12 +115,12 @@ class BeamMesh {
   virtual double curvature(std::size_t section, std::span<const double> unknowns) const;
   /// The same as coefficients on the unknowns.
   virtual SparseFunctional curvature_functional(std::size_t section) const;
-  /// Displacement w of the axis at x (m, from 0 to the end of the part modelled) and its slope w',
-  /// as coefficients on the unknowns; where the slope jumps, the mean of both sides, and at an end
-  /// the slope within the beam. Nothing on a mesh that does not give them: a run then has no
-  /// shapes.
+  /// Displacement w of the axis at x (m, from 0 to the end of the part modelled) and rotation of
+  /// the section there (rad; the slope w' where sections do not shear), as coefficients on the
+  /// unknowns; where the rotation jumps, the mean of both sides, and at an end that within the
+  /// beam. Nothing on a mesh that does not give them: a run then has no shapes.
   virtual std::optional<SparseFunctional> displacement_at(double /*x*/) const { return {}; }
-  virtual std::optional<SparseFunctional> slope_at(double /*x*/) const { return {}; }
+  virtual std::optional<SparseFunctional> rotation_at(double /*x*/) const { return {}; }
   /// Half bandwidth of B^T B and K_s.
   std::size_t stiffness_bandwidth() const;
   /// result += B^T W diag(tangents) B + K_s, N/m; `tangents` = dM/dkappa of the sections, N m2. The

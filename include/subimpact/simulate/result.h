@@ -66,7 +66,7 @@ struct ShapeRow {
   double position;           ///< x, m
   double displacement;       ///< w, m
   double velocity;           ///< m/s
-  double slope;              ///< dw/dx
+  double rotation;           ///< of the section, rad; dw/dx where sections do not shear
   double curvature;          ///< kappa, 1/m
   double moment;             ///< M, N m
   double plastic_curvature;  ///< kappa - M/(E I), 1/m
@@ -235,12 +235,14 @@ struct Result {
   /// s: the time from which it is proven that no contact follows; searched with time.stop =
   /// "no-more-contact".
   std::optional<double> no_more_contact;
-  std::size_t n_yielded_sections = 0;        ///< of the sections modelled
-  double max_force = 0.0;                    ///< N
-  double max_indentation = 0.0;              ///< m
-  double striker_velocity = 0.0;             ///< m/s, at the end
-  double beam_mean_velocity = 0.0;           ///< m/s, at the end: beam momentum over beam mass
-  double max_energy_error = 0.0;             ///< largest relative error over all checks
+  std::size_t n_yielded_sections = 0;  ///< of the sections modelled
+  double max_force = 0.0;              ///< N
+  double max_indentation = 0.0;        ///< m
+  double largest_rotation = 0.0;       ///< rad, of sections, as seen at separations and at the end
+  double largest_displacement = 0.0;   ///< m, of the struck point, as seen there and at rows
+  double striker_velocity = 0.0;       ///< m/s, at the end
+  double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
+  double max_energy_error = 0.0;       ///< largest relative error over all checks
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
   double contact_damping_loss = 0.0;         ///< J, dissipated by the damping of the contact
   double beam_damping_loss = 0.0;            ///< J, by that of the beam

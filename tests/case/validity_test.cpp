@@ -1,0 +1,126 @@
+// What a run says about the limits of the model: each warning in a scene that deserves it and in
+// one that does not.
+
+#include "subimpact/case/validity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "paper_case.h"
+
+namespace subimpact {
+namespace {
+
+bool warns_of(const Case& input, const std::string& words) {
+  for (const std::string& warning : simulate(input).warnings) {
+    if (warning.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+Case plain_case() {
+  Case input = paper_case(SectionKind::elastic, 0.6e-3);
+  input.model.segments = 101;
+  return input;
+}
+
+TEST(TheModelsLimits, AreNotReachedByAnElasticStrikeOfASlenderBeam) {
+  EXPECT_TRUE(simulate(plain_case()).warnings.empty());
+}
+
+TEST(AThickBeam, IsDoubtedWhereItsTheoryLeavesOutShear) {
+  Case input = plain_case();
+  input.scene.beam.thickness = 0.09 * input.scene.beam.length;
+  EXPECT_FALSE(warns_of(input, "of its length"));
+  input.scene.beam.thickness = 0.12 * input.scene.beam.length;
+  EXPECT_TRUE(warns_of(input, "thickness is 0.12 of its length, and its theory leaves out shear"));
+  input.scene.beam.theory = BeamTheory::timoshenko;
+  input.scene.beam.poisson = 0.3;
+  EXPECT_FALSE(warns_of(input, "of its length"));
+  input.scene.beam.thickness = 0.4 * input.scene.beam.length;
+  EXPECT_TRUE(warns_of(input, "thickness is 0.4 of its length: plane sections"));
+}
+
+TEST(LargeRotations, AreDoubted) {
+  Case input = plain_case();
+  input.scene.striker.position = 0.1;
+  input.end_time = 3e-3;
+  input.scene.striker.velocity = 2.0;
+  EXPECT_FALSE(warns_of(input, "sections turn"));
+  input.scene.striker.velocity = 40.0;
+  EXPECT_TRUE(warns_of(input, "sections turn by up to"));
+}
+
+TEST(LargeDeflections, AreDoubtedOnBeamsHeldAtBothEnds) {
+  Case input = plain_case();
+  input.end_time = 2e-3;
+  input.scene.striker.velocity = 4.0;
+  EXPECT_FALSE(warns_of(input, "of the thickness"));  // a free beam moves away
+  input.scene.beam.ends = {EndSupport::pinned, EndSupport::free};
+  EXPECT_FALSE(warns_of(input, "of the thickness"));
+  input.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  EXPECT_TRUE(warns_of(input, "of the thickness, on a beam held at both ends"));
+  input.scene.striker.velocity = 0.4;
+  EXPECT_FALSE(warns_of(input, "of the thickness"));
+}
+
+TEST(DeepIndentations, AreDoubted) {
+  Case input = plain_case();
+  input.scene.striker.nose_radius = 2e-3;
+  EXPECT_FALSE(warns_of(input, "of the nose radius"));
+  input.scene.striker.nose_radius = 1e-3;
+  EXPECT_TRUE(warns_of(input, "of the nose radius"));
+}
+
+TEST(HighPressures, AreDoubtedWhereTheContactCannotYield) {
+  Case input = plain_case();
+  input.scene.contact = {ContactKind::hertz, {}, 210e9, 0.3, 0.33};
+  input.scene.striker.velocity = 0.5;
+  const Result result = simulate(input);
+  const double pressure =
+      1.5 * result.max_force / (M_PI * *input.scene.striker.nose_radius * result.max_indentation);
+  input.scene.beam.yield_stress = 1.01 * pressure / 1.6;
+  EXPECT_FALSE(warns_of(input, "contact pressure"));
+  input.scene.beam.yield_stress = 0.99 * pressure / 1.6;
+  EXPECT_TRUE(warns_of(input, "contact pressure"));
+  input.scene.contact = {};
+  EXPECT_FALSE(warns_of(input, "contact pressure"));
+}
+
+// Runs with shear beside it; the scenes differ in thickness, stiffness and mass.
+TEST(NeglectedShear, IsEstimatedWithinAFactorOfTwo) {
+  struct Change {
+    double thickness, contact_stiffness, mass, velocity;
+  };
+  for (const Change& change : {Change{7.5e-3, 0.0, 0.201, 0.1}, Change{3e-3, 0.0, 0.05, 0.1},
+                               Change{15e-3, 0.0, 1.0, 0.05}, Change{7.5e-3, 2e6, 0.201, 1.0},
+                               Change{7.5e-3, 2e7, 0.05, 1.0}, Change{20e-3, 1e7, 2.0, 0.3}}) {
+    Case input = plain_case();
+    input.model.segments = 801;
+    input.end_time = 2e-3;
+    input.scene.beam.thickness = change.thickness;
+    input.scene.beam.poisson = 0.33;
+    input.scene.striker.mass = change.mass;
+    input.scene.striker.velocity = change.velocity;
+    if (change.contact_stiffness > 0.0) {
+      input.scene.contact = {ContactKind::linear, change.contact_stiffness, {}, {}, {}};
+    }
+    const Result without = simulate(input);
+    const double estimate = neglected_shear(input, without).value();
+    input.scene.beam.theory = BeamTheory::timoshenko;
+    const Result with = simulate(input);
+    EXPECT_FALSE(neglected_shear(input, with));
+    const double shift = with.end_of(with.sub_impacts.front()) /
+                             without.end_of(without.sub_impacts.front()) - 1.0;
+    std::printf("first contact %.4g us; with shear longer by %.3g %%, estimated %.3g %%\n",
+                1e6 * without.end_of(without.sub_impacts.front()), 100.0 * shift,
+                100.0 * estimate);
+    EXPECT_GT(estimate, 0.5 * shift);
+    EXPECT_LT(estimate, 2.0 * shift);
+  }
+}
+
+}  // namespace
+}  // namespace subimpact
