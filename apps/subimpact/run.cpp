@@ -19,6 +19,7 @@
 #include "subimpact/io/results.h"
 #include "subimpact/study/companion.h"
 #include "subimpact/study/error_bars.h"
+#include "subimpact/study/neglected_shear.h"
 #include "subimpact/study/mesh_error_bars.h"
 #include "subimpact/study/within.h"
 #include "time_option.h"
@@ -136,14 +137,17 @@ int run(const RunOptions& options) {
   if (!options.quiet) print_notes(loaded);
   print_warnings(doubts);
   InterruptListener listener;
-  const WithinRun finished = with_places(loaded, [&] {
+  WithinRun finished = with_places(loaded, [&] {
     if (open) return simulate_as_chosen(loaded.value, *open, options, listener, files);
     return WithinRun{loaded.value, simulate_as_given(loaded.value, std::move(resolved), options,
                                                      listener, files)};
   });
   const Case& input = finished.input;
-  const Result& result = finished.result;
   listener.hold_back();
+  if (options.error_bars != "off") {
+    finished.result.neglected_shear = neglected_shear(input, finished.result);
+  }
+  const Result& result = finished.result;
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {

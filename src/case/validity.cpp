@@ -14,10 +14,6 @@ constexpr double largest_deflection = 0.5;   // over the thickness, of a beam he
 constexpr double deepest_indentation = 0.1;  // over the nose radius
 constexpr double highest_pressure = 1.6;     // over the yield stress
 
-constexpr double usual_poisson = 0.3;
-// Of runs with and without shear: tests/case/validity_test.cpp.
-constexpr double share_per_wave = 0.5;
-
 constexpr double mm = 1e3;
 
 class Limits {
@@ -100,22 +96,6 @@ class Limits {
 
 std::vector<std::string> beyond_the_model(const Case& input, const Result& result) {
   return Limits(input, result).sentences();
-}
-
-// In the time T of a contact bending waves of the wave number b, with b^2 = pi/(T r c), c =
-// sqrt(E/rho), reach the struck point. Its displacement under a force grows as the root of time in
-// bending and in proportion to time in shear, so that shear adds a share of the order of r b
-// sqrt(E/(k G)).
-std::optional<double> neglected_shear(const Case& input, const Result& result) {
-  Beam beam = input.scene.beam;
-  if (beam.shears() || input.model.mesh == MeshKind::rigid) return std::nullopt;
-  if (result.sub_impacts.empty() || !result.sub_impacts.front().end) return std::nullopt;
-  const SubImpact& first = result.sub_impacts.front();
-  if (!beam.poisson) beam.poisson = input.scene.contact.beam_poisson.value_or(usual_poisson);
-  const double over_shear = beam.youngs_modulus * beam.area() / beam.shear_stiffness();
-  const double speed = std::sqrt(beam.youngs_modulus / beam.density);
-  const double wave = M_PI * beam.radius_of_gyration() / (speed * (*first.end - first.start));
-  return share_per_wave * std::sqrt(over_shear * wave);
 }
 
 }  // namespace subimpact

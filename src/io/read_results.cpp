@@ -276,6 +276,10 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
                       interval_from(outcome.value("first_failure_s", Json()))};
     result.choice = json.value("choice", std::string());
     result.warnings = json.value("warnings", std::vector<std::string>());
+    if (const Json shear = json.value("neglected_shear", Json()); !shear.is_null()) {
+      result.neglected_shear = {number(shear.at("first_contact_end_without_s")),
+                                optional_number(shear.at("first_contact_end_with_s"))};
+    }
     result.n_history_rows = integer<std::size_t>(json.at("counts").at("history_rows"));
     result.n_shape_rows = integer<std::size_t>(json.at("counts").value("shape_rows", Json(0)));
     result.plastic_zones = plastic_zones_from(json.value("rest", Json()));

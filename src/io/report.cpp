@@ -14,7 +14,6 @@
 #include "io/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/case/validity.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
@@ -154,14 +153,17 @@ double magnitude(const EnvelopeRow::Range& range) {
   return std::max(range.largest.value, -range.smallest.value);
 }
 
+// Strains where sections yield are those of a hinge, which depend on the size of the mesh.
 std::string bending_text(const Result& result) {
   const auto moment = [](const EnvelopeRow& row) { return magnitude(row.moment); };
-  const auto strain = [](const EnvelopeRow& row) { return magnitude(row.strain); };
   const EnvelopeRow& most_bent = where_largest(result, moment);
+  const std::string text =
+      fmt::format("moment up to {:.4g} N m at {:.4g} m", moment(most_bent), most_bent.position);
+  if (result.n_yielded_sections > 0) return text;
+  const auto strain = [](const EnvelopeRow& row) { return magnitude(row.strain); };
   const EnvelopeRow& most_strained = where_largest(result, strain);
-  return fmt::format("moment up to {:.4g} N m at {:.4g} m, outer strain to {:.3g} % at {:.4g} m",
-                     moment(most_bent), most_bent.position, 100.0 * strain(most_strained),
-                     most_strained.position);
+  return text + fmt::format(", outer strain to {:.3g} % at {:.4g} m",
+                            100.0 * strain(most_strained), most_strained.position);
 }
 
 std::string permanent_set_text(const Result& result) {
@@ -175,6 +177,17 @@ std::string permanent_set_text(const Result& result) {
   return fmt::format(
       "{:.4g} mm at {:.4g} m against the chord; largest plastic hinge {:.3g} rad at {:.4g} m",
       1e3 * most.permanent_set, most.position, hinge.rotation, 0.5 * (hinge.from + hinge.to));
+}
+
+std::string neglected_shear_words(const NeglectedShear& shear) {
+  const std::string change =
+      shear.with ? fmt::format("moves the end of the first contact from {:.3g} to {:.3g} us",
+                               us * shear.without, us * *shear.with)
+                 : fmt::format("moves the end of the first contact from {:.3g} us to beyond three "
+                               "times that",
+                               us * shear.without);
+  return fmt::format("shear, which on a coarse mesh {}; beam.theory = \"timoshenko\" has it",
+                     change);
 }
 
 }  // namespace
@@ -275,16 +288,6 @@ std::string sub_impact_table(const Result& result) {
   return text;
 }
 
-std::string neglected_shear_words(const Case& input, const Result& result) {
-  const std::optional<double> share = neglected_shear(input, result);
-  if (!share) return {};
-  const SubImpact& first = result.sub_impacts.front();
-  return fmt::format(
-      "shear, which would lengthen the first contact by some {:.1g} % ({:.0g} us); beam.theory = "
-      "\"timoshenko\" has it",
-      100.0 * *share, us * *share * (*first.end - first.start));
-}
-
 std::string run_summary(const Case& input, const Result& result) {
   const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
   const Work& work = result.work;
@@ -336,8 +339,7 @@ std::string run_summary(const Case& input, const Result& result) {
   line("work", fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"),
                            work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
                            counted(work.roots, "event"), duration_text(work.wall_seconds)));
-  const std::string left_out = neglected_shear_words(input, result);
-  if (!left_out.empty()) line("left out", left_out);
+  if (result.neglected_shear) line("left out", neglected_shear_words(*result.neglected_shear));
   for (const std::string& warning : result.warnings) line("warning", warning);
   return fmt::to_string(text);
 }

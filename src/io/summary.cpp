@@ -211,6 +211,12 @@ Json error_estimate_in_times(const std::optional<ErrorEstimate>& estimate) {
   };
 }
 
+Json shear_or_null(const std::optional<NeglectedShear>& shear) {
+  if (!shear) return nullptr;
+  return {{"first_contact_end_without_s", number(shear->without)},
+          {"first_contact_end_with_s", number(shear->with)}};
+}
+
 }  // namespace
 
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
@@ -248,6 +254,7 @@ std::string summary_json(const Case& input, const Result& result) {
       {"wish_met", result.wish ? Json(result.wish->met) : Json(nullptr)},
       {"wish", wish_or_null(result.wish)},
       {"choice", result.choice},
+      {"neglected_shear", shear_or_null(result.neglected_shear)},
       {"warnings", result.warnings},
       {"counts", counts(result, zones)},
       {"zones", zone_list(zones)},

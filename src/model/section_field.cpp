@@ -190,7 +190,7 @@ const SectionField::AtRest& SectionField::at_rest(std::size_t section) const {
 
 SectionField::Energies SectionField::energies(std::span<const double> curvatures,
                                               std::span<const double> weights) const {
-  const double half_compliance = 0.5 / stiffness_;
+  const double half_compliance = stiffness_ > 0.0 ? 0.5 / stiffness_ : 0.0;
   Energies sum;
   for (std::size_t i = 0; i < curvatures.size(); ++i) {
     const double k = curvatures[i];

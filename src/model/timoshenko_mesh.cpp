@@ -19,6 +19,9 @@ std::size_t rotations_of_ends(const Beam& beam, bool half) {
   return (pinned(0) ? 1 : 0) + (!half && pinned(1) ? 1 : 0);
 }
 
+// Of a distance between places: nearer than this they are one.
+constexpr double same_place = 1e-9;
+
 std::size_t nodes_kept(std::size_t n_cells, bool half) { return half ? n_cells / 2 + 1 : n_cells; }
 
 }  // namespace
@@ -186,7 +189,9 @@ TimoshenkoMesh::Place TimoshenkoMesh::rotation_place(long j) const {
 }
 
 SparseFunctional TimoshenkoMesh::between(const Place& before, const Place& after, double x) {
-  const double share = (x - before.x) / (after.x - before.x);
+  double share = (x - before.x) / (after.x - before.x);
+  const double nearest = std::round(share);
+  if (std::abs(share - nearest) < same_place) share = nearest;  // a support holds it wholly
   SparseFunctional value;
   value.add(1.0 - share, before.value);
   value.add(share, after.value);

@@ -23,8 +23,7 @@ Case linear_case(MeshKind mesh, int n, double position, EndSupport end) {
   input.scene.striker.position = position;
   input.scene.beam.ends = {end, end};
   input.model.mesh = mesh;
-  input.model.segments = n;
-  input.model.elements = n;
+  (mesh == MeshKind::cells ? input.model.segments : input.model.elements) = n;
   input.solver.method = Method::nystrom;
   input.solver.rtol = 1e-11;
   return input;
@@ -305,7 +304,8 @@ TEST(Reactions, CloseTheBalanceOfMomentumOfSupportedBeams) {
       const double impulse = integral(result.history);
       const double error = (initial + impulse - last) / initial;
       std::printf("%s, %s: impulse of the supports %.6g of m v0, momentum closes to %.1e\n",
-                  beam.name, end == EndSupport::pinned ? "pinned" : "clamped", impulse / initial, error);
+                  beam.name, end == EndSupport::pinned ? "pinned" : "clamped", impulse / initial,
+                  error);
       EXPECT_GT(std::abs(impulse), 1e-3 * initial);
       EXPECT_LT(std::abs(error), 1e-10);
     }

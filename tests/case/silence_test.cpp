@@ -292,12 +292,14 @@ TEST(CentralDifferences, WarnOfContactsThatLastAFewStepsOnly) {
   Case input = paper_case(SectionKind::exact, 2e-3);
   input.model.segments = 101;
   input.solver.method = Method::central_difference;
-  const Result coarse = simulate(input);
-  ASSERT_EQ(coarse.warnings.size(), 1u);
-  EXPECT_NE(coarse.warnings.front().find("fewer than 8 steps"), std::string::npos)
-      << coarse.warnings.front();
+  const auto warnings_of_steps = [](const Result& result) {
+    return std::ranges::count_if(result.warnings, [](const std::string& warning) {
+      return warning.find("fewer than 8 steps") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(warnings_of_steps(simulate(input)), 1);
   input.solver.step = 5e-9;
-  EXPECT_TRUE(simulate(input).warnings.empty());
+  EXPECT_EQ(warnings_of_steps(simulate(input)), 0);
 }
 
 TEST(CentralDifferences, KeepHistoryInOrderAndImpulsesEqualToTheChangeOfVelocityInFlight) {

@@ -143,6 +143,8 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   foundation.accuracy.event_times = 1e-6;
   foundation.solver.max_step = 2e-7;
   foundation.solver.table = "dormand-prince";
+  foundation.output.points = {0.5};
+  foundation.output.shapes = 1e-5;
   foundation.solver.events = EventHandling::located;
   Case linear = foundation;
   linear.scene.contact = {ContactKind::linear, 1e7, {}, {}, {}};

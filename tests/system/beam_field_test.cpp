@@ -167,8 +167,10 @@ TEST(AFreeMesh, HasTheMomentOfMomentumOfARigidRotation) {
           w0 * m * l / 2.0 + turn * (m * l * l / 3.0 + beam.rotary_inertia() * l);
       const double size = std::abs(w0) * m * l / 2.0 + std::abs(turn) * m * l * l / 3.0;
       // Cells: the mass of a cell is at its centre, m l^2/3 less a twelfth of a cell's square; the
-      // outer halves of free end cells have no rotary inertia.
-      EXPECT_NEAR(moment, expected, (has_cells(kind) ? 4e-4 : 1e-9) * size) << kind;
+      // outer halves of free end cells have no rotary inertia. The stiffness of shear leaves some
+      // 1e-8 of other shapes in the rigid ones of the dense decomposition.
+      const double tolerance = has_cells(kind) ? 4e-4 : shears(kind) ? 1e-7 : 1e-9;
+      EXPECT_NEAR(moment, expected, tolerance * size) << kind;
     }
   }
 }
@@ -229,9 +231,11 @@ TEST_P(Meshes, LieAtRestAsTheDoubleIntegralOfTheirPlasticCurvature) {
     const double difference = largest_difference(*mesh, beam, plastic, places, largest) / largest;
     std::printf("permanent set, %zu sections: off by %.1e of the largest\n", mesh->n_sections(),
                 difference);
-    // A clamped end of cells is a parabola through its first centres, to second order.
+    // A clamped end of cells is a parabola through its first centres, to second order; and cells
+    // integrate the residual moments of a beam held at both ends to second order.
     const bool is_clamped = ends[0] == clamped || ends[1] == clamped;
-    EXPECT_LT(difference, kind == Kind::cells && is_clamped ? 0.03 : 1e-10);
+    // Shear is so much stiffer than bending that the dense solution has some 1e-9 of rounding.
+    EXPECT_LT(difference, has_cells(kind) && is_clamped ? 0.03 : shears(kind) ? 1e-8 : 1e-10);
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,15 +21,5 @@ namespace subimpact {
 ///
 /// Rotations are those seen at separations and at the end of the run.
 std::vector<std::string> beyond_the_model(const Case& input, const Result& result);
-
-/// Estimate of the share by which shear, where the theory leaves it out, would lengthen the first
-/// contact, of duration T:
-///
-///     0.5 sqrt(E/(k G)) sqrt(pi r/(c T)),    c = sqrt(E/rho),
-///
-/// with the radius of gyration r; nu = 0.3 unless given. Right within a factor of two where both
-/// theories have that contact; contacts that shear merges change by more. Nothing where the theory
-/// has shear, for a rigid beam, and before the first contact has ended.
-std::optional<double> neglected_shear(const Case& input, const Result& result);
 
 }  // namespace subimpact

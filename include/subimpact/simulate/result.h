@@ -201,6 +201,12 @@ struct ErrorEstimate {
   std::vector<Part> parts;
 };
 
+/// Ends of the first contact on one coarse mesh, without and with shear.
+struct NeglectedShear {
+  double without = 0.0;        ///< s
+  std::optional<double> with;  ///< s; none: not within three times the other
+};
+
 /// What became of a wished accuracy of the event times (starts and ends of sub-impacts).
 struct WishOutcome {
   double wished = 0.0;   ///< s, error of event times that was asked for
@@ -251,6 +257,7 @@ struct Result {
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
   std::optional<ErrorEstimate> error_estimate;  ///< with error bars
+  std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
   std::optional<WishOutcome> wish;              ///< of runs that were asked for an accuracy
   /// Why mesh and method are what they are, where the program chose them; else empty.
   std::string choice;
