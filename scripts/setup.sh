@@ -22,6 +22,7 @@ readonly packages=(
   libtomlplusplus-dev
   libcli11-dev
   libssl-dev
+  libjs-dygraphs
   libgtest-dev
   libbenchmark-dev
 )
@@ -52,7 +53,8 @@ install_with_apt() {
   as_root "${apt_get[@]}" -q install -y --no-install-recommends "$@"
 }
 
-# Installs what is missing. Never fatal: CMake has the last word on what it can use.
+# install_missing_packages [PACKAGE...]: installs what is missing of the build's packages and of these.
+# Never fatal: CMake has the last word on what it can use.
 install_missing_packages() {
   local -a missing=()
   local name
@@ -66,7 +68,7 @@ install_missing_packages() {
     say "Going on with what CMake finds."
     return
   fi
-  for name in "${packages[@]}"; do
+  for name in "${packages[@]}" "$@"; do
     is_installed "$name" || missing+=("$name")
   done
   [[ ${#missing[@]} -gt 0 ]] || return 0

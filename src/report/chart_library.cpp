@@ -8,8 +8,11 @@
 namespace subimpact {
 namespace {
 
-// Ends neither the script element nor its character data.
+// Ends neither the script element nor its character data, and names no other file.
 std::string within_page(std::string text) {
+  if (const std::size_t map = text.find("//# sourceMappingURL"); map != std::string::npos) {
+    text.erase(map, text.find('\n', map) - map);
+  }
   for (const auto& [end, harmless] : {std::pair("</script", "<\\/script"), std::pair("]]>", "]] >"),
                                       std::pair("</style", "<\\/style")}) {
     for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at)) {

@@ -15,6 +15,7 @@
 #include "report/page_data.h"
 #include "report/page_parts.h"
 #include "report/strike_words.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -45,8 +46,9 @@ List headlines(const Result& result) {
     if (*n_decided == n) {
       line(true, fmt::format("count and order of all {}{}.", counted(n, "sub-impact"), within));
     } else if (*n_decided > 0) {
+      const std::string first = *n_decided == 1 ? "sub-impact" : counted(*n_decided, "sub-impact");
       line(true,
-           fmt::format("the first {}, up to {}{}.", counted(*n_decided, "sub-impact"),
+           fmt::format("the first {}, up to {}{}.", first,
                        duration_text(result.end_of(result.sub_impacts[*n_decided - 1])), within));
     }
     if (const std::string reason = undecided_reason(result); !reason.empty()) {

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 // Sizes that keep a page below 5 MB.
 constexpr std::size_t most_history_rows = 22'000;
 constexpr std::size_t most_points = 600;          // of a shape
-constexpr std::size_t most_shape_rows = 160'000;  // of all shapes
+constexpr std::size_t most_shape_rows = 240'000;  // of all shapes
 
 using Member = double HistoryRow::*;
 struct HistoryColumn {

@@ -11,14 +11,17 @@ function roundSpacing(raw) {
   return decade * ([1, 2, 5].find((factor) => factor * decade >= raw * (1 - 1e-9)) ?? 10);
 }
 
+// Round values, some `most` and two at least.
 function linearTicks(from, to, most) {
-  const spacing = roundSpacing((to - from) / most);
-  const decimals = Math.max(0, Math.ceil(-Math.log10(spacing) - 1e-9));
-  const ticks = [];
-  for (let k = Math.ceil(from / spacing - 1e-9); k * spacing <= to + 1e-9 * spacing; ++k) {
-    ticks.push({at: k * spacing, label: (k * spacing).toFixed(decimals).replace('-', '−')});
+  for (let parts = most; ; parts *= 2) {
+    const spacing = roundSpacing((to - from) / parts);
+    const decimals = Math.max(0, Math.ceil(-Math.log10(spacing) - 1e-9));
+    const ticks = [];
+    for (let k = Math.ceil(from / spacing - 1e-9); k * spacing <= to + 1e-9 * spacing; ++k) {
+      ticks.push({at: k * spacing, label: (k * spacing).toFixed(decimals).replace(/^-(?=.*[1-9])/, '−').replace(/^-/, '')});
+    }
+    if (ticks.length >= 2 || !(to > from) || parts > 64 * most) return ticks;
   }
-  return ticks;
 }
 
 // Powers of ten; between them 2 and 5 where fewer than three of those would be there.
@@ -83,7 +86,7 @@ class Axes {
     draw.fillStyle = colour('soft');
     draw.textBaseline = 'middle';
     draw.textAlign = 'right';
-    for (const {at, label} of this.ticks(this.y, bottom - top, 44)) {
+    for (const {at, label} of this.ticks(this.y, bottom - top, 36)) {
       this.line([[left, this.toY(at)], [right, this.toY(at)]]);
       draw.fillText(label, left - 7, this.toY(at));
     }
@@ -126,6 +129,18 @@ class Axes {
     points.forEach(([x, y], i) => (i === 0 ? draw.moveTo(x, y) : draw.lineTo(x, y)));
     draw.stroke();
     draw.setLineDash([]);
+  }
+
+  // Keeps what is drawn so far; restore() draws that again.
+  keep() {
+    this.kept = document.createElement('canvas');
+    Object.assign(this.kept, {width: this.canvas.width, height: this.canvas.height});
+    if (this.kept.width > 0 && this.kept.height > 0) this.kept.getContext('2d').drawImage(this.canvas, 0, 0);
+  }
+  restore() {
+    if (!(this.kept.width > 0 && this.kept.height > 0)) return;
+    this.draw.clearRect(0, 0, this.width, this.height);
+    this.draw.drawImage(this.kept, 0, 0, this.width, this.height);
   }
 
   text(words, x, y, align = 'left', name = 'text') {

@@ -48,19 +48,16 @@ class TimeChart {
 
   // Names of the lines with a sample of each, and values at the cursor.
   legend(data) {
-    const legend = document.createElement('span');
+    const legend = document.createDocumentFragment();
     if (data.x !== undefined) legend.append(`${printed(data.x, 8)} ${this.unit.name}: `);
     data.series.forEach((series, i) => {
-      const sample = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-      sample.setAttribute('viewBox', '0 0 26 8');
-      const line = document.createElementNS('http://www.w3.org/2000/svg', 'path');
-      line.setAttribute('d', 'M0 4H26');
-      line.setAttribute('stroke', series.color);
-      line.setAttribute('stroke-width', '2');
-      line.setAttribute('stroke-dasharray', (lineStyles[i % lineStyles.length].dash ?? []).join(' '));
-      sample.append(line);
+      const sample = document.createElement('span');
+      sample.className = 'sample';
+      const dash = (lineStyles[i % lineStyles.length].dash ?? []).join(' ');
+      sample.innerHTML = `<svg viewBox="0 0 26 8"><path d="M0 4H26" stroke="${series.color}" stroke-width="2" stroke-dasharray="${dash}"/></svg>`;
       const value = data.x === undefined || series.y === undefined ? '' : ` ${printed(series.y, 6)}`;
       const item = document.createElement('span');
+      item.className = 'item';
       item.append(sample, ` ${series.label}${value}`);
       legend.append(item);
     });
@@ -187,7 +184,7 @@ class Loop {
       }
     });
     this.drawKey(axes);
-    this.picture = axes.draw.getImageData(0, 0, this.canvas.width, this.canvas.height);
+    axes.keep();
     this.drawTime();
   }
 
@@ -201,7 +198,7 @@ class Loop {
 
   drawTime() {
     const {axes, strike, view} = this;
-    axes.draw.putImageData(this.picture, 0, 0);
+    axes.restore();
     const force = strike.at('force_N', view.time);
     const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(force);
     axes.inside((draw) => {
@@ -255,7 +252,7 @@ class Timeline {
       for (const mark of this.marks) this.drawMark(axes, draw, mark);
     });
     this.drawKey(axes);
-    this.picture = axes.draw.getImageData(0, 0, canvas.width, canvas.height);
+    axes.keep();
     this.drawTime();
   }
 
@@ -299,7 +296,7 @@ class Timeline {
 
   drawTime() {
     const {axes, view, strike} = this;
-    axes.draw.putImageData(this.picture, 0, 0);
+    axes.restore();
     const x = axes.toX(view.time * strike.time_unit.per_second);
     axes.inside(() => axes.line([[x, axes.top], [x, axes.bottom]], {colour: colour('cursor'), width: 1.5}));
   }

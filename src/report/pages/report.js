@@ -165,10 +165,14 @@ class Page {
     parts.push(index < 0 ? 'apart' : `in sub-impact ${index + 1}${strike.sub_impacts[index].decided ? '' : ' (not decided)'}`);
     if (strike.hasHistory) {
       parts.push(`force ${printed(strike.at('force_N', time))} N`,
-                 `indentation ${printed(1e3 * strike.at('indentation_m', time))} mm`,
+                 this.distanceWords(1e3 * strike.at('indentation_m', time)),
                  `striker ${printed(strike.at('v_m_m_per_s', time))} m/s`);
     }
     return parts.join(' · ');
+  }
+
+  distanceWords(indentation) {
+    return indentation < 0 ? `gap ${printed(-indentation)} mm` : `indentation ${printed(indentation)} mm`;
   }
 
   announce() { byId('announced').textContent = this.words(); }
@@ -305,6 +309,7 @@ class Page {
 }
 
 document.documentElement.classList.add('live');
+if (typeof Dygraph === 'undefined') byId('stills').classList.add('open');
 addStillsButton();
 addCopyButton();
 requestAnimationFrame(() => setTimeout(() => { window.page = new Page(dataOfPage()); }));
