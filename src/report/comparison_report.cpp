@@ -138,7 +138,7 @@ Fields pair_table(const Result& first, const Result& second, std::size_t run) {
                      {"row_class", row.matched ? "" : " class=\"undecided\""}},
                     {{"cells", list_of("cell", row.cells)}}});
   }
-  return {{{"letter", letter(run)}, {"words", pair_words(pairs, first, second, run)}},
+  return {{{"letter", letter(run)}, {"words", in_print(pair_words(pairs, first, second, run))}},
           {{"rows", rows}}};
 }
 

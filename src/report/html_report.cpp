@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "case/counted.h"
@@ -27,9 +28,9 @@ using List = FieldList;
 
 List wish_list(const Result& result) {
   if (!result.wish) return {};
-  return {Fields{
-      {{"wish", wish_words(*result.wish, result)}, {"class", result.wish->met ? "met" : "warning"}},
-      {}}};
+  return {Fields{{{"wish", in_print(wish_words(*result.wish, result))},
+                  {"class", result.wish->met ? "met" : "warning"}},
+                 {}}};
 }
 
 // What is certain of a run, and what is not.
@@ -105,9 +106,9 @@ List column_list(const SubImpactRows& table) {
 
 // A line across the table, where sub-impacts are no longer decided.
 List undecided_line(const Result& result, std::size_t n_columns) {
-  return {Fields{
-      {{"n_columns", fmt::format("{}", n_columns)}, {"undecided_reason", undecided_reason(result)}},
-      {}}};
+  return {Fields{{{"n_columns", fmt::format("{}", n_columns)},
+                  {"undecided_reason", in_print(undecided_reason(result))}},
+                 {}}};
 }
 
 List sub_impact_list(const Result& result, const SubImpactRows& table) {
@@ -155,7 +156,7 @@ void add_method(Fields& page, const FinishedRun& run) {
                             : fmt::format("adaptive, to {:.2g} m and {:.2g} m/s",
                                           used.position_tolerance, used.velocity_tolerance);
   texts["events"] = to_string(used.events);
-  texts["first_period"] = duration_text(used.first_period);
+  texts["first_period"] = in_print(duration_text(used.first_period));
   texts["work"] =
       fmt::format("{}, {} rejected, {}, {} located; {}", counted(work.steps, "step"),
                   work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
@@ -168,7 +169,8 @@ Fields error_bars(const ErrorEstimate& estimate) {
     parts.push_back(
         {{{"name", part.name},
           {"run", part.refined_run},
-          {"error", part.first_unresolved == std::size_t{0} ? "" : error_text(part.largest_error)},
+          {"error",
+           part.first_unresolved == std::size_t{0} ? "" : in_print(error_text(part.largest_error))},
           {"valid",
            part.first_unresolved
                ? fmt::format(
@@ -200,7 +202,8 @@ void add_conservation(Fields& page, const Result& result) {
                               last.bending_plastic, last.contact_elastic, last.contact_plastic}) {
     energies.push_back({{{"energy", fmt::format("{:.5g}", energy)}}, {}});
   }
-  page.lists["last_row"] = {Fields{{{"time", duration_text(last.time)}}, {{"energies", energies}}}};
+  page.lists["last_row"] = {
+      Fields{{{"time", in_print(duration_text(last.time))}}, {{"energies", energies}}}};
 }
 
 }  // namespace
@@ -212,6 +215,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   const Scene& scene = run.input.scene;
   const std::string caveat = outcome_caveat(result);
   const SubImpactRows table = sub_impact_rows(result, "±");
+  std::vector<std::string> paragraphs = strike_words(run.input, result);
+  std::ranges::transform(paragraphs, paragraphs.begin(), in_print);
   const PageData data = page_data(run.input, result);
   const ChartLibrary charts = chart_library(dygraphs);
   std::string versions = run.program_version;
@@ -222,8 +227,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"striker_kg", fmt::format("{:.4g}", scene.striker.mass)},
        {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
        {"outcome", std::string(to_string(result.outcome.kind))},
-       {"end", duration_text(result.outcome.time)},
-       {"errors", error_words(run.input, result)},
+       {"end", in_print(duration_text(result.outcome.time))},
+       {"errors", in_print(error_words(run.input, result))},
        {"toml", case_file_text(run.input)},
        {"data", data.json},
        {"history_note", data.history_note},
@@ -231,10 +236,10 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"versions", versions}},
       {{"headlines", headlines(result)},
        {"wishes", wish_list(result)},
-       {"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
+       {"caveats", if_given(!caveat.empty(), {{{"caveat", in_print(caveat)}}, {}})},
        {"warnings", list_of("warning", result.warnings)},
        {"tiles", tiles(result)},
-       {"paragraphs", list_of("paragraph", strike_words(run.input, result))},
+       {"paragraphs", list_of("paragraph", paragraphs)},
        {"figures", figure_list(figures, figure_directory)},
        {"left_out", list_of("reason", figures.left_out)},
        {"failed", list_of("failure", figures.failed)},

@@ -1,8 +1,22 @@
 #include "report/page_parts.h"
 
+#include <cctype>
+
 #include "report/files.h"
 
 namespace subimpact {
+
+std::string in_print(std::string text) {
+  for (const std::string_view unit : {" us", " um"}) {
+    for (std::size_t at = text.find(unit); at != std::string::npos; at = text.find(unit, at + 1)) {
+      const std::size_t next = at + unit.size();
+      const bool ends =
+          next == text.size() || !std::isalnum(static_cast<unsigned char>(text[next]));
+      if (ends) text.replace(at + 1, 1, "µ");
+    }
+  }
+  return text;
+}
 
 void add_scripts(Fields& page, const ChartLibrary& charts, std::string_view main_script) {
   FieldList scripts;

@@ -25,11 +25,14 @@ inline FieldList if_given(bool given, const Fields& fields = {}) {
   return given ? FieldList{fields} : FieldList{};
 }
 
+/// Words of the program with units as they are set in print: "12 us" becomes "12 µs".
+std::string in_print(std::string text);
+
 /// One line of a page's headline: what is certain, or what is not.
 inline Fields headline(bool certain, const std::string& words) {
   return {{{"kind", certain ? "certain" : "not"},
            {"about", certain ? "Certain:" : "Not certain:"},
-           {"words", words}},
+           {"words", in_print(words)}},
           {}};
 }
 

@@ -52,7 +52,7 @@ return [...document.querySelectorAll('button, input, select, canvas, .plot, figu
 
 class PageTest(unittest.TestCase):
     maxDiff = 2000
-    page = None  # file name of the page, set by make()
+    page = None  # file of the page, which make() writes
 
     @classmethod
     def setUpClass(cls):
@@ -386,6 +386,35 @@ class PageWithoutCharts(PageTest):
         self.assertTrue(self.find("#stills").is_displayed())
         self.assertGreater(self.js(COUNT, self.find("#loop"), "line1"), 60)
         self.assertGreater(self.js(COUNT, self.find("#shape"), "beam"), 60)
+
+
+class OtherRuns(PageTest):
+    """Runs that lack something."""
+
+    RUNS = {"no rows": ["output.interval=0"], "rigid": ["model.mesh=rigid"], "open": ["time.end=1e-5"],
+            "no shapes": ["output.shapes=0"], "clamped": ['beam.ends=["clamped","pinned"]', "striker.position=0.3"],
+            "elastic": ["beam.yield_stress=inf", "model.section=elastic", "contact.law=linear",
+                        "contact.stiffness=1e7"]}
+
+    @classmethod
+    def make(cls):
+        for name, settings in cls.RUNS.items():
+            end = [] if name == "open" else ["time.end=3e-4"]
+            cls.program.run(name, "model.segments=51", *end, *settings)
+            cls.program("report", name)
+        return cls.program.directory / "open" / "report.html"
+
+    def test_pages_of_all_of_them_start_and_draw(self):
+        for name in self.RUNS:
+            with self.subTest(name):
+                browser.open_page(self.driver, self.program.directory / name / "report.html")
+                self.js("page.step(1); page.choose(0); page.showAll()")
+                self.frame()
+                self.assertGreater(self.js(COUNT, self.find("#timeline"), "line1"), 10)
+                self.assertEqual(self.find("#motion").is_displayed(), name not in ("no shapes", "no rows"))
+                self.assertEqual(self.find("#charts").is_displayed(), name != "no rows")
+                problems = [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+                self.assertEqual(problems, [])
 
 
 class ComparisonPage(PageTest):

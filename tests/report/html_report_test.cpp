@@ -103,7 +103,7 @@ TEST(HtmlReport, ShowsAWishUnderTheTitle) {
   EXPECT_EQ(html_report(run, {}, ".").find("Wish:"), std::string::npos);
   run.result.wish = WishOutcome{1e-6, false, 2e-6, 8.4e-4, "cells < 51", "model.segments"};
   const std::string page = html_report(run, {}, ".");
-  expect_in(page, "Wish: event times within 1 us: not met; 2 us reached up to 840 us");
+  expect_in(page, "Wish: event times within 1 µs: not met; 2 µs reached up to 840 µs");
   expect_in(page, "cells &lt; 51; free model.segments.");
   EXPECT_LT(page.find("Wish:"), page.find("<h2>"));
 }
@@ -181,7 +181,7 @@ TEST(HtmlReport, StatesFirstWhatIsCertainAndWhatIsNot) {
   expect_in(html_report(run, {}, "."), "Not certain:</b> event times, count and order");
   run.result = sample_result_with_errors(1);
   const std::string page = html_report(run, {}, ".");
-  expect_in(page, "Certain:</b> the first sub-impact, up to 333.333 us");
+  expect_in(page, "Certain:</b> the first sub-impact, up to 333.333 µs");
   expect_in(page, "Not certain:</b> what comes from sub-impact 2 on: they part.");
   run.result = sample_result_with_errors(3);
   expect_in(html_report(run, {}, "."), "Certain:</b> count and order of all 3 sub-impacts");
@@ -196,9 +196,9 @@ TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
   const std::string page = page_of(run);
   EXPECT_EQ(xml_problem(page), "");
   const auto banner = page.find(
-      "<p class=\"failed\">unstable: results up to 100 us passed every check; first failure "
+      "<p class=\"failed\">unstable: results up to 100 µs passed every check; first failure "
       "between "
-      "100 and 200 us.</p>");
+      "100 and 200 µs.</p>");
   ASSERT_NE(banner, std::string::npos);
   EXPECT_LT(banner, page.find("class=\"tiles\""));
   expect_in(page, "Warning: beam.length is 711 m &amp; long.");
@@ -221,7 +221,7 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   run.result.error_estimate = estimate;
   const std::string page = page_of(run);
   EXPECT_EQ(xml_problem(page), "");
-  for (const char* piece : {"the same with rtol = 1e-10", "0.002 us", "for all sub-impacts",
+  for (const char* piece : {"the same with rtol = 1e-10", "0.002 µs", "for all sub-impacts",
                             "the same with 103 cells", "before sub-impact 2", "they &lt;part&gt;",
                             "sub-impact 2 is the first that is uncertain"}) {
     expect_in(page, piece);
@@ -241,7 +241,7 @@ TEST(HtmlReport, CountsAndMarksDecidedSubImpacts) {
   ASSERT_NE(first_row, std::string::npos);
   EXPECT_LT(page.find("333.333 ±"), line);
   EXPECT_LT(line, first_row);
-  expect_in(page, "Error of the event times: times to 0.3 us up to sub-impact 1");
+  expect_in(page, "Error of the event times: times to 0.3 µs up to sub-impact 1");
   expect_in(page, "3 sub-impacts in 2 zones, 1 decided");
 }
 
