@@ -19,8 +19,8 @@
 #include "subimpact/io/results.h"
 #include "subimpact/study/companion.h"
 #include "subimpact/study/error_bars.h"
-#include "subimpact/study/neglected_shear.h"
 #include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/neglected_shear.h"
 #include "subimpact/study/within.h"
 #include "time_option.h"
 
