@@ -219,6 +219,7 @@ void print_totals(const std::vector<Judged>& all) {
         if (kind != "all" && kind_of(judged.scene.input) != kind) continue;
         total.add(coverage(judged, factor));
       }
+      if (total.scenes == 0) continue;
       fmt::print("| {} | {} | {} | {} | {} | {} ({:.0f} %) | {} ({:.1f} %) | {:.1f} | {} |\n", kind,
                  factor, total.scenes, total.known, total.matched, total.decided,
                  100.0 * total.decided / std::max(total.known, 1), total.covered,
