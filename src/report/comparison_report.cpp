@@ -119,10 +119,8 @@ std::string pair_words(const std::vector<MatchedPair>& pairs, const Result& firs
   std::string text = fmt::format("The first {} correspond one to one", counted(n, "sub-impact"));
   if (n > 0) text += fmt::format("; their starts differ by {} at most", error_text(largest));
   if (n == pairs.size()) return text + ".";
-  const auto other = first_unmatched(pairs, first.sub_impacts, second.sub_impacts);
-  text += fmt::format("; of {} pairs or single ones {} do not", pairs.size(), pairs.size() - n);
-  if (other) {
-    text += fmt::format(", from {} on: a contact of {} that only one of the runs A and {} has",
+  if (const auto other = first_unmatched(pairs, first.sub_impacts, second.sub_impacts)) {
+    text += fmt::format("; from {} on they part, where a contact of {} is in one of A and {} only",
                         duration_text(other->start), duration_text(other->duration), letter(run));
   }
   return text + ".";

@@ -39,7 +39,8 @@ constexpr HistoryColumn drawn_columns[] = {{"force_N", &HistoryRow::force},
                                            {"U_e_J", &HistoryRow::bending_elastic},
                                            {"U_p_J", &HistoryRow::bending_plastic},
                                            {"U_c_J", &HistoryRow::contact_elastic},
-                                           {"D_c_J", &HistoryRow::contact_plastic}};
+                                           {"D_c_J", &HistoryRow::contact_plastic},
+                                           {"D_b_J", &HistoryRow::beam_damping}};
 
 // --- packing -------------------------------------------------------------------------------------
 

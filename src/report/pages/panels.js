@@ -3,7 +3,8 @@
 
 const lineStyles = [
   {colour: 'line1', dash: null}, {colour: 'line2', dash: [7, 3]}, {colour: 'line3', dash: [2, 2]},
-  {colour: 'line4', dash: [9, 3, 2, 3]}, {colour: 'line5', dash: [4, 4]}, {colour: 'line6', dash: [12, 4]}];
+  {colour: 'line4', dash: [9, 3, 2, 3]}, {colour: 'line5', dash: [4, 4]}, {colour: 'line6', dash: [12, 4]},
+  {colour: 'soft', dash: [1, 3]}];
 
 // A zoomable chart over time. rows: [time, value, ...] in the units of the labels.
 class TimeChart {

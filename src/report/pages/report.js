@@ -51,7 +51,8 @@ const timeCharts = [
   {id: 'chart-energy', label: 'energy, J', columns: [
     {name: 'U_m_J', label: 'striker U_m'}, {name: 'U_k_J', label: 'beam, kinetic U_k'},
     {name: 'U_e_J', label: 'bending, elastic U_e'}, {name: 'U_p_J', label: 'bending, plastic U_p'},
-    {name: 'D_c_J', label: 'contact, plastic D_c'}, {name: 'U_c_J', label: 'contact, elastic U_c'}]},
+    {name: 'D_c_J', label: 'contact, plastic D_c'}, {name: 'U_c_J', label: 'contact, elastic U_c'},
+    {name: 'D_b_J', label: 'damping of the beam D_b', ifAny: true}]},
 ];
 
 class Page {
@@ -85,7 +86,8 @@ class Page {
       byId('charts').hidden = true;
       return;
     }
-    for (const {id, label, columns} of timeCharts) {
+    for (const {id, label, columns: all} of timeCharts) {
+      const columns = all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0));
       this.charts.push(new TimeChart(byId(id), {
         rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel: label,
         unit: strike.time_unit, bands: bandsOf(strike), view: this.view}));
