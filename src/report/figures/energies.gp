@@ -40,7 +40,7 @@ plot $striker with lines title 'striker U_m', \
      $elastic with lines title 'bending, elastic U_e', \
      $plastic with lines title 'bending, plastic U_p', \
      $contact with lines title 'contact, plastic D_c', \
-     $damping using 1:(is_damped ? $2 : NaN) with lines title is_damped ? 'damping D_b' : '', \
+     $damping using 1:(is_damped > 0 ? $2 : NaN) with lines title is_damped > 0 ? 'damping D_b' : '', \
      keyentry with boxes fillstyle solid noborder linecolor rgb '#F6DDAA' \
        title n_undecided > 0 ? 'sub-impacts not decided' : ''
 
