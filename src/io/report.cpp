@@ -162,8 +162,8 @@ std::string bending_text(const Result& result) {
   if (result.n_yielded_sections > 0) return text;
   const auto strain = [](const EnvelopeRow& row) { return magnitude(row.strain); };
   const EnvelopeRow& most_strained = where_largest(result, strain);
-  return text + fmt::format(", outer strain to {:.3g} % at {:.4g} m",
-                            100.0 * strain(most_strained), most_strained.position);
+  return text + fmt::format(", outer strain to {:.3g} % at {:.4g} m", 100.0 * strain(most_strained),
+                            most_strained.position);
 }
 
 std::string permanent_set_text(const Result& result) {
@@ -183,9 +183,10 @@ std::string neglected_shear_words(const NeglectedShear& shear) {
   const std::string change =
       shear.with ? fmt::format("moves the end of the first contact from {:.3g} to {:.3g} us",
                                us * shear.without, us * *shear.with)
-                 : fmt::format("moves the end of the first contact from {:.3g} us to beyond three "
-                               "times that",
-                               us * shear.without);
+                 : fmt::format(
+                       "moves the end of the first contact from {:.3g} us to beyond three "
+                       "times that",
+                       us * shear.without);
   return fmt::format("shear, which on a coarse mesh {}; beam.theory = \"timoshenko\" has it",
                      change);
 }

@@ -256,9 +256,9 @@ struct Result {
   double max_impulse_error = 0.0;
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
-  std::optional<ErrorEstimate> error_estimate;  ///< with error bars
+  std::optional<ErrorEstimate> error_estimate;    ///< with error bars
   std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
-  std::optional<WishOutcome> wish;              ///< of runs that were asked for an accuracy
+  std::optional<WishOutcome> wish;                ///< of runs that were asked for an accuracy
   /// Why mesh and method are what they are, where the program chose them; else empty.
   std::string choice;
   Work work;
