@@ -138,6 +138,16 @@ def test_rows_are_those_of_single_runs(population, tmp_path):
     assert len(sweep.runs) == 40 and sweep.n_missing == 0
 
 
+def test_hdf5_has_the_numbers_of_the_tables(population, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    sweep = si.sweep(population, out=tmp_path, workers=0)
+    with h5py.File(sweep.write_hdf5()) as file, open(tmp_path / "sub_impacts.csv") as table:
+        rows = list(csv.DictReader(table))
+        assert [float(row["end_s"] or "nan") for row in rows] == pytest.approx(
+            list(file["sub_impacts/end_s"]), rel=0, abs=0, nan_ok=True)
+        assert set(file["runs/outcome"].asstr()) == {"completed"}
+
+
 def test_a_changed_plan_keeps_what_still_fits(population, tmp_path, monkeypatch):
     si.sweep(population, out=tmp_path, workers=0)
     counted = []

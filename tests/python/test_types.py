@@ -6,6 +6,7 @@ import sys
 
 import subimpact
 
+HERE = os.path.dirname(__file__)
 PACKAGE = os.path.dirname(os.path.realpath(subimpact.__file__))
 
 
@@ -16,10 +17,10 @@ def mypy(*arguments):
 
 
 def test_the_package_is_typed_without_gaps(tmp_path):
-    done = mypy("mypy", "--strict", "--cache-dir", str(tmp_path), PACKAGE)
+    done = mypy("mypy", "--config-file", HERE + "/mypy.ini", "--cache-dir", str(tmp_path), PACKAGE)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_the_stubs_are_those_of_the_module():
-    done = mypy("mypy.stubtest", "subimpact._core")
+    done = mypy("mypy.stubtest", "--allowlist", HERE + "/stubtest.allowed", "subimpact._core")
     assert done.returncode == 0, done.stdout + done.stderr

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
 import time
 from collections.abc import Sequence
@@ -50,6 +51,7 @@ def _parser() -> argparse.ArgumentParser:
                         help="take the rows of other directories first; run what is missing then")
     parser.add_argument("--retry", action="store_true",
                         help="run cases again that were timed out, crashed or ran out of memory")
+    parser.add_argument("--hdf5", action="store_true", help="write the tables into sweep.h5 too")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     return parser
 
@@ -95,6 +97,8 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
         )
     finally:
         display.end()
+    if options.hdf5:
+        sweep.write_hdf5()
     for note in sweep.notes:
         print(f"subimpact-sweep: {note}", file=sys.stderr)
     outcomes = _outcomes(sweep.directory / "runs.csv")
@@ -122,18 +126,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         if options.dask is not None:
-            from dask.distributed import Client
-
-            with Client(options.dask) as client:
+            distributed: Any = importlib.import_module("dask.distributed")
+            with distributed.Client(options.dask) as client:
                 return _run(options, client)
         if options.mpi:
-            from mpi4py.futures import MPIPoolExecutor
-
-            with MPIPoolExecutor() as executor:
+            futures: Any = importlib.import_module("mpi4py.futures")
+            with futures.MPIPoolExecutor() as executor:
                 return _run(options, executor)
         return _run(options, None)
     except (CaseError, PlanError, StoreError) as error:
         print(f"subimpact-sweep: {error}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"subimpact-sweep: {error}; Debian's packages are python3-distributed, python3-mpi4py and python3-h5py",
+              file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("subimpact-sweep: stopped; the same command goes on from here", file=sys.stderr)

@@ -13,7 +13,7 @@ from ..case import Case
 from .engines import Coordinator, Given, Processes, n_cores, run_here
 from .plan import Axes, Plan
 from .store import Store
-from .tables import write_tables
+from .tables import write_hdf5, write_tables
 from .worker import Row, identity_of
 
 _SECONDS_BETWEEN_COMMITS = 0.5
@@ -41,6 +41,10 @@ class Sweep:
     def sub_impacts(self) -> Any:
         """sub_impacts.csv as a DataFrame of pandas: one row per sub-impact of each case."""
         return self._table("sub_impacts.csv")
+
+    def write_hdf5(self) -> Path:
+        """Writes both tables into sweep.h5, which needs h5py; returns its path."""
+        return write_hdf5(self.directory)
 
     def _table(self, name: str) -> Any:
         import pandas

@@ -57,3 +57,26 @@ def write_tables(plan: Plan, identities: list[str], store: Store) -> int:
             for line in zlib.decompress(row.sub_impacts).decode().splitlines(keepends=True):
                 sub_impacts.write(f"{number},{line}")
     return n_missing
+
+
+def write_hdf5(directory: Path) -> Path:
+    """Writes sweep.h5 from the two tables: a group each, with one data set per column. Empty cells
+    of numbers are NaN. Needs h5py."""
+    import h5py
+
+    path = directory / "sweep.h5"
+    temporary = path.with_name(".sweep.h5.new")
+    with h5py.File(temporary, "w") as file:
+        for name in (RUNS, SUB_IMPACTS):
+            group = file.create_group(name.removesuffix(".csv"))
+            with open(directory / name, encoding="utf-8") as table:
+                heading = next(table).rstrip("\n").split(",")
+                rows = [line.rstrip("\n").split(",") for line in table]
+            for column, label in enumerate(heading):
+                cells = [row[column] for row in rows]
+                try:
+                    group[label] = [float(text or "nan") for text in cells]
+                except ValueError:
+                    group.create_dataset(label, data=cells, dtype=h5py.string_dtype())
+    os.replace(temporary, path)
+    return path
