@@ -26,6 +26,24 @@ readonly packages=(
   libgtest-dev
   libbenchmark-dev
 )
+# Of the Python package and its tests. The build goes on without them.
+readonly python_packages=(
+  python3-dev
+  python3-pybind11
+  pybind11-dev
+  python3-numpy
+  python3-scipy
+  python3-pandas
+  python3-h5py
+  python3-matplotlib
+  python3-pytest
+  python3-nbconvert
+  python3-ipykernel
+  python3-dask
+  python3-distributed
+  python3-mpi4py
+  mypy
+)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -71,14 +89,24 @@ install_missing_packages() {
   for name in "${packages[@]}" "$@"; do
     is_installed "$name" || missing+=("$name")
   done
-  [[ ${#missing[@]} -gt 0 ]] || return 0
-  say "Installing ${missing[*]}"
+  install_or_name "${missing[@]}"
+  missing=()
+  for name in "${python_packages[@]}"; do
+    is_installed "$name" || missing+=("$name")
+  done
+  install_or_name "${missing[@]}"
+}
+
+# Installs packages, or says how to.
+install_or_name() {
+  [[ $# -gt 0 ]] || return 0
+  say "Installing $*"
   if [[ $(id -u) -ne 0 ]] && ! has_command sudo; then
-    say "This needs root and there is no sudo. As root: apt-get install ${missing[*]}"
-  elif install_with_apt "${missing[@]}"; then
+    say "This needs root and there is no sudo. As root: apt-get install $*"
+  elif install_with_apt "$@"; then
     return
   else
-    say "They could not be installed. As root: apt-get install ${missing[*]}"
+    say "They could not be installed. As root: apt-get install $*"
   fi
   say "Going on with what CMake finds."
 }

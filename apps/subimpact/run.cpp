@@ -17,11 +17,7 @@
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/companion.h"
-#include "subimpact/study/error_bars.h"
-#include "subimpact/study/mesh_error_bars.h"
-#include "subimpact/study/neglected_shear.h"
-#include "subimpact/study/within.h"
+#include "subimpact/study/run_as_asked.h"
 #include "time_option.h"
 
 namespace subimpact::app {
@@ -57,46 +53,34 @@ int exit_status(OutcomeKind kind) {
   return failed;
 }
 
-// What the program chooses of a case that wishes for an accuracy, or neither wishes nor fixes
-// anything; nothing where all is as the case has it.
-std::optional<OpenChoices> choices_left(const LoadedCase& loaded, const RunOptions& options) {
-  const OpenChoices open = open_choices(loaded.given);
+// Nothing: those that a run has by default.
+std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOptions& options) {
+  if (options.error_bars.empty()) return std::nullopt;
   if (loaded.value.accuracy.event_times) {
-    if (options.error_bars.empty()) return open;
     throw CaseFileError(fmt::format(
         "--error-bars={}: cannot go with a wish for event times, whose errors come from companion "
         "runs; leave out --error-bars, or --within and accuracy.event_times",
         options.error_bars));
   }
-  if (open.all() && options.error_bars.empty()) return open;
-  return std::nullopt;
+  if (options.error_bars == "off") return ErrorBars::off;
+  return options.error_bars == "time" ? ErrorBars::time : ErrorBars::all;
 }
 
-WithinRun simulate_as_chosen(const Case& input, const OpenChoices& open, const RunOptions& options,
-                             const InterruptListener& listener, ResultWriter& files) {
-  ProgressDisplay progress(input.end_time, options.quiet, listener);
-  WithinOptions how;
-  how.jobs = options.jobs.number();
-  how.rows = [&files] {
+WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOptions& options,
+                     const InterruptListener& listener, ResultWriter& files) {
+  ProgressDisplay progress(loaded.value.end_time, options.quiet, listener);
+  RunRequest request;
+  request.error_bars = error_bars_of(loaded, options);
+  request.jobs = options.jobs.number();
+  request.progress = std::ref(progress);
+  request.announce = [&progress](const std::string& what) { progress.show_run(what); };
+  request.rows = [&files] {
     files.restart();
     return &files;
   };
-  how.announce = [&progress](const std::string& what) { progress.show_run(what); };
-  how.progress = std::ref(progress);
-  return simulate_within(input, open, how);
-}
-
-Result simulate_as_given(const Case& input, ResolvedRun run, const RunOptions& options,
-                         const InterruptListener& listener, RowSink& rows) {
-  ProgressDisplay progress(input.end_time, options.quiet, listener);
-  if (options.error_bars == "off")
-    return simulate(std::move(run), std::ref(progress), nullptr, &rows);
-  if (options.error_bars == "time")
-    return simulate_with_error_bars(input, std::ref(progress), &rows);
-  if (options.error_bars == "all") {
-    return simulate_with_all_error_bars(input, std::ref(progress), &rows);
-  }
-  return simulate_with_companion(input, options.jobs.number(), std::ref(progress), &rows);
+  request.resolved = std::move(resolved);
+  return with_places(loaded,
+                     [&] { return run_as_asked(loaded.value, loaded.given, std::move(request)); });
 }
 
 // Those that are not printed yet.
@@ -129,7 +113,7 @@ std::string write(ResultWriter& files, const Case& input, const Result& result) 
 int run(const RunOptions& options) {
   LoadedCase loaded = options.input.load();
   if (!options.within.empty()) loaded.value.accuracy.event_times = seconds_of(options.within);
-  const std::optional<OpenChoices> open = choices_left(loaded, options);
+  error_bars_of(loaded, options);
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = resolve_loaded(loaded);
   ResultWriter files(output_directory(options), loaded.value);
@@ -137,16 +121,9 @@ int run(const RunOptions& options) {
   if (!options.quiet) print_notes(loaded);
   print_warnings(doubts);
   InterruptListener listener;
-  WithinRun finished = with_places(loaded, [&] {
-    if (open) return simulate_as_chosen(loaded.value, *open, options, listener, files);
-    return WithinRun{loaded.value, simulate_as_given(loaded.value, std::move(resolved), options,
-                                                     listener, files)};
-  });
+  const WithinRun finished = run_loaded(loaded, std::move(resolved), options, listener, files);
   const Case& input = finished.input;
   listener.hold_back();
-  if (options.error_bars != "off") {
-    finished.result.neglected_shear = neglected_shear(input, finished.result);
-  }
   const Result& result = finished.result;
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, input, result);

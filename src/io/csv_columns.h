@@ -12,12 +12,15 @@
 #include <charconv>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace subimpact {
@@ -40,6 +43,27 @@ template <class Value>
 void append_cell(std::string& text, const std::optional<Value>& value) {
   if (value) append_cell(text, *value);
 }
+
+/// A cell as a value; std::monostate: empty.
+using Cell = std::variant<std::monostate, double, std::int64_t, std::string>;
+enum class CellType { real, whole, words };
+
+inline Cell to_cell(double value) { return value; }
+inline Cell to_cell(std::integral auto value) { return static_cast<std::int64_t>(value); }
+inline Cell to_cell(std::string_view words) { return std::string(words); }
+template <class Enum>
+requires std::is_enum_v<Enum> Cell to_cell(Enum value) { return std::string(to_string(value)); }
+template <class Value>
+Cell to_cell(const std::optional<Value>& value) {
+  return value ? to_cell(*value) : Cell();
+}
+
+template <class Value>
+constexpr CellType cell_type = std::is_floating_point_v<Value> ? CellType::real
+                               : std::is_integral_v<Value>     ? CellType::whole
+                                                               : CellType::words;
+template <class Value>
+constexpr CellType cell_type<std::optional<Value>> = cell_type<Value>;
 
 /// Each reads a whole cell; false if the cell is no value of that type.
 template <class Number>
@@ -73,12 +97,18 @@ struct Column {
   template <class Value>
   Column(std::string name_with_unit, std::string meaning_of_value, Value value)
       : name(std::move(name_with_unit)), meaning(std::move(meaning_of_value)) {
-    append = [value](std::string& text, const Row& row, [[maybe_unused]] std::size_t index) {
+    const auto held = [value](const Row& row,
+                              [[maybe_unused]] std::size_t index) -> decltype(auto) {
       if constexpr (std::is_invocable_v<Value, const Row&, std::size_t>) {
-        append_cell(text, std::invoke(value, row, index));
+        return std::invoke(value, row, index);
       } else {
-        append_cell(text, std::invoke(value, row));
+        return std::invoke(value, row);
       }
+    };
+    type = cell_type<std::remove_cvref_t<decltype(held(std::declval<const Row&>(), 0))>>;
+    cell = [held](const Row& row, std::size_t index) { return to_cell(held(row, index)); };
+    append = [held](std::string& text, const Row& row, std::size_t index) {
+      append_cell(text, held(row, index));
     };
     if constexpr (std::is_invocable_v<Value, Row&>) {
       if constexpr (std::is_lvalue_reference_v<std::invoke_result_t<Value, Row&>>) {
@@ -98,6 +128,8 @@ struct Column {
   std::string meaning;               ///< for the documentation
   const char* allowed = "a number";  ///< for messages
   bool optional = false;             ///< whether a file may lack it
+  CellType type = CellType::real;
+  std::function<Cell(const Row&, std::size_t index)> cell;
   std::function<void(std::string& text, const Row&, std::size_t index)> append;
   std::function<bool(std::string_view cell, Row&)> read;  ///< none: it follows from other columns
 };

@@ -154,6 +154,10 @@ const Columns<SubImpact>& events_columns() {
   return columns;
 }
 
+Columns<SubImpact> events_columns(const Result& result) {
+  return all_events_columns(result.n_decided());
+}
+
 const Columns<Transition>& transitions_columns() {
   static const Columns<Transition> columns = {
       {"time_s", "instant of the event", &Transition::time},
@@ -228,7 +232,7 @@ const Columns<EnvelopeRow>& envelope_columns() {
 }
 
 std::string events_csv(const Result& result) {
-  return csv_text(all_events_columns(result.n_decided()), result.sub_impacts);
+  return csv_text(events_columns(result), result.sub_impacts);
 }
 
 std::string transitions_csv(const std::vector<Transition>& transitions) {

@@ -7,6 +7,8 @@ namespace subimpact {
 
 // The columns of the tables that a run leaves.
 const Columns<SubImpact>& events_columns();
+/// The same with `decided` of this result.
+Columns<SubImpact> events_columns(const Result& result);
 const Columns<Transition>& transitions_columns();
 const Columns<HistoryRow>& history_columns();
 const Columns<SectionRow>& sections_columns();

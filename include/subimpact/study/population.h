@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+
+/// Values of one key, or of several keys that change together.
+struct PopulationAxis {
+  std::vector<std::string> keys;
+  std::vector<std::vector<KeyValue>> points;  ///< each with one value per key
+};
+
+/// Cases that differ from a base case in the values of some keys: every combination of the points
+/// of all axes, and of each `n_samples` samples of the numbers that scatter.
+///
+/// A number p that scatters with the relative standard deviation s has the values p exp(s z), with
+/// z normal and p that of the axis or else of the base case. Seed and number of a sample determine
+/// its z for all keys, at every combination of the axes alike; values that a key does not allow are
+/// drawn again.
+struct Population {
+  std::vector<PopulationAxis> axes;       ///< the points of the last one change fastest
+  std::map<std::string, double> scatter;  ///< s by key; independent of each other
+  std::size_t n_samples = 1;
+  std::uint64_t seed = 1;
+
+  std::size_t size() const;
+  /// The keys whose values differ, in the order of axes and then of scatter; each once.
+  std::vector<std::string> keys() const;
+  /// Their values in a case, numbered from 0: samples change fastest.
+  std::vector<std::pair<std::string, KeyValue>> settings(const Case& base,
+                                                         std::size_t number) const;
+};
+
+/// Throws InvalidCase for a key that is unknown, on two axes, without values or with values that it
+/// does not allow, and for scatter of what is no finite number of the base case.
+void check(const Population& population, const Case& base);
+
+}  // namespace subimpact

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/simulate.h"
+#include "subimpact/study/within.h"
+
+namespace subimpact {
+
+/// Where the error estimates of event times come from.
+enum class ErrorBars {
+  off,   ///< there are none
+  time,  ///< a run refined in time (study/error_bars.h)
+  all    ///< refined runs of time, mesh and layers (study/mesh_error_bars.h)
+};
+
+struct RunRequest {
+  /// Empty: from a companion; and what a case that fixes nothing leaves open is chosen
+  /// (study/within.h). Must be empty if the case has accuracy.event_times.
+  std::optional<ErrorBars> error_bars;
+  Jobs jobs = 1;
+  Progress progress;  ///< of the run in hand; returning false ends all with what there is
+  /// Called before each run of several, with its description.
+  std::function<void(const std::string& what)> announce;
+  /// Called before each run whose rows are kept: where they go. Those of the run before are to be
+  /// discarded. Empty: rows stay in the result.
+  std::function<RowSink*()> rows;
+  /// The case resolved already; taken by a run without error bars.
+  std::optional<ResolvedRun> resolved;
+};
+
+/// Whether mesh, method and tolerance that the case leaves open are chosen by the program: if it
+/// has accuracy.event_times, or fixes nothing and no error bars are asked for. Throws InvalidCase
+/// (accuracy.event_times) if both are asked for.
+std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
+                                        const std::optional<ErrorBars>& error_bars);
+
+/// Runs a case as `subimpact run` does, with error estimates and what neglected shear would change,
+/// unless error bars are off. Throws InvalidCase.
+WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request);
+
+}  // namespace subimpact

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <tuple>
+
+#include "bindings.h"
+#include "subimpact/case/cost.h"
+#include "subimpact/case/doubtful_units.h"
+#include "subimpact/io/case_identity.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/study/within.h"
+
+namespace subimpact::python {
+namespace {
+
+const CaseKey& key_of(const std::string& name) {
+  if (const CaseKey* key = find_case_key(name)) return *key;
+  std::vector<std::string> names;
+  for (const CaseKey& key : case_keys()) names.push_back(key.name);
+  const std::string near = nearest_name(name, names);
+  throw InvalidCase(name, fmt::format("unknown key \"{}\"; {}", name,
+                                      near.empty() ? "subimpact.keys() lists those there are"
+                                                   : fmt::format("did you mean \"{}\"?", near)));
+}
+
+const char* type_name(KeyType type) {
+  switch (type) {
+    case KeyType::text:
+      return "text";
+    case KeyType::number:
+      return "number";
+    case KeyType::count:
+      return "count";
+    case KeyType::flag:
+      return "flag";
+    case KeyType::choice:
+      return "choice";
+    case KeyType::pair:
+      return "pair";
+    case KeyType::numbers:
+      return "numbers";
+  }
+  return "";
+}
+
+py::dict key_as_dict(const CaseKey& key) {
+  py::list choices;
+  for (const Choice& choice : key.choices) choices.append(choice.name);
+  py::dict dict;
+  dict["name"] = key.name;
+  dict["type"] = type_name(key.type);
+  dict["unit"] = key.unit;
+  dict["allowed"] = allowed_values(key);
+  dict["choices"] = py::tuple(choices);
+  dict["required"] = key.required;
+  dict["default"] = key.default_text;
+  dict["meaning"] = key.meaning;
+  return dict;
+}
+
+using Setting = std::tuple<std::string, std::string, std::string>;
+
+LoadedCase load(const std::string& text, const std::string& name,
+                const std::vector<Setting>& settings) {
+  std::vector<Override> overrides;
+  for (const auto& [key, value, origin] : settings) overrides.push_back({key, value, origin});
+  return read_case_text(text, name, overrides);
+}
+
+// The case that would run first, and why it is that one.
+ChosenModel first_run(const LoadedCase& loaded) {
+  const OpenChoices open = open_choices(loaded.given);
+  const bool chooses = open.all() || loaded.value.accuracy.event_times;
+  return chooses ? first_choice(loaded.value, open) : ChosenModel{loaded.value, {}};
+}
+
+std::string explain(const LoadedCase& loaded) {
+  return with_places(loaded, [&] {
+    const ChosenModel chosen = first_run(loaded);
+    ResolvedRun run = resolve(chosen.input);
+    std::string text = explanation(chosen.input, run.settings(), estimate_cost(run));
+    if (!chosen.reason.empty()) {
+      text += fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);
+    }
+    return text;
+  });
+}
+
+// The summary of a run that has not begun: settings given and used.
+std::string resolved_summary(const LoadedCase& loaded) {
+  return with_places(loaded, [&] {
+    const ChosenModel chosen = first_run(loaded);
+    Result result;
+    result.given = chosen.input;
+    result.used = resolve(chosen.input).settings();
+    return summary_json(chosen.input, result);
+  });
+}
+
+}  // namespace
+
+void bind_cases(py::module_& module) {
+  module.def("keys", [] {
+    py::list all;
+    for (const CaseKey& key : case_keys()) all.append(key_as_dict(key));
+    return all;
+  });
+  module.def(
+      "checked",
+      [](const std::string& name, const py::object& value) {
+        return to_python(key_value(key_of(name), value));
+      },
+      py::arg("key"), py::arg("value"));
+  module.def("load", &load, py::arg("text"), py::arg("name"), py::arg("settings"));
+
+  py::class_<LoadedCase>(module, "LoadedCase")
+      .def(
+          "value",
+          [](const LoadedCase& loaded, const std::string& name) {
+            return to_python(key_of(name).get(loaded.value));
+          },
+          py::arg("key"))
+      .def("given",
+           [](const LoadedCase& loaded) {
+             std::vector<std::string> names;
+             for (const CaseKey& key : case_keys()) {
+               const bool is_given = loaded.given.in_file.contains(key.name) ||
+                                     loaded.given.in_settings.contains(key.name);
+               if (is_given) names.push_back(key.name);
+             }
+             return names;
+           })
+      .def("notes", &LoadedCase::notes)
+      .def("doubts", [](const LoadedCase& loaded) { return doubtful_units(loaded.value); })
+      .def("explain", &explain)
+      .def("resolved_summary", &resolved_summary)
+      .def(
+          "identity",
+          [](const LoadedCase& loaded, const std::string& how) {
+            return case_identity(loaded.value, loaded.given, how);
+          },
+          py::arg("how"));
+}
+
+}  // namespace subimpact::python

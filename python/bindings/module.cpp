@@ -1,0 +1,43 @@
+#include <exception>
+
+#include "bindings.h"
+#include "subimpact/io/output_directory.h"
+#include "subimpact/io/read_results.h"
+#include "subimpact/io/versions.h"
+
+namespace subimpact::python {
+namespace {
+
+template <class... Arguments>
+void raise(const char* name, const Arguments&... arguments) {
+  const py::object type = py::module_::import("subimpact._errors").attr(name);
+  PyErr_SetObject(type.ptr(), type(arguments...).ptr());
+}
+
+void translate(std::exception_ptr failure) {
+  try {
+    if (failure) std::rethrow_exception(failure);
+  } catch (const InvalidCase& error) {
+    raise("CaseError", error.what(), error.key);
+  } catch (const CaseFileError& error) {
+    raise("CaseError", error.what());
+  } catch (const ResultsError& error) {
+    raise("ResultsError", error.what());
+  } catch (const OutputError& error) {
+    raise("OutputError", error.what());
+  }
+}
+
+}  // namespace
+}  // namespace subimpact::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace subimpact::python;
+  module.doc() = "The library subimpact, as the package subimpact uses it.";
+  py::register_exception_translator(&translate);
+  module.attr("__version__") = subimpact::project_version();
+  bind_cases(module);
+  bind_results(module);
+  bind_runs(module);
+  bind_populations(module);
+}

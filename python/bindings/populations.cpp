@@ -1,0 +1,67 @@
+#include <pybind11/stl.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "subimpact/study/population.h"
+
+namespace subimpact::python {
+namespace {
+
+// The population, with values as their keys take them.
+Population make(const py::list& axes, const std::map<std::string, double>& scatter,
+                std::size_t n_samples, std::uint64_t seed) {
+  Population population;
+  for (const py::handle item : axes) {
+    const auto [keys, points] = item.cast<std::pair<std::vector<std::string>, py::list>>();
+    PopulationAxis axis;
+    axis.keys = keys;
+    for (const py::handle point : points) {
+      const auto values = point.cast<std::vector<py::object>>();
+      std::vector<KeyValue> converted;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const CaseKey* key = k < keys.size() ? find_case_key(keys[k]) : nullptr;
+        converted.push_back(key != nullptr ? key_value(*key, values[k]) : KeyValue());
+      }
+      axis.points.push_back(std::move(converted));
+    }
+    population.axes.push_back(std::move(axis));
+  }
+  population.scatter = scatter;
+  population.n_samples = n_samples;
+  population.seed = seed;
+  return population;
+}
+
+std::vector<std::pair<std::string, py::object>> settings(const Population& population,
+                                                         const LoadedCase& base,
+                                                         std::size_t number) {
+  if (number >= population.size()) throw py::index_error("number of a case");
+  std::vector<std::pair<std::string, py::object>> values;
+  for (const auto& [name, value] : population.settings(base.value, number)) {
+    values.emplace_back(name, to_python(value));
+  }
+  return values;
+}
+
+}  // namespace
+
+void bind_populations(py::module_& module) {
+  py::class_<Population>(module, "Population")
+      .def(py::init(&make), py::arg("axes"), py::arg("scatter"), py::arg("n_samples"),
+           py::arg("seed"))
+      .def("__len__", &Population::size)
+      .def("keys", &Population::keys)
+      .def(
+          "check",
+          [](const Population& population, const LoadedCase& base) {
+            check(population, base.value);
+          },
+          py::arg("base"))
+      .def("settings", &settings, py::arg("base"), py::arg("number"));
+}
+
+}  // namespace subimpact::python

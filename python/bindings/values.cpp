@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <type_traits>
+
+#include "bindings.h"
+
+namespace subimpact::python {
+namespace {
+
+// NumPy's bool is no number of Python, but converts to one.
+bool is_bool(py::handle value) {
+  return PyBool_Check(value.ptr()) || std::string(Py_TYPE(value.ptr())->tp_name) == "numpy.bool_";
+}
+
+bool is_number(py::handle value) {
+  return !is_bool(value) && !py::isinstance<py::str>(value) && !PyComplex_Check(value.ptr()) &&
+         PyNumber_Check(value.ptr()) != 0 && !py::hasattr(value, "__len__");
+}
+
+std::optional<KeyValue> number(py::handle value) {
+  if (PyIndex_Check(value.ptr())) {
+    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!whole) throw py::error_already_set();
+    int overflow = 0;
+    const long long fits = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
+    if (overflow == 0) return std::int64_t{fits};
+  }
+  const double real = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    return std::nullopt;
+  }
+  return real;
+}
+
+std::optional<KeyValue> list(py::handle value) {
+  std::vector<std::string> texts;
+  std::vector<double> numbers;
+  for (const py::handle item : py::iter(value)) {
+    if (py::isinstance<py::str>(item)) {
+      texts.push_back(item.cast<std::string>());
+    } else if (is_number(item)) {
+      numbers.push_back(PyFloat_AsDouble(item.ptr()));
+      if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (texts.empty()) return numbers;
+  if (!numbers.empty()) return std::nullopt;
+  return texts;
+}
+
+std::optional<KeyValue> any_value(py::handle value) {
+  if (is_bool(value)) return value.cast<py::object>().attr("__bool__")().cast<bool>();
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (is_number(value)) return number(value);
+  const bool is_list = !py::isinstance<py::dict>(value) && !py::isinstance<py::bytes>(value) &&
+                       py::hasattr(value, "__iter__") && py::hasattr(value, "__len__");
+  return is_list ? list(value) : std::nullopt;
+}
+
+}  // namespace
+
+KeyValue key_value(const CaseKey& key, py::handle value) {
+  const std::optional<KeyValue> converted = any_value(value);
+  if (!converted) {
+    throw InvalidCase(key.name, refusal(key, py::repr(value).cast<std::string>()));
+  }
+  if (const auto problem = problem_with(key, *converted)) throw InvalidCase(key.name, *problem);
+  return *converted;
+}
+
+py::object to_python(const std::optional<KeyValue>& value) {
+  if (!value) return py::none();
+  return std::visit(
+      [](const auto& x) -> py::object {
+        using Value = std::decay_t<decltype(x)>;
+        if constexpr (std::is_same_v<Value, bool>) {
+          return py::bool_(x);
+        } else if constexpr (std::is_same_v<Value, std::int64_t>) {
+          return py::int_(x);
+        } else if constexpr (std::is_same_v<Value, double>) {
+          return py::float_(x);
+        } else if constexpr (std::is_same_v<Value, std::string>) {
+          return py::str(x);
+        } else {
+          py::list items;
+          for (const auto& item : x) items.append(py::cast(item));
+          return items;
+        }
+      },
+      *value);
+}
+
+}  // namespace subimpact::python

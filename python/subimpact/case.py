@@ -1,0 +1,204 @@
+"""Cases: what is simulated, and how."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from . import _core
+from ._errors import CaseError
+from ._toml import dotted, flat, text_of
+
+
+@dataclass(frozen=True)
+class Key:
+    """One key of a case."""
+
+    name: str  #: with its table: "beam.length"
+    type: str  #: "number", "count", "flag", "text", "choice", "pair" or "numbers"
+    unit: str  #: "" for none
+    allowed: str  #: in words: "a number, above 0 (m)"
+    choices: tuple[str, ...]  #: of "choice" and "pair"
+    required: bool  #: has no default
+    default: str  #: in words or as a case file has it
+    meaning: str
+
+
+_KEYS = {key["name"]: Key(**key) for key in _core.keys()}
+
+
+def keys() -> dict[str, Key]:
+    """All keys of a case by their names, as `subimpact keys` lists them."""
+    return dict(_KEYS)
+
+
+class Case:
+    """A case: a scene and how it is modelled, as values of keys such as "striker.velocity".
+
+    It begins as a file, as a text or as tables:
+
+        Case.from_file("strike.toml")
+        Case(beam={"length": 0.7112, ...}, striker={"mass": 0.201, ...}, time={"end": 8e-3})
+        Case({"beam.length": 0.7112, ...})
+
+    `case[key] = value` then changes a key. It goes before what the case began with, as `--set`
+    does on the command line. A value that its key does not allow raises CaseError at once; what
+    keys must have together is checked by `check`, and before every run. `case[key]` is the value
+    of a key or its default, None if the key is left open.
+
+    Cases may be copied, compared and pickled.
+    """
+
+    def __init__(self, tables: Mapping[str, Any] | None = None, /, **more: Any) -> None:
+        values = flat({**(tables or {}), **more})
+        lines = []
+        for key, value in values.items():
+            if key in _KEYS:
+                value = _core.checked(key, value)
+            elif not isinstance(value, (bool, int, float, str)):
+                value = str(value)
+            lines.append(f"{dotted(key)} = {text_of(value)}\n")
+        self._begin("".join(lines), "Case")
+
+    def _begin(self, text: str, name: str) -> None:
+        self._text = text
+        self._name = name
+        self._settings: dict[str, Any] = {}
+        self._loaded: _core.LoadedCase | None = None
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "text") -> Case:
+        """The case of a TOML text. `name` stands for a file in messages."""
+        case = cls.__new__(cls)
+        case._begin(text, name)
+        case.check()
+        return case
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Case:
+        """The case of a TOML file."""
+        try:
+            text = Path(path).read_text(encoding="utf-8", errors="surrogateescape")
+            text.encode("utf-8")
+        except UnicodeEncodeError:
+            raise CaseError(f"{os.fspath(path)}: is no UTF-8 text; allowed: a case file (TOML)") from None
+        return cls.from_text(text, os.fspath(path))
+
+    def _load(self) -> _core.LoadedCase:
+        if self._loaded is None:
+            settings = [
+                (key, "default" if value is None else text_of(value), f'case["{key}"]')
+                for key, value in self._settings.items()
+            ]
+            self._loaded = _core.load(self._text, self._name, settings)
+        return self._loaded
+
+    def __getitem__(self, key: str) -> Any:
+        if self._settings.get(key) is not None:
+            return self._settings[key]
+        return self._load().value(key)
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        self._settings[key] = _core.checked(key, value)
+        self._loaded = None
+
+    def __delitem__(self, key: str) -> None:
+        """As if the key had never been given: its default counts."""
+        if key not in _KEYS:
+            raise CaseError(f'unknown key "{key}"; subimpact.keys() lists those there are', key)
+        if _KEYS[key].type == "text":
+            self._settings[key] = ""
+        else:
+            self._settings[key] = None
+        self._loaded = None
+
+    def __contains__(self, key: object) -> bool:
+        return key in _KEYS
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_KEYS)
+
+    def given(self) -> dict[str, Any]:
+        """The keys that the case gives, with their values; all others have their defaults."""
+        return {key: self[key] for key in self._load().given()}
+
+    def as_dict(self) -> dict[str, Any]:
+        """The values of all keys; None for those left open."""
+        return {key: self[key] for key in _KEYS}
+
+    def changed(self, values: Mapping[str, Any] | None = None, /, **tables: Any) -> Case:
+        """A copy with other values: case.changed({"striker.velocity": 12.0})."""
+        case = self.copy()
+        for key, value in flat({**(values or {}), **tables}).items():
+            case[key] = value
+        return case
+
+    def copy(self) -> Case:
+        """A copy that changes by itself."""
+        case = Case.__new__(Case)
+        case._begin(self._text, self._name)
+        case._settings = dict(self._settings)
+        case._loaded = self._loaded
+        return case
+
+    __copy__ = copy
+
+    def __getstate__(self) -> tuple[str, str, dict[str, Any]]:
+        return self._text, self._name, self._settings
+
+    def __setstate__(self, state: tuple[str, str, dict[str, Any]]) -> None:
+        text, name, settings = state
+        self._begin(text, name)
+        self._settings = dict(settings)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both cases have the same results."""
+        return isinstance(other, Case) and self.identity() == other.identity()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        try:
+            values = self.given()
+        except CaseError as error:
+            return f"<Case, not whole: {error.problems[0]}>"
+        return "<Case " + ", ".join(f"{key}={value!r}" for key, value in values.items()) + ">"
+
+    def check(self) -> None:
+        """Raises CaseError unless the whole case is allowed."""
+        self._load()
+
+    def to_toml(self) -> str:
+        """The case as a file: the keys that it gives."""
+        return "".join(f"{dotted(key)} = {text_of(value)}\n" for key, value in self.given().items())
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes `to_toml()` into a file."""
+        Path(path).write_text(self.to_toml(), encoding="utf-8")
+
+    def notes(self) -> list[str]:
+        """Which of the given keys have no effect, in sentences."""
+        return self._load().notes()
+
+    def warnings(self) -> list[str]:
+        """Values that look as if they were in another unit (mm, MPa), in sentences."""
+        return self._load().doubts()
+
+    def explain(self) -> str:
+        """How the case will be modelled and what it will cost, as `subimpact explain` prints it."""
+        return self._load().explain()
+
+    def resolve(self) -> dict[str, Any]:
+        """The settings that a run uses (of the first run, where the program chooses mesh and
+        method), as "used" in summary.json. Raises CaseError for what cannot be modelled."""
+        used: dict[str, Any] = json.loads(self._load().resolved_summary())["used"]
+        return used
+
+    def identity(self, how: str = "") -> str:
+        """A hash of the program's version, of all keys but the title, and of `how`. Cases of the
+        same identity have the same results, to the last bit."""
+        return self._load().identity(how)

@@ -1,0 +1,155 @@
+"""Results of a run."""
+
+from __future__ import annotations
+
+import json
+import os
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Table = npt.NDArray[np.void]
+
+
+def columns() -> str:
+    """The columns of the tables of a result with their meanings, as `subimpact columns` prints."""
+    return _core.columns()
+
+
+class Result:
+    """What a run leaves.
+
+    Tables are structured NumPy arrays with the columns of the CSV files of a run; each is made once,
+    at its first use, and is read-only. `table["start_s"]` is a view of a column;
+    `pandas.DataFrame(table)` is the table for pandas. An empty cell of the file is NaN in a column
+    of real numbers and -1 in one of whole numbers.
+    """
+
+    def __init__(self, finished: _core.Finished) -> None:
+        self._finished = finished
+
+    @cached_property
+    def sub_impacts(self) -> Table:
+        """One row per sub-impact: events.csv."""
+        return self._finished.table("sub_impacts")
+
+    @cached_property
+    def transitions(self) -> Table:
+        """One row per located event: transitions.csv."""
+        return self._finished.table("transitions")
+
+    @cached_property
+    def history(self) -> Table:
+        """One row per output.interval, and two per event of the contact: history.csv."""
+        return self._finished.table("history")
+
+    @cached_property
+    def sections(self) -> Table:
+        """The sections of output.sections over time: sections.csv."""
+        return self._finished.table("sections")
+
+    @cached_property
+    def points(self) -> Table:
+        """The points of output.points over time: points.csv."""
+        return self._finished.table("points")
+
+    @cached_property
+    def shapes(self) -> Table:
+        """The whole beam at some instants: shapes.csv, with all digits."""
+        return self._finished.table("shapes")
+
+    @cached_property
+    def envelope(self) -> Table:
+        """Extremes along the beam: envelope.csv."""
+        return self._finished.table("envelope")
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """summary.json: settings given and used, counts, zones, conservation, work."""
+        summary: dict[str, Any] = json.loads(self._finished.summary())
+        return summary
+
+    @property
+    def outcome(self) -> str:
+        """ "completed", "stopped", "inaccurate", "unstable", "chattering", "solver_failed" or
+        "left_validity"."""
+        return self._finished.outcome
+
+    @property
+    def message(self) -> str:
+        """Of a run that did not complete: the cause and what to do."""
+        return self._finished.message
+
+    @property
+    def time(self) -> float:
+        """The time reached, s."""
+        return self._finished.time
+
+    @property
+    def first_failure(self) -> tuple[float, float] | None:
+        """The interval, s, in which results stop being right; None if they do not."""
+        return self._finished.first_failure
+
+    @property
+    def usable(self) -> bool:
+        """Whether the whole result passed every check."""
+        return self._finished.usable
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C ended the run."""
+        return self._finished.interrupted
+
+    @property
+    def timed_out(self) -> bool:
+        """Whether the time that the run was given ended it."""
+        return self._finished.timed_out
+
+    @property
+    def warnings(self) -> list[str]:
+        """Reasons to doubt results that passed all checks."""
+        return self._finished.warnings
+
+    @property
+    def n_decided(self) -> int | None:
+        """How many leading sub-impacts are certain in count and order; None without error bars."""
+        return self._finished.n_decided
+
+    def __getitem__(self, key: str) -> Any:
+        """The value of a key of the case that was run, with every choice made."""
+        return self._finished.value(key)
+
+    def write(self, directory: str | os.PathLike[str]) -> None:
+        """Writes the files that `subimpact run` writes. Raises OutputError."""
+        self._finished.write(os.fspath(directory))
+
+    def report(self) -> str:
+        """The summary and the table of sub-impacts, as `subimpact run` prints them."""
+        return self._finished.report()
+
+    def __repr__(self) -> str:
+        return f"<Result {self._finished.brief()}>"
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the contact force over time, sub-impacts shaded; returns the axes of Matplotlib."""
+        import matplotlib.pyplot as plt
+
+        if axes is None:
+            axes = plt.figure().add_subplot()
+        axes.plot(1e3 * self.history["time_s"], 1e-3 * self.history["force_N"])
+        for row in self.sub_impacts:
+            end = row["end_s"] if row["end_s"] == row["end_s"] else self.time
+            axes.axvspan(1e3 * row["start_s"], 1e3 * end, alpha=0.2, linewidth=0)
+        axes.set_xlabel("time, ms")
+        axes.set_ylabel("contact force, kN")
+        return axes
+
+
+def read_results(directory: str | os.PathLike[str]) -> Result:
+    """A finished run, read back from its files. Raises ResultsError."""
+    return Result(_core.read_results(os.fspath(directory)))

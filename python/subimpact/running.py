@@ -1,0 +1,50 @@
+"""Runs of a case."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Literal
+
+from . import _core
+from .case import Case
+from .result import Result
+
+ErrorBars = Literal["off", "time", "all"]
+
+
+def run(
+    case: Case,
+    *,
+    error_bars: ErrorBars | None = None,
+    within: float | None = None,
+    jobs: int = 1,
+    progress: Callable[[float], object] | None = None,
+    timeout: float | None = None,
+    out: str | os.PathLike[str] | None = None,
+) -> Result:
+    """Simulates a case, as `subimpact run` does.
+
+    error_bars  None: the errors of event times are estimated from a run half as fine, for a quarter
+                of the time; "off": no estimates; "time", "all": from refined runs, one for each
+                source of error, which takes longer
+    within      wished bound on the error of every event time, s; the program chooses what the
+                case leaves open of mesh, method and tolerance. Sets accuracy.event_times
+    jobs        threads for the runs of error estimates; results do not depend on it
+    progress    called up to twenty times per second with the simulated time, s; False ends the run
+    timeout     ends the run after some seconds
+    out         directory for the files of the run: `Result.write`
+
+    Other Python threads go on meanwhile. A run that is ended by `progress`, `timeout` or Ctrl-C
+    returns what there is, with the outcome "stopped"; `Result.interrupted` and `Result.timed_out`
+    give the reason. A solver that fails returns a result too, with an outcome that says so. Raises
+    CaseError for a case that cannot be run.
+    """
+    if within is not None:
+        case = case.changed({"accuracy.event_times": within})
+    if jobs < 1:
+        raise ValueError(f"jobs is {jobs}; allowed: 1 or more")
+    result = Result(_core.run(case._load(), error_bars, jobs, progress, timeout))
+    if out is not None:
+        result.write(out)
+    return result

@@ -1,0 +1,150 @@
+"""The command subimpact-sweep."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import sys
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from .._errors import CaseError, PlanError, StoreError
+from .plan import Plan
+from .running import run_plan
+
+_EXAMPLES = """examples:
+  subimpact-sweep plan.toml
+  subimpact-sweep plan.toml --workers 8 --out out/map
+  subimpact-sweep plan.toml --dask tcp://host:8786
+  mpiexec -n 64 python3 -m mpi4py.futures -m subimpact.sweep plan.toml --mpi
+  subimpact-sweep plan.toml --only 0:1000 --out part-1      (one of several jobs)
+  subimpact-sweep plan.toml --merge part-1 part-2           (and then their tables)
+
+exit status: 0 done; 2 bad command line, plan or case; 3 cases are missing or crashed; 130 stopped
+by Ctrl-C. A sweep that was stopped goes on where it was: give the same command again."""
+
+
+def _part(text: str) -> tuple[int, int]:
+    first, _, end = text.partition(":")
+    return int(first or 0), int(end) if end else sys.maxsize
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="subimpact-sweep",
+        description="Runs the cases of a plan and writes runs.csv and sub_impacts.csv.",
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("plan", metavar="PLAN", help="plan (TOML); see docs/populations.md")
+    parser.add_argument("--out", metavar="DIR", help="directory of the results; default: the plan's "
+                        "name without its ending, and -sweep")
+    engine = parser.add_mutually_exclusive_group()
+    engine.add_argument("--workers", type=int, metavar="N",
+                        help="processes; default: one per core; 0: all in one process")
+    engine.add_argument("--dask", metavar="ADDRESS", help="scheduler of Dask")
+    engine.add_argument("--mpi", action="store_true", help="the ranks of mpi4py.futures")
+    parser.add_argument("--memory", type=float, metavar="GIB", help="most memory of a process")
+    parser.add_argument("--only", type=_part, metavar="FIRST:END", help="the cases FIRST to END - 1")
+    parser.add_argument("--merge", nargs="+", default=[], metavar="DIR",
+                        help="take the rows of other directories first; run what is missing then")
+    parser.add_argument("--retry", action="store_true",
+                        help="run cases again that were timed out, crashed or ran out of memory")
+    parser.add_argument("--hdf5", action="store_true", help="write the tables into sweep.h5 too")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    return parser
+
+
+class _Display:
+    """Shows on stderr how many cases are done, if that is a terminal."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._is_shown = not quiet and sys.stderr.isatty()
+        self._start = time.monotonic()
+        self._first: int | None = None
+
+    def __call__(self, n_done: int, n_all: int) -> None:
+        if not self._is_shown:
+            return
+        if self._first is None:
+            self._first = n_done
+        seconds = time.monotonic() - self._start
+        n_new = n_done - self._first
+        left = f", {seconds * (n_all - n_done) / n_new:.0f} s left" if n_new else ""
+        print(f"\r\033[K{n_done} of {n_all} cases{left}", end="", file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        if self._is_shown:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+def _run(options: argparse.Namespace, executor: Any) -> int:
+    plan = Plan.from_file(options.plan)
+    out = options.out or options.plan.rsplit("/", 1)[-1].removesuffix(".toml") + "-sweep"
+    display = _Display(options.quiet)
+    try:
+        sweep = run_plan(
+            plan,
+            out,
+            workers=options.workers,
+            memory=options.memory,
+            executor=executor,
+            only=options.only,
+            retry=options.retry,
+            merge=options.merge,
+            progress=display,
+        )
+    finally:
+        display.end()
+    if options.hdf5:
+        sweep.write_hdf5()
+    for note in sweep.notes:
+        print(f"subimpact-sweep: {note}", file=sys.stderr)
+    outcomes = _outcomes(sweep.directory / "runs.csv")
+    if not options.quiet:
+        counts = ", ".join(f"{count} {name}" for name, count in sorted(outcomes.items()))
+        print(f"{len(plan)} cases: {counts or 'none run'}"
+              f"{f', {sweep.n_missing} missing' if sweep.n_missing else ''}")
+        print(f"files in {sweep.directory}")
+    is_whole = not sweep.n_missing or options.only is not None
+    return 0 if is_whole and "crashed" not in outcomes else 3
+
+
+def _outcomes(path: Any) -> dict[str, int]:
+    counts: dict[str, int] = {}
+    with open(path, encoding="utf-8") as file:
+        column = next(file).rstrip("\n").split(",").index("outcome")
+        for line in file:
+            outcome = line.split(",")[column]
+            counts[outcome] = counts.get(outcome, 0) + 1
+    return counts
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns its exit status."""
+    options = _parser().parse_args(arguments)
+    try:
+        if options.dask is not None:
+            distributed: Any = importlib.import_module("dask.distributed")
+            with distributed.Client(options.dask) as client:
+                return _run(options, client)
+        if options.mpi:
+            futures: Any = importlib.import_module("mpi4py.futures")
+            with futures.MPIPoolExecutor() as executor:
+                return _run(options, executor)
+        return _run(options, None)
+    except (CaseError, PlanError, StoreError) as error:
+        print(f"subimpact-sweep: {error}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"subimpact-sweep: {error}; Debian's packages are python3-distributed, python3-mpi4py and python3-h5py",
+              file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("subimpact-sweep: stopped; the same command goes on from here", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

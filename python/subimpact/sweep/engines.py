@@ -1,0 +1,217 @@
+"""Hands cases out to workers and takes their rows back.
+
+A worker is whatever an executor with the interface of `concurrent.futures` runs tasks in. A task is
+a chunk of cases. If a worker dies, every case that was in the hands of its engine is run again
+alone; one that ends its worker three times is a row with the outcome "crashed".
+"""
+
+from __future__ import annotations
+
+import ctypes
+import multiprocessing
+import os
+import resource
+import signal
+from collections import Counter, deque
+from collections.abc import Callable, Iterable
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from typing import Any
+
+from .plan import Plan
+from .worker import Row, identity_of, row_without_result, run_case, run_chunk
+
+MOST_DEATHS = 3
+_MOST_IN_A_CHUNK = 2000
+_CHUNKS_AHEAD = 3  # per worker, handed out beyond what it runs
+
+Sink = Callable[[list[Row]], None]
+
+
+def n_cores() -> int:
+    """The cores that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+def _prepare_worker(parent: int, memory: float | None) -> None:
+    """A worker ends with its coordinator, and leaves Ctrl-C to it."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+    if os.getppid() != parent:
+        os._exit(1)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    if memory is not None:
+        limit = int(memory * 2**30)
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+class Processes:
+    """Worker processes on this machine."""
+
+    seconds_per_chunk = 0.25
+    deaths_per_failure = 1
+
+    def __init__(self, n: int, memory: float | None) -> None:
+        self.n_workers = n
+        self._memory = memory
+        self._pool = self._made()
+
+    def _made(self) -> ProcessPoolExecutor:
+        return ProcessPoolExecutor(
+            self.n_workers,
+            multiprocessing.get_context("fork"),
+            _prepare_worker,
+            (os.getpid(), self._memory),
+        )
+
+    def submit(self, plan: Plan, numbers: list[int]) -> Future[Any]:
+        return self._pool.submit(run_chunk, plan, numbers)
+
+    def restart(self) -> None:
+        self._pool.shutdown(wait=True, cancel_futures=True)
+        self._pool = self._made()
+
+    def stop(self) -> None:
+        processes = list((self._pool._processes or {}).values())
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        for process in processes:
+            process.kill()
+
+
+class Given:
+    """An executor of the caller's: of Dask, of mpi4py, of any other library."""
+
+    seconds_per_chunk = 2.0
+    deaths_per_failure = MOST_DEATHS  # an engine reports a task after it has tried it again itself
+
+    def __init__(self, executor: Any) -> None:
+        self._executor: Executor = executor
+        self.n_workers = 64
+        if hasattr(executor, "get_executor"):  # a client of Dask
+            self.n_workers = max(1, sum(executor.nthreads().values()))
+            self._executor = executor.get_executor(pure=False)
+        for name in ("num_workers", "_max_workers"):
+            number = getattr(executor, name, None)
+            if isinstance(number, int) and number > 0:
+                self.n_workers = number
+                break
+
+    def submit(self, plan: Plan, numbers: list[int]) -> Future[Any]:
+        return self._executor.submit(run_chunk, plan, numbers)
+
+    def restart(self) -> None:
+        """The library does it."""
+
+    def stop(self) -> None:
+        """The caller does it."""
+
+
+def _is_death(error: BaseException) -> bool:
+    """Whether a worker was lost, as each library reports it."""
+    return isinstance(error, BrokenExecutor) or type(error).__name__ in ("KilledWorker", "CommClosedError")
+
+
+def run_here(plan: Plan, numbers: Iterable[int], sink: Sink) -> None:
+    """Runs cases one after another in this process."""
+    for number in numbers:
+        sink([run_case(plan, number)])
+
+
+class Coordinator:
+    """Gives chunks of cases to an engine until each case has a row."""
+
+    def __init__(self, engine: Processes | Given, plan: Plan, sink: Sink) -> None:
+        self._engine = engine
+        self._plan = plan
+        self._sink = sink
+        self._futures: dict[Future[Any], list[int]] = {}
+        self._waiting: deque[int] = deque()
+        self._suspects: deque[int] = deque()  # to be run alone
+        self._deaths: Counter[int] = Counter()
+        self._seconds = 0.0
+        self._n_timed = 0
+        self._is_alone = False
+
+    def run(self, numbers: Iterable[int]) -> None:
+        self._waiting.extend(numbers)
+        try:
+            while self._waiting or self._suspects or self._futures:
+                self._hand_out()
+                done, _ = wait(self._futures, timeout=1.0, return_when=FIRST_COMPLETED)
+                self._take(done)
+        except BaseException:
+            self._engine.stop()
+            raise
+        self._engine.stop()
+
+    def _chunk_size(self) -> int:
+        if self._n_timed == 0:
+            return 1
+        wanted = int(self._engine.seconds_per_chunk * self._n_timed / max(self._seconds, 1e-9))
+        fair = len(self._waiting) // (2 * self._engine.n_workers)  # the last ones end together
+        return max(1, min(wanted, fair, _MOST_IN_A_CHUNK))
+
+    def _hand_out(self) -> None:
+        if self._is_alone and self._futures:
+            return
+        self._is_alone = bool(self._suspects) and not self._futures
+        if self._is_alone:
+            self._submit([self._suspects.popleft()], self._suspects)
+        if self._suspects or self._is_alone:
+            return
+        while self._waiting and len(self._futures) < (1 + _CHUNKS_AHEAD) * self._engine.n_workers:
+            size = min(self._chunk_size(), len(self._waiting))
+            numbers = [self._waiting.popleft() for _ in range(size)]
+            if not self._submit(numbers, self._waiting):
+                return
+
+    def _submit(self, numbers: list[int], source: deque[int]) -> bool:
+        try:
+            self._futures[self._engine.submit(self._plan, numbers)] = numbers
+            return True
+        except BrokenExecutor:  # a worker died meanwhile: these cases were not in its hands
+            source.extendleft(reversed(numbers))
+            if not self._futures:
+                self._engine.restart()
+            return False
+
+    def _take(self, done: Iterable[Future[Any]]) -> None:
+        rows: list[Row] = []
+        is_broken = False
+        for future in done:
+            numbers = self._futures.pop(future)
+            error = future.exception()
+            if error is None:
+                chunk, seconds = future.result()
+                rows += chunk
+                self._seconds += seconds
+                self._n_timed += len(numbers)
+            elif _is_death(error):
+                is_broken = True
+                rows += self._blame(numbers)
+            else:
+                raise error
+        if rows:
+            self._sink(rows)
+        if is_broken and isinstance(self._engine, Processes):
+            self._abandon()
+
+    def _blame(self, numbers: list[int]) -> list[Row]:
+        if self._is_alone:
+            number = numbers[0]
+            self._deaths[number] += self._engine.deaths_per_failure
+            if self._deaths[number] >= MOST_DEATHS:
+                message = f"ended its worker {MOST_DEATHS} times"
+                return [row_without_result(identity_of(self._plan, number), "crashed", message)]
+        self._suspects.extend(numbers)
+        return []
+
+    def _abandon(self) -> None:
+        """All tasks of a broken pool fail: what has not ended is run again."""
+        for future in list(self._futures):
+            numbers = self._futures.pop(future)
+            if future.done() and not future.cancelled() and future.exception() is None:
+                self._sink(future.result()[0])
+            else:
+                self._suspects.extend(numbers)
+        self._engine.restart()

@@ -1,0 +1,213 @@
+"""Where the rows of a sweep are kept: one SQLite file, written by one process.
+
+A row is there whole or not at all, whenever the process or the machine stops. Each has a checksum of
+its own. A damaged file is replaced by one with the rows that are still right; the others are run
+again.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import sqlite3
+import zlib
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import IO
+
+from .._errors import StoreError
+from .worker import COLUMNS, Row
+
+FILE = "sweep.sqlite"
+_LAYOUT = 1
+_APPLICATION = 0x53554249  # "SUBI"
+_MAGIC = b"SQLite format 3\0"
+_ALL = "SELECT identity, outcome, cells, sub_impacts, checksum FROM rows"
+_TABLE = (
+    "CREATE TABLE rows (identity TEXT PRIMARY KEY, outcome TEXT NOT NULL, cells TEXT NOT NULL, "
+    "sub_impacts BLOB NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID"
+)
+
+
+def checksum(row: Row) -> int:
+    """Of all that is stored of a row."""
+    text = "\n".join((row.identity, row.outcome, row.cells))
+    return zlib.crc32(row.sub_impacts, zlib.crc32(text.encode()))
+
+
+def _checked(values: tuple[str, str, str, bytes, int]) -> Row | None:
+    """The row, if it is as it was written."""
+    try:
+        row = Row(*values[:4])
+        is_right = checksum(row) == values[4] and row.cells.count(",") == len(COLUMNS) - 1
+    except (AttributeError, TypeError, UnicodeError):
+        return None
+    return row if is_right else None
+
+
+class Store:
+    """The rows of a sweep by identity, in a directory of their own."""
+
+    def __init__(self, directory: str | os.PathLike[str]) -> None:
+        """Opens or makes the store. Raises StoreError if another process has it, or if the file is
+        no store."""
+        self.directory = Path(directory)
+        self.directory.mkdir(parents=True, exist_ok=True)
+        self.path = self.directory / FILE
+        self.notes: list[str] = []  #: what was found damaged
+        self._lock = self._locked()
+        try:
+            self._connection = self._opened()
+        except BaseException:
+            self._lock.close()
+            raise
+
+    def _locked(self) -> IO[bytes]:
+        lock = open(self.directory / ".lock", "wb")
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            lock.close()
+            raise StoreError(
+                f"{self.directory}: another sweep writes there; wait for its end, or choose another "
+                "directory with --out"
+            ) from None
+        return lock
+
+    def _opened(self) -> sqlite3.Connection:
+        if not self.path.exists() or self.path.stat().st_size == 0:
+            return self._made()
+        with open(self.path, "rb") as file:
+            is_sqlite = file.read(len(_MAGIC)) == _MAGIC
+        if not is_sqlite:
+            raise StoreError(
+                f"{self.path}: is no store of a sweep, or its beginning is damaged; move it away to "
+                "begin anew, or choose another directory with --out"
+            )
+        connection = self._connected()
+        try:
+            self._check_layout(connection)
+            damage = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
+            wrong = sum(_checked(values) is None for values in connection.execute(_ALL))
+            if damage == "ok" and not wrong:
+                return connection
+            damage = f"{wrong} wrong rows" if damage == "ok" else damage
+        except (sqlite3.DatabaseError, OverflowError) as error:
+            damage = str(error)
+        except StoreError:
+            connection.close()
+            raise
+        rows = self._readable_rows(connection)
+        connection.close()
+        return self._salvaged(rows, damage)
+
+    def _connected(self) -> sqlite3.Connection:
+        connection = sqlite3.connect(self.path)
+        connection.text_factory = lambda text: text.decode(errors="replace")
+        return connection
+
+    def _made(self) -> sqlite3.Connection:
+        connection = self._connected()
+        self._fill(connection)
+        return connection
+
+    @staticmethod
+    def _fill(connection: sqlite3.Connection) -> None:
+        connection.isolation_level = None
+        connection.execute("BEGIN IMMEDIATE")
+        connection.execute(f"PRAGMA application_id = {_APPLICATION}")
+        connection.execute(f"PRAGMA user_version = {_LAYOUT}")
+        connection.execute(_TABLE)
+        connection.execute("COMMIT")
+        connection.isolation_level = ""
+
+    def _check_layout(self, connection: sqlite3.Connection) -> None:
+        application = connection.execute("PRAGMA application_id").fetchone()[0]
+        layout = connection.execute("PRAGMA user_version").fetchone()[0]
+        tables = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+        if tables == 0:  # stopped before the first commit
+            self._fill(connection)
+        elif application != _APPLICATION:
+            raise StoreError(f"{self.path}: is the database of another program; choose another directory")
+        elif layout != _LAYOUT:
+            raise StoreError(
+                f"{self.path}: has layout {layout}, and this version reads {_LAYOUT}; use the version "
+                "that wrote it, or choose another directory"
+            )
+
+    @staticmethod
+    def _readable_rows(connection: sqlite3.Connection) -> list[Row]:
+        """Those that can still be read, from either end of the table, each as it was written."""
+        found: dict[str, Row] = {}
+        for order in ("ASC", "DESC"):
+            try:
+                for values in connection.execute(f"{_ALL} ORDER BY identity {order}"):
+                    row = _checked(values)
+                    if row is not None:
+                        found[row.identity] = row
+            except (sqlite3.DatabaseError, OverflowError):
+                continue
+        return list(found.values())
+
+    def _salvaged(self, rows: list[Row], damage: str) -> sqlite3.Connection:
+        kept = self.path.with_suffix(".damaged")
+        number = 1
+        while kept.exists():
+            number += 1
+            kept = self.path.with_suffix(f".damaged-{number}")
+        os.replace(self.path, kept)
+        journal = Path(f"{self.path}-journal")
+        if journal.exists():
+            journal.unlink()
+        connection = self._made()
+        self._insert(connection, rows)
+        self.notes.append(
+            f"{self.path}: was damaged ({damage}); {len(rows)} of its rows could be read and are kept, "
+            f"the others will be run again; the damaged file is {kept.name}"
+        )
+        return connection
+
+    @staticmethod
+    def _insert(connection: sqlite3.Connection, rows: Iterable[Row]) -> None:
+        with connection:
+            connection.executemany(
+                "INSERT OR REPLACE INTO rows VALUES (?, ?, ?, ?, ?)",
+                [(*row, checksum(row)) for row in rows],
+            )
+
+    def add(self, rows: Iterable[Row]) -> None:
+        """Stores rows, all at once."""
+        self._insert(self._connection, rows)
+
+    def outcomes(self) -> dict[str, str]:
+        """The outcome of every row by its identity."""
+        return dict(self._connection.execute("SELECT identity, outcome FROM rows"))
+
+    def get(self, identity: str) -> Row | None:
+        """A row; None if there is none."""
+        values = self._connection.execute(f"{_ALL} WHERE identity = ?", (identity,)).fetchone()
+        return Row(*values[:4]) if values is not None else None
+
+    def drop(self, outcomes: Iterable[str]) -> None:
+        """Removes the rows with these outcomes."""
+        with self._connection:
+            self._connection.executemany(
+                "DELETE FROM rows WHERE outcome = ?", [(outcome,) for outcome in outcomes]
+            )
+
+    def rows(self) -> Iterator[Row]:
+        """All rows."""
+        for values in self._connection.execute(_ALL):
+            yield Row(*values[:4])
+
+    def close(self) -> None:
+        """Closes the file; another process may open it then."""
+        self._connection.close()
+        self._lock.close()
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+

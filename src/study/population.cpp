@@ -1,0 +1,173 @@
+#include "subimpact/study/population.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "numerics/random.h"
+
+namespace subimpact {
+namespace {
+
+using Settings = std::vector<std::pair<std::string, KeyValue>>;
+
+constexpr int most_draws = 1000;  // of one number
+
+const CaseKey& known_key(const std::string& name) {
+  if (const CaseKey* key = find_case_key(name)) return *key;
+  std::vector<std::string> names;
+  for (const CaseKey& key : case_keys()) names.push_back(key.name);
+  const std::string near = nearest_name(name, names);
+  throw InvalidCase(
+      name, "is no key of a case; " + (near.empty() ? "`subimpact keys` lists them"
+                                                    : fmt::format("did you mean \"{}\"?", near)));
+}
+
+// Box and Muller's transform.
+double normal(Random& random) {
+  const double r = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+  return r * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
+
+std::optional<double> number_of(const std::optional<KeyValue>& value) {
+  if (!value) return std::nullopt;
+  if (const auto* whole = std::get_if<std::int64_t>(&*value)) return static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&*value)) return *real;
+  return std::nullopt;
+}
+
+std::optional<KeyValue> value_of(const CaseKey& key, const Settings& settings, const Case& base) {
+  for (const auto& [name, value] : settings) {
+    if (name == key.name) return value;
+  }
+  return key.get(base);
+}
+
+double scattered(const CaseKey& key, double value, double deviation, Random& random) {
+  for (int draw = 0; draw < most_draws; ++draw) {
+    const double other = value * std::exp(deviation * normal(random));
+    if (!problem_with(key, other)) return other;
+  }
+  throw InvalidCase(key.name, fmt::format("scatters out of its range: no value of {} draws about "
+                                          "{:g} is allowed; make its scatter smaller",
+                                          most_draws, value));
+}
+
+void set(Settings& settings, const std::string& name, const KeyValue& value) {
+  for (auto& [known, old] : settings) {
+    if (known != name) continue;
+    old = value;
+    return;
+  }
+  settings.emplace_back(name, value);
+}
+
+void check_axis(const PopulationAxis& axis, std::set<std::string>& seen) {
+  for (std::size_t k = 0; k < axis.keys.size(); ++k) {
+    const CaseKey& key = known_key(axis.keys[k]);
+    if (!seen.insert(key.name).second) {
+      throw InvalidCase(key.name, "is on two axes; give its values on one of them");
+    }
+    if (axis.points.empty()) throw InvalidCase(key.name, "has no values on its axis");
+    for (const std::vector<KeyValue>& point : axis.points) {
+      if (point.size() != axis.keys.size()) {
+        throw InvalidCase(key.name, fmt::format("changes together with others: every point of the "
+                                                "axis needs {} values, and one has {}",
+                                                axis.keys.size(), point.size()));
+      }
+      if (const auto problem = problem_with(key, point[k])) throw InvalidCase(key.name, *problem);
+    }
+  }
+}
+
+void check_scatter(const CaseKey& key, double deviation, const std::optional<KeyValue>& value) {
+  if (key.type != KeyType::number) {
+    throw InvalidCase(key.name, "is no number, and cannot scatter");
+  }
+  const std::optional<double> number = number_of(value);
+  if (!number || !std::isfinite(*number)) {
+    throw InvalidCase(key.name, "has no finite value in the base case about which to scatter");
+  }
+  if (!(deviation > 0.0 && std::isfinite(deviation))) {
+    throw InvalidCase(key.name, fmt::format("has a scatter of {:g}; allowed: a relative standard "
+                                            "deviation above 0, such as 0.01",
+                                            deviation));
+  }
+}
+
+std::optional<KeyValue> first_value(const Population& population, const CaseKey& key,
+                                    const Case& base) {
+  for (const PopulationAxis& axis : population.axes) {
+    const auto found = std::ranges::find(axis.keys, key.name);
+    if (found != axis.keys.end()) {
+      return axis.points.front()[static_cast<std::size_t>(found - axis.keys.begin())];
+    }
+  }
+  return key.get(base);
+}
+
+}  // namespace
+
+std::size_t Population::size() const {
+  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  std::size_t n = n_samples;
+  for (const PopulationAxis& axis : axes) {
+    const std::size_t points = axis.points.size();
+    if (points != 0 && n > most / points) throw InvalidCase("axes", "have too many combinations");
+    n *= points;
+  }
+  return n;
+}
+
+std::vector<std::string> Population::keys() const {
+  std::vector<std::string> names;
+  for (const PopulationAxis& axis : axes) {
+    names.insert(names.end(), axis.keys.begin(), axis.keys.end());
+  }
+  for (const auto& [name, deviation] : scatter) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+Settings Population::settings(const Case& base, std::size_t number) const {
+  Settings settings;
+  std::size_t combination = number / n_samples;
+  std::vector<const std::vector<KeyValue>*> points(axes.size());
+  for (std::size_t a = axes.size(); a-- > 0;) {
+    points[a] = &axes[a].points[combination % axes[a].points.size()];
+    combination /= axes[a].points.size();
+  }
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    for (std::size_t k = 0; k < axes[a].keys.size(); ++k) {
+      settings.emplace_back(axes[a].keys[k], (*points[a])[k]);
+    }
+  }
+  Random random(Random(seed).next() ^ (number % n_samples * 0xd1342543de82ef95ULL));
+  random.next();
+  for (const auto& [name, deviation] : scatter) {
+    const CaseKey& key = known_key(name);
+    const double value = *number_of(value_of(key, settings, base));
+    set(settings, name, scattered(key, value, deviation, random));
+  }
+  return settings;
+}
+
+void check(const Population& population, const Case& base) {
+  std::set<std::string> seen;
+  for (const PopulationAxis& axis : population.axes) check_axis(axis, seen);
+  if (population.n_samples == 0)
+    throw InvalidCase("samples", "are 0 in number; allowed: 1 or more");
+  for (const auto& [name, deviation] : population.scatter) {
+    const CaseKey& key = known_key(name);
+    check_scatter(key, deviation, first_value(population, key, base));
+  }
+  population.size();
+}
+
+}  // namespace subimpact

@@ -1,0 +1,148 @@
+"""Cases: keys, values, messages."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import subimpact as si
+from conftest import ELASTIC
+
+# A value that each type of key refuses.
+WRONG = {"number": "many", "count": 2.5, "flag": "yes", "text": 7, "choice": "no such choice",
+         "pair": ["no such choice", "neither"], "numbers": "half"}
+
+
+@pytest.mark.parametrize("key", si.keys().values(), ids=lambda key: key.name)
+def test_every_key_takes_its_value_and_refuses_others_by_name(key, elastic):
+    value = elastic[key.name]
+    if value is not None:
+        elastic[key.name] = value
+        assert elastic[key.name] == value
+    with pytest.raises(si.CaseError) as refused:
+        elastic[key.name] = WRONG[key.type]
+    assert refused.value.key == key.name
+    assert str(refused.value).startswith("is ")
+    with pytest.raises(si.CaseError) as refused:
+        elastic[key.name] = object()
+    assert refused.value.key == key.name
+
+
+@pytest.mark.parametrize("key", si.keys().values(), ids=lambda key: key.name)
+def test_messages_of_files_are_those_of_the_program(key, tmp_path, program):
+    wrong = {"number": '"many"', "count": "2.5", "flag": '"yes"', "text": "7",
+             "choice": '"no such choice"', "pair": '["a", "b"]', "numbers": '"half"'}[key.type]
+    path = tmp_path / "case.toml"
+    lines = [line for line in ELASTIC.splitlines() if line]
+    tables = {line.split(" ")[0] for line in lines}
+    table, _, leaf = key.name.rpartition(".")
+    setting = f"{key.name} = {wrong}\n"
+    if table.split(".")[0] in tables:  # in place of the table's line
+        lines = [line for line in lines if not line.startswith(table.split(".")[0] + " ")]
+    path.write_text(setting + "\n".join(lines) + "\n")
+    with pytest.raises(si.CaseError) as refused:
+        si.Case.from_file(path)
+    assert refused.value.key == key.name
+    assert refused.value.line == 1
+    assert str(refused.value) in program("explain", path, status=2).stderr
+
+
+def test_tables_keys_with_dots_and_a_file_are_one_case(elastic, tmp_path):
+    given = elastic.given()
+    nested = {}
+    for key, value in given.items():
+        *tables, leaf = key.split(".")
+        place = nested
+        for table in tables:
+            place = place.setdefault(table, {})
+        place[leaf] = value
+    elastic.write(tmp_path / "case.toml")
+    for other in (si.Case(nested), si.Case(given), si.Case.from_file(tmp_path / "case.toml"),
+                  pickle.loads(pickle.dumps(elastic)), copy.copy(elastic)):
+        assert other == elastic
+        assert other.given() == given
+
+
+def test_numpy_numbers_and_arrays_are_values(elastic):
+    elastic["striker.velocity"] = np.float32(2.5)
+    elastic["model.segments"] = np.int64(101)
+    elastic["study.pair_detection"] = np.bool_(False)
+    elastic["output.points"] = np.array([0.25, 0.75])
+    elastic["output.sections"] = ()
+    assert elastic["striker.velocity"] == 2.5
+    assert elastic["model.segments"] == 101
+    assert elastic["study.pair_detection"] is False
+    assert elastic["output.points"] == [0.25, 0.75]
+    assert elastic["output.sections"] == []
+    elastic.check()
+
+
+def test_texts_of_any_characters_survive(elastic):
+    for title in ('a "b" \\ c', "line\nbreak\t", "größe 𝛼", ""):
+        elastic["title"] = title
+        assert si.Case.from_text(elastic.to_toml())["title"] == title
+
+
+def test_a_deleted_key_has_its_default(elastic):
+    assert elastic["model.segments"] == 51
+    del elastic["model.segments"]
+    assert elastic["model.segments"] == 501
+    with pytest.raises(si.CaseError, match="unknown key"):
+        del elastic["model.segmnts"]
+
+
+def test_a_copy_changes_by_itself(elastic):
+    other = elastic.changed({"striker.velocity": 3.0}, model=dict(segments=61))
+    assert (other["striker.velocity"], other["model.segments"]) == (3.0, 61)
+    assert (elastic["striker.velocity"], elastic["model.segments"]) == (15.9, 51)
+    assert other != elastic
+
+
+def test_problems_name_place_key_and_remedy():
+    with pytest.raises(si.CaseError) as refused:
+        si.Case.from_text("[beam]\nlenght = 1\n", "x.toml")
+    error = refused.value
+    assert (error.key, error.line) == ("beam.lenght", 2)
+    assert 'did you mean "beam.length"?' in error.problems[0]
+    assert len(error.problems) > 3  # what is missing is named too
+    with pytest.raises(si.CaseError, match='did you mean "striker.velocity"') as refused:
+        si.Case()["striker.velocty"] = 1.0
+    assert refused.value.key == "striker.velocty"
+    again = pickle.loads(pickle.dumps(refused.value))
+    assert (str(again), again.key) == (str(refused.value), refused.value.key)
+
+
+def test_what_keys_must_have_together_is_checked_before_a_run(elastic):
+    elastic["contact.law"] = "foundation"
+    with pytest.raises(si.CaseError) as refused:
+        elastic.check()
+    assert refused.value.key == "contact.stiffness"
+    with pytest.raises(si.CaseError, match="contact.stiffness"):
+        si.run(elastic)
+
+
+def test_explain_and_resolve_are_those_of_the_program(elastic, tmp_path, program):
+    elastic.write(tmp_path / "case.toml")
+    printed = program("explain", tmp_path / "case.toml").stdout
+
+    def without_times(text):
+        return [line for line in text.splitlines() if " s" not in line and "cost" not in line]
+
+    assert without_times(elastic.explain()) == without_times(printed)
+    assert elastic.resolve() == si.run(elastic).summary["used"]
+
+
+def test_notes_and_doubtful_units(elastic):
+    elastic["model.layers"] = 20
+    assert any("model.layers" in note for note in elastic.notes())
+    elastic["beam.length"] = 711.2
+    assert any("beam.length" in warning for warning in elastic.warnings())
+
+
+def test_identity_depends_on_values_but_not_on_the_title(elastic):
+    other = elastic.changed({"title": "another"})
+    assert other.identity() == elastic.identity()
+    assert other.identity("how") != elastic.identity()
+    for key, value in (("striker.velocity", np.nextafter(15.9, 16)), ("output.zone_gap", 0.2)):
+        assert elastic.changed({key: value}).identity() != elastic.identity()

@@ -1,0 +1,174 @@
+"""Runs and their results."""
+
+import csv
+import math
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import subimpact as si
+
+TABLES = {"sub_impacts": "events.csv", "transitions": "transitions.csv", "history": "history.csv",
+          "sections": "sections.csv", "points": "points.csv", "shapes": "shapes.csv",
+          "envelope": "envelope.csv"}
+
+
+def text_of(value, name, digits):
+    """A cell as the file has it."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, float):
+        if math.isnan(value):
+            return ""
+        return format(value, ".17g" if name == "time_s" else digits)
+    return "" if value == -1 else str(value)
+
+
+def compare(result, directory):
+    for table, file in TABLES.items():
+        rows = getattr(result, table)
+        if not (directory / file).exists():
+            assert len(rows) == 0
+            continue
+        with open(directory / file) as text:
+            heading, *lines = csv.reader(text)
+        assert list(rows.dtype.names) == heading
+        assert len(rows) == len(lines)
+        digits = ".9g" if table == "shapes" else ".17g"
+        for row, line in zip(rows.tolist(), lines):
+            assert [text_of(v, n, digits) for v, n in zip(row, heading)] == line
+
+
+@pytest.mark.parametrize("error_bars", [None, "off", "time"])
+def test_tables_are_those_of_the_program_bit_for_bit(elastic, error_bars, tmp_path, program):
+    elastic.write(tmp_path / "case.toml")
+    option = [f"--error-bars={error_bars}"] if error_bars else []
+    program("run", tmp_path / "case.toml", "--out", tmp_path / "out", *option)
+    result = si.run(elastic, error_bars=error_bars, out=tmp_path / "written")
+    compare(result, tmp_path / "out")
+    for file in TABLES.values():
+        assert (tmp_path / "written" / file).read_bytes() == (tmp_path / "out" / file).read_bytes()
+    compare(si.read_results(tmp_path / "out"), tmp_path / "out")
+
+
+def test_a_yielding_beam_and_a_wish_are_those_of_the_program(yielding, tmp_path, program):
+    yielding["accuracy.work_limit"] = 1e7
+    del yielding["model.segments"]
+    yielding.write(tmp_path / "case.toml")
+    program("run", tmp_path / "case.toml", "--out", tmp_path / "out", "--within", "1us")
+    result = si.run(yielding, within=1e-6, jobs=2)
+    compare(result, tmp_path / "out")
+    assert result["accuracy.event_times"] == 1e-6 and "wish" in result.summary
+
+
+def test_columns_are_views_of_one_read_only_array(elastic):
+    result = si.run(elastic)
+    assert result.history is result.history
+    force = result.history["force_N"]
+    assert force.base is result.history
+    assert np.shares_memory(force, result.history)
+    with pytest.raises(ValueError):
+        force[0] = 1.0
+    assert result.sub_impacts["index"][0] == 1
+    assert set(np.unique(result.transitions["kind"])) >= {"contact_begins", "contact_ends"}
+
+
+def test_the_summary_and_the_outcome_agree(elastic):
+    result = si.run(elastic)
+    assert result.outcome == "completed" and result.usable and result.first_failure is None
+    assert result.summary["counts"]["sub_impacts"] == len(result.sub_impacts)
+    assert result.time == elastic["time.end"]
+    assert result["model.segments"] == 51
+    assert "completed" in repr(result) and "zone 1" in result.report()
+
+
+def test_an_unknown_kind_of_error_bars_and_no_jobs_are_refused(elastic):
+    with pytest.raises(ValueError, match="error_bars"):
+        si.run(elastic, error_bars="some")
+    with pytest.raises(ValueError, match="jobs"):
+        si.run(elastic, jobs=0)
+    with pytest.raises(si.CaseError, match="event_times"):
+        si.run(elastic, error_bars="time", within=1e-6)
+
+
+def test_files_that_cannot_be_written_or_read_raise(elastic, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(si.OutputError):
+        si.run(elastic, out=tmp_path / "file")
+    with pytest.raises(si.ResultsError):
+        si.read_results(tmp_path / "nothing")
+
+
+def slow(case):
+    """The same for some seconds."""
+    return case.changed({"model.segments": 1001, "solver.rtol": 1e-11, "time.end": 0.1})
+
+
+def test_progress_is_called_and_ends_the_run(elastic):
+    times = []
+
+    def progress(t):
+        times.append(t)
+        return len(times) < 3
+
+    result = si.run(slow(elastic), error_bars="off", progress=progress)
+    assert result.outcome == "stopped" and not result.interrupted
+    assert len(times) == 3 and times == sorted(times)
+    assert 0 < result.time < 0.1 and len(result.history) > 0
+
+
+def test_an_exception_of_the_callback_leaves_run(elastic):
+    with pytest.raises(ZeroDivisionError):
+        si.run(slow(elastic), error_bars="off", progress=lambda t: 1 / 0)
+
+
+def test_a_timeout_returns_what_there_is(elastic):
+    start = time.monotonic()
+    result = si.run(slow(elastic), error_bars="off", timeout=0.3)
+    assert result.timed_out and result.outcome == "stopped"
+    assert time.monotonic() - start < 3
+
+
+def test_ctrl_c_returns_what_there_is(elastic):
+    timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    result = si.run(slow(elastic), error_bars="off")
+    timer.join()
+    assert result.interrupted and result.outcome == "stopped"
+    assert 0 < result.time < 0.1 and len(result.sub_impacts) > 0
+
+
+def test_two_threads_run_at_the_same_time(elastic):
+    case = elastic.changed({"model.segments": 501, "time.end": 8e-3, "solver.rtol": 1e-10})
+
+    def one():
+        return si.run(case, error_bars="off")
+
+    start = time.perf_counter()
+    alone = [one(), one()]
+    serial = time.perf_counter() - start
+    results = []
+    threads = [threading.Thread(target=lambda: results.append(one())) for _ in range(2)]
+    start = time.perf_counter()
+    for thread in threads:
+        thread.start()
+    ticks = 0
+    while any(thread.is_alive() for thread in threads):
+        time.sleep(0.005)
+        ticks += 1  # this thread has the GIL meanwhile
+    parallel = time.perf_counter() - start
+    print(f"two runs: {serial:.2f} s one after another, {parallel:.2f} s side by side, "
+          f"{serial / parallel:.2f} times faster; {ticks} ticks")
+    assert ticks > 5
+    for result in results:
+        assert result.history.tobytes() == alone[0].history.tobytes()
+
+
+def test_a_failure_is_a_result(yielding):
+    result = si.run(yielding.changed({"solver.step": 3e-6, "study.beyond_critical": True}))
+    assert result.outcome in ("unstable", "inaccurate", "left_validity")
+    assert result.message and not result.usable

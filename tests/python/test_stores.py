@@ -1,0 +1,98 @@
+"""The store of a sweep: damage, truncation, what is no store."""
+
+import random
+import sqlite3
+
+import pytest
+
+import subimpact as si
+from conftest import tables
+from subimpact.sweep.store import FILE, Store
+from subimpact.sweep.worker import COLUMNS, Row
+
+
+def rows(n):
+    cells = "," * (len(COLUMNS) - 1)
+    return [Row(f"{i:032x}", "completed", f"{i}{cells}", bytes(str(i) * 300, "ascii")) for i in range(n)]
+
+
+def test_rows_come_back_as_they_were(tmp_path):
+    with Store(tmp_path) as store:
+        store.add(rows(50))
+        store.add(rows(60))  # again, and more
+    with Store(tmp_path) as store:
+        assert sorted(store.rows()) == sorted(rows(60))
+        assert store.get("nothing") is None
+        assert store.notes == []
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_damaged_store_is_recovered_or_refused(tmp_path, seed):
+    """Bytes overwritten, blocks zeroed or the end cut off: every row that is then read is right."""
+    with Store(tmp_path) as store:
+        store.add(rows(200))
+    path = tmp_path / FILE
+    content = bytearray(path.read_bytes())
+    chance = random.Random(seed)
+    kind = seed % 4
+    if kind == 0:
+        for _ in range(20):
+            content[chance.randrange(len(content))] = chance.randrange(256)
+    elif kind == 1:
+        start = chance.randrange(len(content))
+        content[start:start + 4096] = bytes(len(content[start:start + 4096]))
+    elif kind == 2:
+        del content[chance.randrange(1, len(content)):]
+    else:
+        start = chance.randrange(100, len(content))
+        content[start:start + 200] = chance.randbytes(len(content[start:start + 200]))
+    path.write_bytes(content)
+    right = {row.identity: row for row in rows(200)}
+    try:
+        store = Store(tmp_path)
+    except si.StoreError as error:
+        assert str(path) in str(error)
+        return
+    with store:
+        for row in store.rows():
+            assert right[row.identity] == row
+        store.add(rows(200))
+        assert len(store.outcomes()) == 200
+    with Store(tmp_path) as store:
+        assert sorted(store.rows()) == sorted(rows(200))
+
+
+def test_a_sweep_runs_again_what_was_damaged(population, tmp_path):
+    si.sweep(population, out=tmp_path, workers=0)
+    expected = tables(tmp_path)
+    connection = sqlite3.connect(tmp_path / FILE)
+    with connection:
+        connection.execute("UPDATE rows SET cells = replace(cells, '1', '2') "
+                           "WHERE identity IN (SELECT identity FROM rows LIMIT 5)")
+    connection.close()
+    sweep = si.sweep(population, out=tmp_path, workers=0)
+    assert "5 wrong rows" in sweep.notes[0] and "35 of its rows" in sweep.notes[0]
+    assert tables(tmp_path) == expected
+
+
+@pytest.mark.parametrize("content", [b"run,outcome\n", b"SQLite", b"\0" * 5000])
+def test_what_is_no_store_is_refused(tmp_path, content):
+    (tmp_path / FILE).write_bytes(content)
+    with pytest.raises(si.StoreError, match="no store"):
+        Store(tmp_path)
+    assert (tmp_path / FILE).read_bytes() == content
+
+
+def test_the_database_of_another_program_is_refused(tmp_path):
+    connection = sqlite3.connect(tmp_path / FILE)
+    connection.execute("CREATE TABLE rows (a)")
+    connection.commit()
+    connection.close()
+    with pytest.raises(si.StoreError, match="another program"):
+        Store(tmp_path)
+
+
+def test_an_empty_file_is_an_empty_store(tmp_path):
+    (tmp_path / FILE).write_bytes(b"")
+    with Store(tmp_path) as store:
+        assert store.outcomes() == {}

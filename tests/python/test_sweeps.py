@@ -1,0 +1,230 @@
+"""Sweeps: plans, engines of this machine, tables."""
+
+import csv
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import subimpact as si
+from conftest import ELASTIC, tables
+from subimpact.sweep.plan import spaced
+
+PLAN = """
+case = "case.toml"
+error_bars = "off"
+samples = 4
+seed = 3
+[axes]
+striker.mass = { from = 0.05, to = 0.4, n = 10, spacing = "log" }
+striker.velocity = { from = 1, to = 16, n = 10 }
+[scatter]
+beam.thickness = 0.01
+[set]
+time.end = 1e-3
+output = { interval = 0, sections = [], points = [], shapes = 0 }
+"""
+
+
+@pytest.fixture
+def plan_file(tmp_path):
+    (tmp_path / "case.toml").write_text(ELASTIC)
+    (tmp_path / "plan.toml").write_text(PLAN)
+    return tmp_path / "plan.toml"
+
+
+def command(*arguments):
+    return subprocess.run([sys.executable, "-m", "subimpact.sweep", *map(str, arguments)],
+                          capture_output=True, text=True)
+
+
+def test_a_plan_expands_the_last_axis_fastest(population):
+    assert len(population) == 40
+    assert population.keys() == ["striker.mass", "striker.velocity", "beam.thickness"]
+    values = [dict(population.settings(number)) for number in range(40)]
+    assert [v["striker.mass"] for v in values[:10]] == [0.05] * 10
+    assert [v["striker.velocity"] for v in values[:6]] == [1.0, 1.0, 2.0, 2.0, 4.0, 4.0]
+    assert values[0]["beam.thickness"] == values[2]["beam.thickness"] != values[1]["beam.thickness"]
+    with pytest.raises(IndexError):
+        population.settings(40)
+
+
+def test_samples_have_the_scatter_that_was_asked_for(elastic):
+    plan = si.Plan(elastic, scatter={"striker.velocity": 0.01, "beam.thickness": 0.02}, samples=4000)
+    values = np.array([[v for _, v in plan.settings(i)] for i in range(len(plan))])
+    shifts = np.log(values / [elastic["beam.thickness"], 15.9])  # in the order of names
+    assert abs(shifts.mean(axis=0)).max() < 4 * 0.02 / 4000**0.5
+    np.testing.assert_allclose(shifts.std(axis=0), [0.02, 0.01], rtol=0.06)
+    assert abs(np.corrcoef(shifts.T)[0, 1]) < 0.06
+    other = si.Plan(elastic, scatter={"striker.velocity": 0.01}, samples=4000, seed=2)
+    assert other.settings(0) != plan.settings(0)
+
+
+def test_keys_that_change_together_are_one_axis(elastic):
+    plan = si.Plan(elastic, {("beam.width", "beam.thickness"): [(0.01, 0.02), (0.02, 0.01)]})
+    assert plan.settings(1) == [("beam.width", 0.02), ("beam.thickness", 0.01)]
+
+
+@pytest.mark.parametrize("axes, scatter, words", [
+    ({"striker.velocty": [1.0]}, {}, "did you mean"),
+    ({"striker.velocity": [1.0, -1.0]}, {}, "above 0"),
+    ({"striker.velocity": []}, {}, "no values"),
+    ({"striker.velocity": [1.0], ("striker.velocity",): [(2.0,)]}, {}, "two axes"),
+    ({("beam.width", "beam.thickness"): [(0.01,)]}, {}, "2 values"),
+    ({}, {"beam.theory": 0.01}, "no number"),
+    ({}, {"beam.yield_stress": 0.01}, "no finite value"),
+    ({}, {"striker.mass": -0.01}, "above 0"),
+])
+def test_what_is_no_plan_is_refused(elastic, axes, scatter, words):
+    with pytest.raises(ValueError, match=words):
+        si.Plan(elastic, axes, scatter)
+
+
+@pytest.mark.parametrize("line, words", [
+    ("axis = 1", "unknown key"), ("samples = 0", "samples"), ('error_bars = "some"', "error_bars"),
+    ("axes.striker.mass = 1", "list"), ("axes.striker.mass = {from = 1, to = 2}", "n = 50"),
+    ("[", "no TOML"), ("axes.striker.mas = [1]", "did you mean"),
+])
+def test_what_is_no_plan_file_is_refused(tmp_path, line, words):
+    (tmp_path / "case.toml").write_text(ELASTIC)
+    (tmp_path / "plan.toml").write_text('case = "case.toml"\n' + line)
+    done = command(tmp_path / "plan.toml")
+    assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_spaced_values_hold_both_ends():
+    assert spaced(2, 16, 50)[-1] == 16
+    np.testing.assert_allclose(spaced(1, 100, 3, "log"), [1, 10, 100])
+
+
+def test_tables_do_not_depend_on_what_ran_the_cases(population, tmp_path):
+    si.sweep(population, out=tmp_path / "serial", workers=0)
+    expected = tables(tmp_path / "serial")
+    assert expected[0].count(b"\n") == 41
+    for workers in (1, 2, 4, 8):
+        si.sweep(population, out=tmp_path / str(workers), workers=workers)
+        assert tables(tmp_path / str(workers)) == expected
+    with ThreadPoolExecutor(2) as executor:
+        si.sweep(population, out=tmp_path / "threads", executor=executor)
+    assert tables(tmp_path / "threads") == expected
+
+
+def test_rows_are_those_of_single_runs(population, tmp_path):
+    sweep = si.sweep(population, out=tmp_path, workers=2)
+    with open(tmp_path / "runs.csv") as file:
+        rows = list(csv.DictReader(file))
+    with open(tmp_path / "sub_impacts.csv") as file:
+        heading, *lines = file.read().splitlines()
+    assert heading.startswith("run,index,zone,")
+    for number in (0, 17, 39):
+        result = si.run(population.case_of(number))
+        result.write(tmp_path / "one")
+        events = (tmp_path / "one" / "events.csv").read_text().splitlines()[1:]
+        assert [line for line in lines if line.startswith(f"{number},")] == [
+            f"{number},{event}" for event in events]
+        row = rows[number]
+        assert int(row["run"]) == number
+        assert float(row["striker.mass"]) == result["striker.mass"]
+        assert row["outcome"] == "completed"
+        assert int(row["n_sub_impacts"]) == len(result.sub_impacts)
+        assert float(row["max_force_N"]) == result.summary["maxima"]["force_N"]
+        assert float(row["first_separation_s"]) == result.sub_impacts["end_s"][0]
+    assert len(sweep.runs) == 40 and sweep.n_missing == 0
+
+
+def test_hdf5_has_the_numbers_of_the_tables(population, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    sweep = si.sweep(population, out=tmp_path, workers=0)
+    with h5py.File(sweep.write_hdf5()) as file, open(tmp_path / "sub_impacts.csv") as table:
+        rows = list(csv.DictReader(table))
+        assert [float(row["end_s"] or "nan") for row in rows] == pytest.approx(
+            list(file["sub_impacts/end_s"]), rel=0, abs=0, nan_ok=True)
+        assert set(file["runs/outcome"].asstr()) == {"completed"}
+
+
+def test_a_changed_plan_keeps_what_still_fits(population, tmp_path, monkeypatch):
+    si.sweep(population, out=tmp_path, workers=0)
+    counted = []
+    from subimpact.sweep import engines
+
+    run_case = engines.run_case
+    monkeypatch.setattr(engines, "run_case", lambda *a: (counted.append(a[1]), run_case(*a))[1])
+    axes = {"striker.mass": [0.05, 0.1, 0.2, 0.4, 0.8], "striker.velocity": [2.0, 4.0]}
+    wider = si.Plan(population.case, axes, population.scatter, samples=2)
+    si.sweep(wider, out=tmp_path, workers=0)
+    assert counted == [16, 17, 18, 19]  # those of the new mass
+    si.sweep(wider, out=tmp_path / "fresh", workers=0)
+    assert tables(tmp_path) == tables(tmp_path / "fresh")
+
+
+def test_cases_that_are_refused_are_rows(elastic, tmp_path):
+    elastic["output.shapes"] = 0.0
+    si.sweep(elastic, {"contact.law": ["hertz", "foundation", "linear"]}, out=tmp_path, workers=2)
+    with open(tmp_path / "runs.csv") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["outcome"] for row in rows] == ["completed", "refused", "completed"]
+    assert "contact.stiffness" in rows[1]["message"]
+
+
+def test_the_command_parts_and_merges(plan_file, tmp_path):
+    assert command(plan_file, "--out", tmp_path / "whole").returncode == 0
+    for part in ("0:150", "150:300", "300:"):
+        assert command(plan_file, "--only", part, "--out", tmp_path / part).returncode == 0
+    done = command(plan_file, "--out", tmp_path / "merged", "--merge",
+                   *(tmp_path / part for part in ("0:150", "150:300", "300:")))
+    assert done.returncode == 0 and "400 cases: 400 completed" in done.stdout
+    assert tables(tmp_path / "merged") == tables(tmp_path / "whole")
+
+
+def test_two_sweeps_do_not_share_a_directory(population, tmp_path):
+    from subimpact.sweep.store import Store
+
+    with Store(tmp_path):
+        with pytest.raises(si.StoreError, match="another sweep"):
+            si.sweep(population, out=tmp_path, workers=0)
+
+
+def test_ctrl_c_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_path, python):
+    process = python("-m", "subimpact.sweep", plan_file, "--out", tmp_path / "out", "--workers", 2)
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    output = process.communicate(timeout=60)
+    assert process.returncode in (0, 130), output
+    assert command(plan_file, "--out", tmp_path / "out").returncode == 0
+    command(plan_file, "--out", tmp_path / "whole")
+    assert tables(tmp_path / "out") == tables(tmp_path / "whole")
+
+
+def test_a_coordinator_killed_at_random_instants_goes_on(plan_file, tmp_path, python):
+    """SUBIMPACT_KILLS of them; the bar of the project is 200."""
+    command(plan_file, "--out", tmp_path / "whole")
+    expected = tables(tmp_path / "whole")
+    chance = random.Random(5)
+    n_kills = n_whole = 0
+    directory = 0
+    while n_kills < int(os.environ.get("SUBIMPACT_KILLS", "12")):
+        out = tmp_path / str(directory)
+        process = python("-m", "subimpact.sweep", plan_file, "--out", out, "--workers", 2,
+                         start_new_session=True)
+        try:
+            process.wait(timeout=chance.uniform(0.05, 2.5))
+            assert process.returncode == 0, process.stderr.read()
+            assert tables(out) == expected
+            n_whole += 1
+            directory += 1
+        except subprocess.TimeoutExpired:
+            process.kill()  # the coordinator alone: its workers have to end by themselves
+            process.wait()
+            n_kills += 1
+        process.stdout.close()
+        process.stderr.close()
+    out = tmp_path / str(directory)
+    assert command(plan_file, "--out", out).returncode == 0
+    assert tables(out) == expected
+    print(f"{n_kills} kills, {n_whole + 1} sweeps ended")
