@@ -40,6 +40,11 @@ List wish_list(const Result& result) {
       {}}};
 }
 
+List predictability_list(const Result& result) {
+  if (!result.predictability) return {};
+  return {Fields{{{"predictability", predictability_words(result)}}, {}}};
+}
+
 List tiles(const Result& result) {
   List list;
   const auto tile = [&](const std::string& value, const std::string& label) {
@@ -208,6 +213,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"errors", error_words(run.input, result)},
        {"versions", versions}},
       {{"wishes", wish_list(result)},
+       {"predictabilities", predictability_list(result)},
        {"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
        {"warnings", list_of("warning", result.warnings)},
        {"tiles", tiles(result)},

@@ -144,6 +144,9 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
   foundation.solver.max_step = 2e-7;
   foundation.solver.table = "dormand-prince";
   foundation.solver.events = EventHandling::located;
+  for (const CaseKey& key : case_keys()) {
+    if (key.name.starts_with("scatter.")) key.set(foundation, 0.0);
+  }
   Case linear = foundation;
   linear.scene.contact = {ContactKind::linear, 1e7, {}, {}, {}};
   Case sphere = foundation;

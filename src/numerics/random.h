@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace subimpact::scenes {
+namespace subimpact {
 
 /// Steele, Lea and Flood 2014, SplitMix64, with transforms of our own.
 class Random {
@@ -43,4 +43,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace subimpact::scenes
+}  // namespace subimpact
