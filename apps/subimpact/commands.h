@@ -62,6 +62,7 @@ void add_compare(CLI::App& program, int& status);
 void add_work_precision(CLI::App& program, int& status);
 void add_stability(CLI::App& program, int& status);
 void add_plan(CLI::App& program, int& status);
+void add_sensitivity(CLI::App& program, int& status);
 void add_explain(CLI::App& program, int& status);
 void add_plot(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);

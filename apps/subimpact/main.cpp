@@ -91,6 +91,7 @@ int run_command_line(int argc, char** argv) {
   app::add_work_precision(program, status);
   app::add_stability(program, status);
   app::add_plan(program, status);
+  app::add_sensitivity(program, status);
   app::add_explain(program, status);
   app::add_plot(program, status);
   app::add_report(program, status);

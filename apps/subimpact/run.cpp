@@ -14,9 +14,11 @@
 #include "jobs_option.h"
 #include "print.h"
 #include "progress.h"
+#include "status_line.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
 #include "time_option.h"
 
@@ -100,6 +102,21 @@ ResolvedRun resolve_loaded(const LoadedCase& loaded) {
   });
 }
 
+// Of a case with scatter: what it leaves of the event times.
+void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListener& listener) {
+  if (!run.result.outcome.completed() || scattering_keys(run.input).empty()) return;
+  StatusLine status;
+  SensitivityOptions how;
+  how.jobs = options.jobs.number();
+  how.finished = [&](std::size_t n_done, std::size_t n_all) {
+    if (!options.quiet) status.show(fmt::format("scatter: {} of {} runs", n_done, n_all));
+  };
+  how.progress = [&](double) { return !listener.interrupted(); };
+  add_predictability(run.result, run.input, how);
+  if (!listener.interrupted()) return;
+  run.result.warnings.emplace_back("interrupted before the scatter of the event times was known");
+}
+
 // Writes the results; returns why they could not be written.
 std::string write(ResultWriter& files, const Case& input, const Result& result) {
   try {
@@ -121,7 +138,11 @@ int run(const RunOptions& options) {
   if (!options.quiet) print_notes(loaded);
   print_warnings(doubts);
   InterruptListener listener;
-  const WithinRun finished = run_loaded(loaded, std::move(resolved), options, listener, files);
+  const WithinRun finished = with_places(loaded, [&] {
+    WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files);
+    add_scatter(run, options, listener);
+    return run;
+  });
   const Case& input = finished.input;
   listener.hold_back();
   const Result& result = finished.result;
@@ -129,6 +150,7 @@ int run(const RunOptions& options) {
   const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {
     print("{}\n{}", run_summary(input, result), sub_impact_table(result));
+    if (result.predictability) print("\n{}", scatter_table(result));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
   }
@@ -139,8 +161,10 @@ int run(const RunOptions& options) {
   }
   if (!unwritten.empty()) print_error("subimpact: {}\n", unwritten);
   if (!unwritten.empty() || files.directory().is_relocated()) return failed;
-  return result.outcome.kind == OutcomeKind::stopped ? listener.exit_status()
-                                                     : exit_status(result.outcome.kind);
+  const bool lacks_scatter = !result.predictability && !scattering_keys(input).empty();
+  const bool is_cut_short =
+      result.outcome.kind == OutcomeKind::stopped || (lacks_scatter && listener.interrupted());
+  return is_cut_short ? listener.exit_status() : exit_status(result.outcome.kind);
 }
 
 }  // namespace

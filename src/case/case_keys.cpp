@@ -208,6 +208,46 @@ std::string default_step() {
                      default_part_of_critical);
 }
 
+// --- scatter
+// --------------------------------------------------------------------------------------
+
+bool is_number_of_scene(const CaseKey& key) {
+  const std::string table = key.table().substr(0, key.table().find('.'));
+  return key.type == KeyType::number &&
+         (table == "beam" || table == "striker" || table == "contact");
+}
+
+CaseKey scatter_row(const CaseKey& of) {
+  CaseKey key;
+  key.name = "scatter." + of.name;
+  key.type = KeyType::number;
+  const Range range = between("from 0 to 0.5", 0.0, 0.5);
+  key.range = range.words;
+  key.limits = range.limits;
+  key.required = false;
+  key.default_text = "0";
+  key.meaning = "relative standard deviation of " + of.name;
+  key.get = [name = of.name](const Case& from) -> std::optional<KeyValue> {
+    const auto found = from.scatter.find(name);
+    if (found == from.scatter.end()) return std::nullopt;
+    return found->second;
+  };
+  key.set = [name = of.name](Case& to, const KeyValue& value) {
+    to.scatter[name] = Member<double>::from_value(value);
+  };
+  return key;
+}
+
+// One for each number of the scene.
+std::vector<CaseKey> with_scatter(std::vector<CaseKey> keys) {
+  std::vector<CaseKey> rows;
+  for (const CaseKey& key : keys) {
+    if (is_number_of_scene(key)) rows.push_back(scatter_row(key));
+  }
+  keys.insert(keys.end(), rows.begin(), rows.end());
+  return keys;
+}
+
 // Only here: a lambda a row would hide the table behind its own punctuation.
 #define AT(member) \
   [](auto& c) -> auto& { return c.member; }
@@ -364,6 +404,19 @@ void check_shear(const Case& input) {
   }
 }
 
+// Where the scene is symmetric, first derivatives show nothing of a strike that is off its centre.
+void check_scatter(const Case& input) {
+  const auto scatter = input.scatter.find("striker.position");
+  const auto& ends = input.scene.beam.ends;
+  const bool is_symmetric = input.scene.striker.position == 0.5 && ends[0] == ends[1];
+  if (scatter == input.scatter.end() || scatter->second == 0.0 || !is_symmetric) return;
+  throw InvalidCase("scatter.striker.position",
+                    fmt::format("is {}, but the scene is symmetric about striker.position = 0.5, "
+                                "and standard deviations follow from first derivatives, which are "
+                                "0 or do not exist there; allowed: 0; leave it out",
+                                scatter->second));
+}
+
 void check_gaps(const Case& input) {
   if (input.output.subzone_gap <= input.output.zone_gap) return;
   throw InvalidCase("output.subzone_gap",
@@ -383,7 +436,7 @@ bool Limits::hold(double x) const {
 }
 
 const std::vector<CaseKey>& case_keys() {
-  static const std::vector<CaseKey> keys = make_case_keys();
+  static const std::vector<CaseKey> keys = with_scatter(make_case_keys());
   return keys;
 }
 
@@ -413,6 +466,7 @@ void check(const Case& input) {
   check_gaps(input);
   check_sections(input);
   check_shapes(input);
+  check_scatter(input);
 }
 
 }  // namespace subimpact

@@ -98,12 +98,25 @@ constexpr IdleKey idle_keys[] = {
     {"study.striker_update", "solver.method", is_not_central},
 };
 
+constexpr std::string_view scatter_table = "scatter.";
+
 bool is_given(const GivenKeys& given, const std::string& name) {
   return given.in_file.contains(name) || given.in_settings.contains(name);
 }
 
+// The key because of which a scatter has no effect: one that is not given, 0 or infinite, or that
+// has no effect itself.
+const char* reason_of(const CaseKey& key, const Case& input);
+const char* reason_of_scatter(const CaseKey& key, const Case& input) {
+  const CaseKey* of = find_case_key(std::string_view(key.name).substr(scatter_table.size()));
+  const std::optional<KeyValue> value = of->get(input);
+  const double number = value ? std::get<double>(*value) : 0.0;
+  return number == 0.0 || std::isinf(number) ? of->name.c_str() : reason_of(*of, input);
+}
+
 // The key because of which another one has no effect; nullptr if it has one.
 const char* reason_of(const CaseKey& key, const Case& input) {
+  if (key.name.starts_with(scatter_table)) return reason_of_scatter(key, input);
   const bool of_some_mesh = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
     return std::ranges::find(mesh.keys, key.name) != mesh.keys.end();
   });

@@ -23,14 +23,16 @@ namespace subimpact {
 namespace {
 
 bool is_table(const std::string& name) {
-  return std::any_of(case_keys().begin(), case_keys().end(),
-                     [&](const CaseKey& key) { return !name.empty() && key.table() == name; });
+  return std::any_of(case_keys().begin(), case_keys().end(), [&](const CaseKey& key) {
+    return !name.empty() && (key.table() == name || key.name.starts_with(name + "."));
+  });
 }
 
 std::vector<std::string> table_names() {
   std::vector<std::string> names;
   for (const CaseKey& key : case_keys()) {
-    const std::string table = key.table();
+    const bool is_scatter = key.name.starts_with("scatter.");
+    const std::string table = is_scatter ? "scatter" : key.table();
     if (!table.empty() && (names.empty() || names.back() != table)) names.push_back(table);
   }
   return names;
@@ -40,6 +42,10 @@ std::vector<std::string> leaves_of(const std::string& table) {
   std::vector<std::string> names;
   for (const CaseKey& key : case_keys()) {
     if (key.table() == table) names.push_back(key.leaf());
+  }
+  if (!names.empty() || table.empty()) return names;
+  for (const CaseKey& key : case_keys()) {  // of tables within it
+    if (key.name.starts_with(table + ".")) names.push_back(key.name.substr(table.size() + 1));
   }
   return names;
 }
@@ -53,6 +59,10 @@ std::string full_name(const std::string& table, const std::string& leaf) {
 std::string suggestion(const std::string& table, const std::string& leaf) {
   const std::string near = nearest_name(leaf, leaves_of(table));
   if (!near.empty()) return fmt::format("; did you mean \"{}\"?", full_name(table, near));
+  for (const CaseKey& key : case_keys()) {
+    const bool is_within = !table.empty() && key.name.starts_with(table + ".");
+    if (is_within && key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
+  }
   for (const CaseKey& key : case_keys()) {
     if (key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
   }

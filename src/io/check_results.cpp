@@ -30,7 +30,9 @@ const std::vector<std::pair<const char*, std::optional<double> SubImpact::*>>
                              {"error_layers_s", &SubImpact::error_layers},
                              {"start_mesh_limit_s", &SubImpact::start_mesh_limit},
                              {"end_mesh_limit_s", &SubImpact::end_mesh_limit},
-                             {"mesh_limit_error_s", &SubImpact::mesh_limit_error}};
+                             {"mesh_limit_error_s", &SubImpact::mesh_limit_error},
+                             {"start_scatter_s", &SubImpact::start_scatter},
+                             {"end_scatter_s", &SubImpact::end_scatter}};
 
 const Numbers<HistoryRow> numbers_of_history = {{"force_N", &HistoryRow::force},
                                                 {"indentation_m", &HistoryRow::indentation},
@@ -171,6 +173,10 @@ void check_summary(const std::string& file, const FinishedRun& run) {
   if (result.wish) {
     require_finite("wish.event_times_s", result.wish->wished);
     require_finite("wish.horizon_s", result.wish->horizon);
+  }
+  if (result.predictability) {
+    require_finite("predictability.horizon_s", result.predictability->horizon);
+    require_finite("predictability.max_time_scatter_s", result.predictability->largest_scatter);
   }
   for (const NearMiss& here : result.near_misses) {
     require(std::isfinite(here.time) && here.time >= 0.0, "near_misses.time_s", here.time,

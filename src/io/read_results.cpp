@@ -243,6 +243,26 @@ std::optional<WishOutcome> wish_from(const Json& summary) {
   return wish;
 }
 
+// Files of older versions and of cases without scatter have none.
+std::optional<Predictability> predictability_from(const Json& summary) {
+  const Json json = summary.value("predictability", Json());
+  if (json.is_null()) return std::nullopt;
+  Predictability result;
+  result.horizon = number(json.at("horizon_s"));
+  if (const Json& index = json.at("first_unpredictable_index"); !index.is_null()) {
+    result.first_unpredictable = integer<std::size_t>(index) - 1;
+  }
+  result.reason = optional_text(json.at("reason")).value_or("");
+  result.largest_scatter = number(json.at("max_time_scatter_s"));
+  for (const Json& zone : json.at("zones")) {
+    result.zones.push_back({optional_number(zone.at("start_scatter_s")),
+                            optional_number(zone.at("end_scatter_s")),
+                            optional_number(zone.at("impulse_scatter_Ns"))});
+  }
+  result.striker_velocity_scatter = optional_number(json.at("striker_velocity_scatter_m_per_s"));
+  return result;
+}
+
 // Copies of deeply nested values exhaust the stack.
 bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
   if (depth <= deepest_summary) return true;
@@ -301,6 +321,7 @@ int read_summary(const std::filesystem::path& path, const std::string& text, Fin
     result.max_impulse_error = number(conservation.value("max_impulse_error_relative", Json(0.0)));
     result.error_estimate = error_estimate_from(json.at("error_bars"));
     result.wish = wish_from(json);
+    result.predictability = predictability_from(json);
     result.work = work_from(json.at("work"));
     return layout;
   } catch (const nlohmann::json::exception& error) {

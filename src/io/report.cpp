@@ -306,6 +306,7 @@ std::string run_summary(const Case& input, const Result& result) {
     line("no more contact", "proven: striker and beam never touch again");
   }
   line("error", error_words(input, result));
+  if (result.predictability) line("predictable", predictability_words(result));
   line("model", fmt::format("{}; section {}; {}", result.used.mesh,
                             to_text(*find_case_key("model.section")->get(input)),
                             counted(result.used.n_unknowns, "unknown")));

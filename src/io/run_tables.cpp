@@ -43,7 +43,11 @@ Columns<SubImpact> error_columns() {
       {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes",
        &SubImpact::start_mesh_limit},
       {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
-      {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error}};
+      {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error},
+      {"start_scatter_s",
+       "standard deviation of start_s by the case's [scatter]; this and the next: empty without",
+       &SubImpact::start_scatter},
+      {"end_scatter_s", "standard deviation of end_s", &SubImpact::end_scatter}};
   for (Column<SubImpact>& column : columns) column.optional = true;
   return columns;
 }

@@ -217,6 +217,24 @@ Json shear_or_null(const std::optional<NeglectedShear>& shear) {
           {"first_contact_end_with_s", number(shear->with)}};
 }
 
+Json predictability_or_null(const std::optional<Predictability>& predictability) {
+  if (!predictability) return nullptr;
+  Json zones = Json::array();
+  for (const Predictability::Zone& zone : predictability->zones) {
+    zones.push_back({{"start_scatter_s", number(zone.start_scatter)},
+                     {"end_scatter_s", number(zone.end_scatter)},
+                     {"impulse_scatter_Ns", number(zone.impulse_scatter)}});
+  }
+  return {
+      {"horizon_s", number(predictability->horizon)},
+      {"first_unpredictable_index", unresolved(predictability->first_unpredictable)},
+      {"reason", text_or_null(predictability->reason)},
+      {"max_time_scatter_s", number(predictability->largest_scatter)},
+      {"zones", zones},
+      {"striker_velocity_scatter_m_per_s", number(predictability->striker_velocity_scatter)},
+  };
+}
+
 }  // namespace
 
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
@@ -277,6 +295,7 @@ std::string summary_json(const Case& input, const Result& result) {
         {"max_momentum_error_relative", number(result.max_momentum_error)},
         {"max_impulse_error_relative", number(result.max_impulse_error)}}},
       {"error_bars", error_estimate_in_times(result.error_estimate)},
+      {"predictability", predictability_or_null(result.predictability)},
       {"work", work_counts(result.work)},
   };
   // A title may hold bytes that are no UTF-8; they are replaced rather than the file lost.

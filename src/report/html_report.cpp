@@ -66,6 +66,11 @@ List headlines(const Result& result) {
   return list;
 }
 
+List predictability_list(const Result& result) {
+  if (!result.predictability) return {};
+  return {Fields{{{"predictability", predictability_words(result)}}, {}}};
+}
+
 List tiles(const Result& result) {
   List list;
   const auto tile = [&](const std::string& value, const std::string& label) {
@@ -236,6 +241,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"versions", versions}},
       {{"headlines", headlines(result)},
        {"wishes", wish_list(result)},
+       {"predictabilities", predictability_list(result)},
        {"caveats", if_given(!caveat.empty(), {{{"caveat", in_print(caveat)}}, {}})},
        {"warnings", list_of("warning", result.warnings)},
        {"tiles", tiles(result)},

@@ -17,15 +17,16 @@ void expect_in(const std::string& text, const std::string& piece) {
 TEST(Help, OfTheProgramNamesEveryCommandAndGivesExamples) {
   const Finished finished = run_program({"--help"});
   EXPECT_EQ(finished.status, 0);
-  for (const char* piece : {"run", "work-precision", "stability", "plan", "plot", "report",
-                            "explain", "methods", "keys", "columns", "Examples:", "Exit status"}) {
+  for (const char* piece :
+       {"run", "work-precision", "stability", "plan", "sensitivity", "plot", "report", "explain",
+        "methods", "keys", "columns", "Examples:", "Exit status"}) {
     expect_in(finished.output, piece);
   }
 }
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
-  for (const std::string command : {"run", "work-precision", "stability", "plan", "plot", "report",
-                                    "explain", "methods", "keys", "columns"}) {
+  for (const std::string command : {"run", "work-precision", "stability", "plan", "sensitivity",
+                                    "plot", "report", "explain", "methods", "keys", "columns"}) {
     const Finished finished = run_program({command, "--help"});
     EXPECT_EQ(finished.status, 0) << command;
     expect_in(finished.output, "Example");

@@ -50,11 +50,12 @@ nlohmann::json parsed_summary(const Case& input, const Result& result) {
 }
 
 TEST(EventsCsv, HasTheAgreedColumns) {
-  EXPECT_EQ(events_csv({}),
-            "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
-            "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s,decided,"
-            "start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
-            "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s\n");
+  EXPECT_EQ(
+      events_csv({}),
+      "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
+      "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s,decided,"
+      "start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
+      "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s,start_scatter_s,end_scatter_s\n");
 }
 
 TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {

@@ -6,14 +6,12 @@
 #include <numbers>
 
 #include "case/problem.h"
-#include "random_scenes/random.h"
+#include "numerics/random.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/mesh_error_bars.h"
 
 namespace subimpact::error_bars {
 namespace {
-
-using scenes::Random;
 
 // Seconds a step takes for each unknown.
 constexpr double seconds_elastic = 2.5e-9;

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "numerics/random.h"
 #include "random_scenes/cost.h"
-#include "random_scenes/random.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
 

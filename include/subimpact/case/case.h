@@ -3,6 +3,7 @@
 /// A case: the scene, how it is modelled, and the options of its run. Each member is a key of the
 /// case file; case_keys() (see case_keys.h) lists them with units, defaults and ranges.
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,6 +76,9 @@ struct Case : Options {
   std::string title;
   Scene scene;
   ModelOptions model;
+  /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They leave
+  /// the run as it is; see study/predictability.h.
+  std::map<std::string, double> scatter;
   CaseParts parts;  ///< none: the built-in ones
 };
 

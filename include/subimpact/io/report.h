@@ -34,6 +34,15 @@ std::string wish_words(const WishOutcome& wish, const Result& result);
 /// sub-impacts are no longer decided; these have question marks.
 std::string sub_impact_table(const Result& result);
 
+/// Of a case with scatter, in one line: up to where its sub-impacts can be predicted, how well, and
+/// why no further.
+std::string predictability_words(const Result& result);
+
+/// One line per sub-impact and one per zone: starts and ends with their standard deviations, where
+/// numbers of the case scatter; a line with the reason stands where sub-impacts can no longer be
+/// predicted.
+std::string scatter_table(const Result& result);
+
 /// A dozen lines: how the run ended, what happened, what it cost.
 std::string run_summary(const Case& input, const Result& result);
 

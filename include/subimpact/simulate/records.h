@@ -32,6 +32,8 @@ struct SubImpact {
   /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
   /// meshes converges at the expected order.
   std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
+  /// s, standard deviations of start and end where numbers of the scene scatter.
+  std::optional<double> start_scatter, end_scatter;
 };
 
 /// What nearly happened where the indentation came close to the residual one and turned back.

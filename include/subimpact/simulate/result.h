@@ -217,6 +217,24 @@ struct WishOutcome {
   std::string key;       ///< key of the case that stands in the way and could be freed; or empty
 };
 
+/// How far a strike can be predicted of which numbers scatter: standard deviations by first
+/// derivatives, and where these end to describe what happens.
+struct Predictability {
+  /// The first sub-impact (from 0) that cannot be predicted; none if all can.
+  std::optional<std::size_t> first_unpredictable;
+  std::string reason;            ///< why that one cannot
+  double horizon = 0.0;          ///< s: the end of the last one before it
+  double largest_scatter = 0.0;  ///< s, of the starts and ends up to there
+
+  /// Standard deviations of what a zone is as a whole; none where they are not known.
+  struct Zone {
+    std::optional<double> start_scatter, end_scatter;  ///< s
+    std::optional<double> impulse_scatter;             ///< N s
+  };
+  std::vector<Zone> zones;
+  std::optional<double> striker_velocity_scatter;  ///< m/s, after the last sub-impact
+};
+
 struct Result {
   Outcome outcome;
   Options given;          ///< of the run, as passed by the caller
@@ -259,6 +277,7 @@ struct Result {
   std::optional<ErrorEstimate> error_estimate;    ///< with error bars
   std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
   std::optional<WishOutcome> wish;                ///< of runs that were asked for an accuracy
+  std::optional<Predictability> predictability;   ///< of a case with scatter
   /// Why mesh and method are what they are, where the program chose them; else empty.
   std::string choice;
   Work work;

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "jobs_option.h"
+#include "print.h"
+#include "status_line.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/doubtful_units.h"
+#include "subimpact/io/output_directory.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/sensitivity.h"
+#include "subimpact/study/within.h"
+
+namespace subimpact::app {
+namespace {
+
+struct SensitivityCommand {
+  CaseOptions input;
+  std::vector<std::string> keys;
+  std::string directory;
+  bool quiet = false;
+  JobsOption jobs;
+};
+
+void check_keys(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (const CaseKey& key : case_keys()) all.push_back(key.name);
+  for (const std::string& name : names) {
+    if (find_case_key(name) != nullptr) continue;
+    const std::string near = nearest_name(name, all);
+    throw CaseFileError(fmt::format(
+        "--by {}: unknown key \"{}\"; allowed: numbers of the case, such as striker.velocity; {}",
+        name, name, near.empty() ? "see `subimpact keys`" : "did you mean \"" + near + "\"?"));
+  }
+}
+
+// The case with the mesh that `run` would choose, where the case leaves it open.
+Case with_mesh(const LoadedCase& loaded, Jobs jobs, const InterruptListener& listener) {
+  const OpenChoices open = open_choices(loaded.given);
+  if (!open.all() && !loaded.value.accuracy.event_times) return loaded.value;
+  Case input = loaded.value;
+  input.output.keep_no_rows();
+  WithinOptions how;
+  how.jobs = jobs;
+  how.progress = [&](double) { return !listener.interrupted(); };
+  return simulate_within(input, open, how).input;
+}
+
+int run_sensitivity(const SensitivityCommand& command) {
+  const LoadedCase loaded = command.input.load();
+  check_keys(command.keys);
+  std::optional<OutputDirectory> directory;
+  if (!command.directory.empty()) directory.emplace(command.directory, "sensitivity");
+  if (!command.quiet) print_notes(loaded);
+  print_warnings(doubtful_units(loaded.value));
+  InterruptListener listener;
+  StatusLine status;
+  const auto show = [&](const std::string& text) {
+    if (!command.quiet) status.show(text);
+  };
+  const Sensitivity study = with_places(loaded, [&] {
+    show("choosing the mesh");
+    const Jobs jobs = command.jobs.number();
+    const Case input = with_mesh(loaded, jobs, listener);
+    show("base run");
+    SensitivityOptions options;
+    options.keys = command.keys;
+    options.jobs = jobs;
+    options.finished = [&](std::size_t n_done, std::size_t n_all) {
+      show(fmt::format("{} of {} runs", n_done, n_all));
+    };
+    options.progress = [&](double) { return !listener.interrupted(); };
+    return sensitivity(input, options);
+  });
+  status.clear();
+  listener.hold_back();
+  const OutcomeKind outcome = study.base.outcome.kind;
+  const bool failed_base = outcome != OutcomeKind::completed && outcome != OutcomeKind::stopped;
+  if (failed_base) {
+    print_error("subimpact: {}\n", failure_message(study.input, study.base));
+    return outcome == OutcomeKind::left_validity ? refused : failed;
+  }
+  if (study.keys.empty() && study.interrupted) {
+    print_error("subimpact: interrupted before the runs of a key had ended; nothing is written\n");
+    return listener.exit_status();
+  }
+  if (directory) {
+    write_sensitivity(directory->staging(), study);
+    directory->commit();
+    print_warnings(directory->notes());
+  }
+  if (!command.quiet) {
+    print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
+          sensitivity_table(study));
+    if (directory) print("\nsensitivity.csv in {}\n", command.directory);
+  }
+  if (study.interrupted) {
+    print_error("subimpact: interrupted; the keys above are those whose runs had ended\n");
+    return listener.exit_status();
+  }
+  return study.keys.empty() ? failed : done;
+}
+
+}  // namespace
+
+void add_sensitivity(CLI::App& program, int& status) {
+  CLI::App* command = program.add_subcommand(
+      "sensitivity", "Show how event times, forces and velocities depend on the numbers of a case");
+  auto options = std::make_shared<SensitivityCommand>();
+  options->input.add_to(*command);
+  command
+      ->add_option("--by", options->keys,
+                   "Keys to derive by, separated by commas. Default: all numbers of beam, striker "
+                   "and contact that take effect")
+      ->delimiter(',');
+  command->add_option(
+      "--out", options->directory,
+      "Directory for sensitivity.csv: derivatives, by the logarithm of each key, of "
+      "start, end, peak force, impulse, indentation and striker velocity of every "
+      "sub-impact, with their errors; made if missing. Without it nothing is "
+      "written");
+  options->jobs.add_to(*command);
+  command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
+  command->footer(
+      "Each key takes four runs, two shifts to either side, at rtol 1e-12 on the mesh of the case; "
+      "their differences give the derivative, the mismatch of the shifts its error. Rows of "
+      "contacts that are about to merge, to split or to vanish are flagged.\n"
+      "Examples:\n"
+      "  subimpact sensitivity case.toml\n"
+      "  subimpact sensitivity case.toml --by striker.velocity,beam.thickness --out out/by-two\n"
+      "  subimpact sensitivity case.toml --method nystrom --set time.end=2e-3\n"
+      "Exit status: 0 done; 2 bad command line or case file, or a key without a derivative; 3 a "
+      "run failed; 130 stopped by Ctrl-C, with the keys whose runs had ended.");
+  command->callback([options, &status] { status = run_sensitivity(*options); });
+}
+
+}  // namespace subimpact::app

@@ -1,0 +1,46 @@
+#pragma once
+
+/// How far a strike can be predicted of which numbers scatter.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "subimpact/study/sensitivity.h"
+
+namespace subimpact {
+
+/// Relative standard deviations of numbers of a case, by key; independent of each other.
+using Scatter = std::map<std::string, double>;
+
+/// The standard deviation of a number with these derivatives, one per key of the study: the root of
+/// the sum of (df/d ln p s_p)^2, each derivative enlarged by its error. None where a derivative by
+/// a key that scatters is not known.
+std::optional<double> deviation_of(const std::vector<std::optional<Derivative>>& by_key,
+                                   const std::vector<std::string>& keys, const Scatter& scatter);
+
+/// Sets the standard deviations of starts and ends of a result, and Result::predictability, from a
+/// study of the same case by the keys that scatter.
+///
+/// The first sub-impact that cannot be predicted is the first one
+///
+///   - of which contacts merge, split or vanish within the shifts of the study,
+///   - whose start or end has a standard deviation of more than half its duration or half of the
+///     separation before or after it,
+///   - whose duration, or the separation before it, has a standard deviation of more than a quarter
+///     of itself: both shrink as the root of the distance from the graze at which they vanish, so
+///     that a change of twice the scatter may reach it,
+///   - whose peak force is within two of its standard deviations, or
+///   - that a near miss leaves in doubt whose margin is within two of its standard deviations.
+void set_predictability(Result& result, const Sensitivity& study, const Scatter& scatter);
+
+/// The keys of a case that scatter and by which results have a derivative.
+std::vector<std::string> scattering_keys(const Case& input);
+
+/// Makes the study that a case's scatter needs (sensitivity()) and sets the predictability of its
+/// result. Nothing without scatter that has an effect, or if interrupted. A study that fails is
+/// named in the warnings of the result.
+void add_predictability(Result& result, const Case& input, SensitivityOptions options = {});
+
+}  // namespace subimpact

@@ -1,0 +1,95 @@
+#include "case/shifted_case.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "subimpact/case/keys_without_effect.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double largest_shift = 1e-3;  // that the range of a key must leave room for
+
+bool is_of_scene(const CaseKey& key) {
+  return key.name.starts_with("beam.") || key.name.starts_with("striker.") ||
+         key.name.starts_with("contact.");
+}
+
+bool is_shifted(const CaseKey& key) {
+  return key.type == KeyType::number && (is_of_scene(key) || key.table() == "model");
+}
+
+double number_of(const Case& input, const CaseKey& key) {
+  return std::get<double>(*key.get(input));
+}
+
+// The scene is its own mirror image, so that nothing distinguishes a shift to the left from one to
+// the right.
+bool is_at_centre_of_symmetry(const Case& input, const CaseKey& key) {
+  const auto& ends = input.scene.beam.ends;
+  return key.name == "striker.position" && number_of(input, key) == 0.5 && ends[0] == ends[1];
+}
+
+bool is_inside_range(const CaseKey& key, double x) {
+  return key.limits.hold(x * std::exp(largest_shift)) &&
+         key.limits.hold(x * std::exp(-largest_shift));
+}
+
+std::string names_of_shifted(const Case& input) {
+  return fmt::format("{}", fmt::join(shifted_keys(input), ", "));
+}
+
+}  // namespace
+
+std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key) {
+  if (!is_shifted(key)) {
+    return fmt::format("is not a number of the scene or of its mesh; allowed here: {}",
+                       names_of_shifted(input));
+  }
+  if (!key.get(input)) return "is not given, so that it has no value to vary; give it in the case";
+  const double x = number_of(input, key);
+  const std::string value = fmt::format("is {:g}, ", x);
+  if (x == 0.0 || !std::isfinite(x)) {
+    return value + "which has no logarithm to derive by; give a finite value above 0";
+  }
+  if (is_at_centre_of_symmetry(input, key)) {
+    return value +
+           "where the scene is symmetric: shifts to either side have the same effect, so that a "
+           "derivative is 0 or does not exist; allowed: other positions";
+  }
+  if (!is_inside_range(key, x)) {
+    return value + fmt::format("at an end of its range ({}), and shifts to both sides are needed",
+                               key.range);
+  }
+  for (const std::string& note : keys_without_effect(input, {{key.name}, {}})) {
+    return value + note.substr(std::min(note.find("has no effect"), note.size()));
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> shifted_keys(const Case& input) {
+  std::vector<std::string> names;
+  for (const CaseKey& key : case_keys()) {
+    const bool is_second_name = key.name == "contact.beam_poisson" && input.scene.beam.poisson;
+    if (!is_of_scene(key) || !is_shifted(key) || is_second_name) continue;
+    if (!why_not_shifted(input, key)) names.push_back(key.name);
+  }
+  return names;
+}
+
+Case shifted(const Case& input, const CaseKey& key, double shift) {
+  Case other = input;
+  key.set(other, number_of(input, key) * std::exp(shift));
+  if (key.name == "beam.poisson" && input.scene.contact.beam_poisson) {
+    other.scene.contact.beam_poisson = other.scene.beam.poisson;
+  }
+  if (key.name == "contact.beam_poisson" && input.scene.beam.poisson) {
+    other.scene.beam.poisson = other.scene.contact.beam_poisson;
+  }
+  return other;
+}
+
+}  // namespace subimpact

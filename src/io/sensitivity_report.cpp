@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "io/csv_columns.h"
+#include "io/uncertain.h"
+#include "io/write_file.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/io/sensitivity.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double us = 1e6;              // per second
+constexpr double us_per_percent = 1e4;  // of d/d ln p in seconds
+constexpr int most_decimals = 6;
+constexpr std::size_t narrowest = 9;
+
+using Row = SensitivityRow;
+
+auto by_key(std::size_t key, double Derivative::*member) {
+  return [=](const Row& row) {
+    return row.by_key[key] ? std::optional((*row.by_key[key]).*member) : std::nullopt;
+  };
+}
+
+// "1.654", as many digits as the error allows; a question mark where it allows none.
+std::string per_percent(const std::optional<Derivative>& derivative) {
+  if (!derivative) return "-";
+  const auto rounding = rounding_of(us_per_percent * derivative->error, most_decimals);
+  if (!rounding) return "?";
+  return with_decimals(us_per_percent * derivative->value, rounding->decimals);
+}
+
+bool is_time(const Row& row) {
+  return row.quantity == EventQuantity::start || row.quantity == EventQuantity::end;
+}
+
+struct Line {
+  std::vector<std::string> cells;
+  std::string flag;
+};
+
+Line line_of(const Row& row) {
+  Line line{{fmt::format("{}", row.sub_impact + 1),
+             row.quantity == EventQuantity::start ? "start" : "end",
+             fmt::format("{:.4f}", us * row.value)},
+            row.flag};
+  for (const auto& derivative : row.by_key) line.cells.push_back(per_percent(derivative));
+  return line;
+}
+
+}  // namespace
+
+std::string sensitivity_csv(const Sensitivity& study) {
+  Columns<Row> columns = {{"quantity", [](const Row& row) { return row.quantity; }},
+                          {"sub_impact", [](const Row& row) { return row.sub_impact + 1; }},
+                          {"value", &Row::value}};
+  for (std::size_t key = 0; key < study.keys.size(); ++key) {
+    columns.push_back({"d_" + study.keys[key], by_key(key, &Derivative::value)});
+    columns.push_back({"error_" + study.keys[key], by_key(key, &Derivative::error)});
+  }
+  columns.push_back({"flag", &Row::flag});
+  return csv_text(columns, study.rows);
+}
+
+void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study) {
+  write_file(directory / "sensitivity.csv", sensitivity_csv(study));
+}
+
+std::string sensitivity_table(const Sensitivity& study) {
+  std::vector<Line> lines = {{{"", "", ""}, ""}, {{"no.", "", "us"}, ""}};
+  for (const std::string& name : study.keys) {
+    const CaseKey& key = *find_case_key(name);
+    lines[0].cells.push_back(key.table() + ".");
+    lines[1].cells.push_back(key.leaf());
+  }
+  for (const Row& row : study.rows) {
+    const bool is_zero_of_time = row.value == 0.0;  // the first touch
+    if (is_time(row) && !is_zero_of_time) lines.push_back(line_of(row));
+  }
+  std::vector<std::size_t> widths(lines[0].cells.size(), narrowest);
+  widths[0] = 4;
+  widths[1] = 5;
+  for (const Line& line : lines) {
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      widths[k] = std::max(widths[k], line.cells[k].size());
+    }
+  }
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "{}, {}; change of event times in us per 1 % more of\n", study.base.used.mesh,
+                 to_string(study.input.solver.method));
+  for (const Line& line : lines) {
+    for (std::size_t k = 0; k < widths.size(); ++k) {
+      fmt::format_to(out, "{}{:>{}}", k == 0 ? "" : " ", line.cells[k], widths[k]);
+    }
+    fmt::format_to(out, "{}{}\n", line.flag.empty() ? "" : "  ! ", line.flag);
+  }
+  for (const std::string& remark : study.remarks) fmt::format_to(out, "{}\n", remark);
+  return fmt::to_string(text);
+}
+
+}  // namespace subimpact

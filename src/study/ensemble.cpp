@@ -1,0 +1,139 @@
+#include "subimpact/study/ensemble.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <optional>
+
+#include "case/shifted_case.h"
+#include "numerics/random.h"
+#include "study/counterparts.h"
+#include "study/parallel.h"
+
+namespace subimpact {
+namespace {
+
+// Box and Muller's transform.
+double normal(Random& random) {
+  const double r = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+  return r * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
+
+struct Sample {
+  Case input;
+  std::vector<double> shifts;  // of ln p, by key of the study
+};
+
+Sample draw(const Sensitivity& study, const Scatter& scatter, const EnsembleOptions& options,
+            std::size_t number) {
+  Random random(Random(options.seed).next() ^ (number * 0xd1342543de82ef95ULL));
+  random.next();
+  Sample sample{study.input, {}};
+  sample.input.solver.rtol = options.rtol;
+  for (const std::string& name : study.keys) {
+    const CaseKey& key = *find_case_key(name);
+    const auto found = scatter.find(name);
+    const double deviation = found != scatter.end() ? found->second : 0.0;
+    for (bool drawn = false; !drawn;) {
+      const double shift = deviation * normal(random);
+      const Case other = shifted(sample.input, key, shift);
+      drawn = !problem_with(key, *key.get(other));
+      if (!drawn) continue;
+      sample.input = other;
+      sample.shifts.push_back(shift);
+    }
+  }
+  return sample;
+}
+
+// The sub-impacts of the base run, moved by what the derivatives foresee.
+std::vector<SubImpact> foreseen(const Sensitivity& study, const std::vector<double>& shifts) {
+  std::vector<SubImpact> moved = study.base.sub_impacts;
+  for (const SensitivityRow& row : study.rows) {
+    double change = 0.0;
+    for (std::size_t k = 0; k < shifts.size(); ++k) {
+      if (row.by_key[k]) change += row.by_key[k]->value * shifts[k];
+    }
+    SubImpact& s = moved[row.sub_impact];
+    if (row.quantity == EventQuantity::start) s.start += change;
+    if (row.quantity == EventQuantity::end) *s.end += change;
+  }
+  return moved;
+}
+
+struct Moments {
+  std::size_t n = 0;
+  double mean = 0.0, squares = 0.0;  // of the differences from the mean
+  void add(double x) {
+    ++n;
+    const double before = x - mean;
+    mean += before / static_cast<double>(n);
+    squares += before * (x - mean);
+  }
+  double deviation() const { return n > 1 ? std::sqrt(squares / static_cast<double>(n - 1)) : 0.0; }
+};
+
+}  // namespace
+
+Ensemble ensemble(const Sensitivity& study, const Scatter& scatter,
+                  const EnsembleOptions& options) {
+  std::vector<std::optional<Result>> runs(options.n_runs);
+  std::vector<std::vector<double>> shifts(options.n_runs);
+  std::atomic<bool> stop = false;
+  std::mutex mutex;
+  std::size_t n_done = 0;
+  in_parallel(
+      options.n_runs,
+      [&](std::size_t i) {
+        Sample sample = draw(study, scatter, options, i);
+        shifts[i] = std::move(sample.shifts);
+        Result run = simulate(sample.input, [&](double time) {
+          if (options.progress && !options.progress(time)) stop = true;
+          return !stop;
+        });
+        run.transitions.clear();
+        run.transitions.shrink_to_fit();
+        if (run.outcome.completed()) runs[i] = std::move(run);
+        const std::lock_guard lock(mutex);
+        if (options.finished) options.finished(++n_done);
+      },
+      options.jobs);
+
+  Ensemble result;
+  result.interrupted = stop;
+  const std::size_t n = study.base.sub_impacts.size();
+  result.events.resize(n);
+  std::vector<Moments> starts(n), ends(n);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (!runs[k]) {
+      ++result.n_failed;
+      continue;
+    }
+    const Counterparts found = counterparts(foreseen(study, shifts[k]), runs[k]->sub_impacts);
+    bool has_changed = false;
+    for (std::size_t i = 0; i < n; ++i) {
+      const SubImpact* there = found.of[i];
+      const bool changed = there == nullptr || found.follows_new_one[i];
+      has_changed = has_changed || changed;
+      result.events[i].n_changed += changed ? 1 : 0;
+      result.events[i].n_changed_so_far += has_changed ? 1 : 0;
+      if (there == nullptr) continue;
+      ++result.events[i].n_present;
+      starts[i].add(there->start);
+      if (there->end) ends[i].add(*there->end);
+    }
+    result.runs.push_back(std::move(*runs[k]));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    EnsembleEvent& event = result.events[i];
+    event.start_mean = starts[i].mean;
+    event.start_deviation = starts[i].deviation();
+    event.end_mean = ends[i].mean;
+    event.end_deviation = ends[i].deviation();
+  }
+  return result;
+}
+
+}  // namespace subimpact

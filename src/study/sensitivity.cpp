@@ -1,0 +1,456 @@
+#include "subimpact/study/sensitivity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <mutex>
+
+#include "case/shifted_case.h"
+#include "simulate/methods.h"
+#include "study/counterparts.h"
+#include "study/method_choice.h"
+#include "study/near_miss_match.h"
+#include "study/parallel.h"
+#include "subimpact/study/match.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double tightest = 1e-12;  // rtol
+constexpr double looser = 10.0;     // of the run that shows the error of the base run
+// Stated error over the one that a difference stands for.
+constexpr double safety = 2.0;
+constexpr double unreliable_share = 0.1;  // of the largest derivative of a row
+constexpr double kink_share = 1e-3;       // of the slope
+constexpr double graze_share = 3.0;       // of the change of a margin over the larger shift
+
+constexpr std::size_t n_runs_per_key = 2 * sensitivity_shifts.size();
+
+std::optional<double> value_of(const SubImpact& s, EventQuantity quantity) {
+  if (quantity == EventQuantity::start) return s.start;
+  if (!s.end) return std::nullopt;
+  switch (quantity) {
+    case EventQuantity::end:
+      return s.end;
+    case EventQuantity::peak_force:
+      return s.peak_force;
+    case EventQuantity::impulse:
+      return s.impulse;
+    case EventQuantity::max_indentation:
+      return s.max_indentation;
+    default:
+      return s.striker_velocity;
+  }
+}
+
+// --- the runs -----------------------------------------------------------------------------------
+
+// A run of another accuracy in time, and the error of the base run as a share of the difference.
+struct CheckRun {
+  Case input;
+  double share;
+};
+
+CheckRun check_run_of(const Case& base) {
+  CheckRun check{base, 1.0 / (looser - 1.0)};
+  if (base.solver.step) {
+    *check.input.solver.step *= 0.5;
+    check.share = 4.0 / 3.0;  // of second order
+  } else {
+    check.input.solver.rtol *= looser;
+  }
+  return check;
+}
+
+/// Makes runs, `jobs` at a time.
+class Runner {
+ public:
+  Runner(const SensitivityOptions& options, std::size_t n_all) : options_(options), n_all_(n_all) {}
+
+  std::vector<Result> run(const std::vector<Case>& cases) {
+    std::vector<Result> results(cases.size());
+    in_parallel(
+        cases.size(),
+        [&](std::size_t i) {
+          results[i] = simulate(cases[i], [&](double time) { return goes_on(time); });
+          if (results[i].outcome.kind == OutcomeKind::stopped) return;
+          const std::lock_guard lock(mutex_);
+          ++n_done_;
+          if (options_.finished) options_.finished(n_done_, n_all_);
+        },
+        options_.jobs);
+    return results;
+  }
+  bool stopped() const { return stop_; }
+
+ private:
+  bool goes_on(double time) {
+    if (options_.progress && !options_.progress(time)) stop_ = true;
+    return !stop_;
+  }
+
+  const SensitivityOptions& options_;
+  std::size_t n_all_;
+  std::size_t n_done_ = 0;
+  std::mutex mutex_;
+  std::atomic<bool> stop_ = false;
+};
+
+std::vector<const CaseKey*> keys_of(const Case& input, const std::vector<std::string>& names) {
+  std::vector<const CaseKey*> keys;
+  for (const std::string& name : names.empty() ? sensitivity_keys(input) : names) {
+    const CaseKey* key = find_case_key(name);
+    if (key == nullptr) throw InvalidCase(name, "is no key of a case; see `subimpact keys`");
+    if (const auto reason = why_not_shifted(input, *key)) throw InvalidCase(name, *reason);
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+// Plus and minus the larger shift, then the smaller one, key by key.
+std::vector<Case> shifted_cases(const Case& base, const std::vector<const CaseKey*>& keys) {
+  std::vector<Case> cases;
+  for (const CaseKey* key : keys) {
+    for (const double shift : sensitivity_shifts) {
+      for (const double sign : {1.0, -1.0}) {
+        cases.push_back(shifted(base, *key, sign * shift));
+        check(cases.back());
+      }
+    }
+  }
+  return cases;
+}
+
+// --- differences
+// ----------------------------------------------------------------------------------
+
+/// One number of a base run and of the four shifted runs of a key.
+struct Stencil {
+  double base = 0.0;
+  std::array<double, sensitivity_shifts.size()> plus{}, minus{};
+
+  double slope(std::size_t i) const { return (plus[i] - minus[i]) / (2.0 * sensitivity_shifts[i]); }
+  // As the first touch, which is where time begins.
+  bool is_constant() const {
+    const auto is_base = [this](double f) { return f == base; };
+    return std::ranges::all_of(plus, is_base) && std::ranges::all_of(minus, is_base);
+  }
+  // Of the values at both shifts, the mean less the value between them.
+  double bend(std::size_t i) const { return 0.5 * (plus[i] - base + (minus[i] - base)); }
+};
+
+constexpr double shift_ratio = sensitivity_shifts[0] / sensitivity_shifts[1];
+
+// The bend at the smaller shift, less what follows for it from the larger one if the number is
+// smooth: the error of one run, times the root of 3/2.
+double noise_of(const Stencil& s) {
+  return std::abs(s.bend(1) - s.bend(0) / (shift_ratio * shift_ratio)) / std::sqrt(1.5);
+}
+
+// `error`: of one run.
+Derivative derivative_of(const Stencil& s, double error) {
+  if (s.is_constant()) return {};
+  const double difference = std::abs(s.slope(0) - s.slope(1));
+  const double rounding = std::numeric_limits<double>::epsilon() * std::abs(s.base);
+  const double noise = error + rounding;
+  const double of_larger = difference + noise / sensitivity_shifts[0];
+  const double of_smaller =
+      difference / (shift_ratio * shift_ratio - 1.0) + noise / sensitivity_shifts[1];
+  const bool larger = of_larger < of_smaller;
+  return {s.slope(larger ? 0 : 1), safety * std::min(of_larger, of_smaller)};
+}
+
+// Whether the slopes to either side differ: by as much over the smaller shift as over the larger
+// one. For smooth numbers it is less by the ratio of the shifts, for the errors of runs more.
+// `error`: of the base run.
+bool has_kink(const Stencil& s, double error) {
+  const double larger = std::abs(s.bend(0)) / sensitivity_shifts[0];
+  const double smaller = std::abs(s.bend(1)) / sensitivity_shifts[1];
+  return smaller > 0.5 * larger && smaller < 2.0 * larger &&
+         smaller > kink_share * std::abs(s.slope(1)) && std::abs(s.bend(1)) > 3.0 * error;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Derives one quantity after the other from the runs of a study.
+class Differences {
+ public:
+  /// `share`: of its differences from the check run, the error of the base run.
+  Differences(const Result& base, const Result& check_run, double share,
+              const std::vector<Result>& shifted_runs)
+      : base_(base.sub_impacts),
+        check_(counterparts(base_, check_run.sub_impacts)),
+        share_(share),
+        n_keys_(shifted_runs.size() / n_runs_per_key) {
+    for (const Result& run : shifted_runs) shifted_.push_back(counterparts(base_, run.sub_impacts));
+  }
+
+  /// The error of one run in a number of a sub-impact.
+  double run_error(EventQuantity quantity, std::size_t i) const {
+    double error = 0.0;
+    const std::size_t last = std::min(i + 1, base_.size() - 1);
+    for (std::size_t k = i > 0 ? i - 1 : 0; k <= last; ++k) {
+      error = std::max(error, error_of_one(quantity, k));
+    }
+    return error;
+  }
+
+  /// What the check run shows of the error of the base run in one number.
+  double check_error(EventQuantity quantity, std::size_t i) const {
+    const auto here = value_of(base_[i], quantity);
+    const auto there = check_.of[i] != nullptr ? value_of(*check_.of[i], quantity) : std::nullopt;
+    return here && there ? share_ * std::abs(*here - *there) : 0.0;
+  }
+
+  std::optional<Stencil> stencil(EventQuantity quantity, std::size_t i, std::size_t key) const {
+    Stencil s;
+    const std::optional<double> base = value_of(base_[i], quantity);
+    if (!base) return std::nullopt;
+    s.base = *base;
+    for (std::size_t shift = 0; shift < sensitivity_shifts.size(); ++shift) {
+      for (const bool minus : {false, true}) {
+        const SubImpact* other = run_of(key, shift, minus).of[i];
+        const auto value = other != nullptr ? value_of(*other, quantity) : std::nullopt;
+        if (!value) return std::nullopt;
+        (minus ? s.minus : s.plus)[shift] = *value;
+      }
+    }
+    return s;
+  }
+
+  bool follows_new_one(std::size_t i, std::size_t key) const {
+    const auto first = shifted_.begin() + static_cast<std::ptrdiff_t>(key * n_runs_per_key);
+    return std::any_of(first, first + n_runs_per_key,
+                       [i](const Counterparts& run) { return run.follows_new_one[i]; });
+  }
+  std::size_t n_keys() const { return n_keys_; }
+
+ private:
+  const Counterparts& run_of(std::size_t key, std::size_t shift, bool minus) const {
+    return shifted_[key * n_runs_per_key + 2 * shift + (minus ? 1 : 0)];
+  }
+
+  double error_of_one(EventQuantity quantity, std::size_t i) const {
+    std::vector<double> noise;
+    for (std::size_t key = 0; key < n_keys_; ++key) {
+      if (const auto s = stencil(quantity, i, key)) noise.push_back(noise_of(*s));
+    }
+    return std::max(median(std::move(noise)), check_error(quantity, i));
+  }
+
+  const std::vector<SubImpact>& base_;
+  Counterparts check_;
+  double share_;
+  std::vector<Counterparts> shifted_;
+  std::size_t n_keys_;
+};
+
+/// One row of the study and what there is to flag in it.
+SensitivityRow row_of(const Differences& differences, EventQuantity quantity, std::size_t i,
+                      double value, const std::vector<std::string>& keys) {
+  SensitivityRow row{quantity, i, value, {}, {}};
+  const double error = differences.run_error(quantity, i);
+  const auto flag = [&](const std::string& words, const std::string& key) {
+    if (row.flag.empty()) row.flag = fmt::format("{} {}", words, key);
+  };
+  double largest = 0.0;
+  for (std::size_t key = 0; key < keys.size(); ++key) {
+    const std::optional<Stencil> s = differences.stencil(quantity, i, key);
+    row.by_key.push_back(s ? std::optional(derivative_of(*s, error)) : std::nullopt);
+    if (!s) flag("merges, splits or vanishes within the shifts of", keys[key]);
+    if (s) largest = std::max(largest, std::abs(row.by_key.back()->value));
+    if (s && has_kink(*s, differences.check_error(quantity, i))) flag("has a kink in", keys[key]);
+  }
+  for (std::size_t key = 0; key < keys.size(); ++key) {
+    if (differences.follows_new_one(i, key)) {
+      flag("a contact appears before it within the shifts of", keys[key]);
+    }
+    const auto& derivative = row.by_key[key];
+    if (derivative && derivative->error > unreliable_share * largest) {
+      flag("the shifts disagree in", keys[key]);
+    }
+  }
+  return row;
+}
+
+// --- near misses
+// ----------------------------------------------------------------------------------
+
+std::vector<NearMissSensitivity> near_misses_of(const Result& base,
+                                                const std::vector<Result>& shifted_runs,
+                                                std::size_t n_keys) {
+  std::vector<std::vector<std::optional<std::size_t>>> partners;
+  for (const Result& run : shifted_runs) {
+    const std::size_t n = n_leading_matches(match_sub_impacts(base.sub_impacts, run.sub_impacts));
+    partners.push_back(match_near_misses(base, run, n));
+  }
+  std::vector<NearMissSensitivity> list;
+  for (std::size_t i = 0; i < base.near_misses.size(); ++i) {
+    const NearMiss& here = base.near_misses[i];
+    NearMissSensitivity row{i, first_in_doubt(base, here), {}};
+    for (std::size_t key = 0; key < n_keys; ++key) {
+      std::array<double, n_runs_per_key> margins{};
+      bool known = true;
+      for (std::size_t k = 0; k < n_runs_per_key && known; ++k) {
+        const std::size_t run = key * n_runs_per_key + k;
+        const auto partner = i < partners[run].size() ? partners[run][i] : std::nullopt;
+        known = partner.has_value();
+        if (known) margins[k] = shifted_runs[run].near_misses[*partner].margin;
+      }
+      const Stencil s{here.margin, {margins[0], margins[2]}, {margins[1], margins[3]}};
+      row.by_key.push_back(known ? std::optional(derivative_of(s, noise_of(s))) : std::nullopt);
+    }
+    list.push_back(std::move(row));
+  }
+  return list;
+}
+
+// Flags what a near miss leaves in doubt: one that the shifts nearly reach.
+void flag_near_misses(Sensitivity& study) {
+  for (const NearMissSensitivity& near_miss : study.near_misses) {
+    const double margin = study.base.near_misses[near_miss.near_miss].margin;
+    for (std::size_t key = 0; key < study.keys.size(); ++key) {
+      const auto& derivative = near_miss.by_key[key];
+      const double change = derivative ? std::abs(derivative->value) * sensitivity_shifts[0] : 0.0;
+      if (graze_share * change < margin) continue;
+      for (SensitivityRow& row : study.rows) {
+        if (row.sub_impact == near_miss.sub_impact && row.flag.empty()) {
+          row.flag = "a near miss is within the shifts of " + study.keys[key];
+        }
+      }
+    }
+  }
+}
+
+// Flags the last sub-impact where a shifted run has one more.
+void flag_later_contacts(Sensitivity& study, const std::vector<Result>& shifted_runs) {
+  for (std::size_t run = 0; run < shifted_runs.size(); ++run) {
+    const auto pairs = match_sub_impacts(study.base.sub_impacts, shifted_runs[run].sub_impacts);
+    if (pairs.empty() || pairs.back().first) continue;
+    for (SensitivityRow& row : study.rows) {
+      if (row.sub_impact + 1 < study.base.sub_impacts.size() || !row.flag.empty()) continue;
+      row.flag =
+          "a contact appears after it within the shifts of " + study.keys[run / n_runs_per_key];
+    }
+  }
+}
+
+// Leaves out the keys of which a run did not complete.
+void drop_incomplete(Sensitivity& study, std::vector<Result>& shifted_runs) {
+  std::vector<std::string> keys;
+  std::vector<Result> kept;
+  for (std::size_t key = 0; key < study.keys.size(); ++key) {
+    const auto first = shifted_runs.begin() + static_cast<std::ptrdiff_t>(key * n_runs_per_key);
+    const auto last = first + n_runs_per_key;
+    const auto failed =
+        std::find_if(first, last, [](const Result& run) { return !run.outcome.completed(); });
+    if (failed == last) {
+      keys.push_back(study.keys[key]);
+      std::move(first, last, std::back_inserter(kept));
+    } else if (failed->outcome.kind != OutcomeKind::stopped) {
+      study.remarks.push_back(
+          fmt::format("no derivatives by {}: a run with a shifted value ended {}: {}",
+                      study.keys[key], to_string(failed->outcome.kind), failed->outcome.message));
+    }
+  }
+  study.keys = std::move(keys);
+  shifted_runs = std::move(kept);
+}
+
+std::vector<std::string> remarks_on(const Case& input, const Case& base) {
+  std::vector<std::string> remarks;
+  if (base.solver.method != input.solver.method) {
+    remarks.push_back(fmt::format(
+        "by {} in place of {}, whose interpolated events jump with the phase of its steps",
+        to_string(base.solver.method), to_string(input.solver.method)));
+  } else if (base.solver.rtol != input.solver.rtol && !base.solver.step) {
+    remarks.push_back(
+        fmt::format("at rtol {:g} in place of {:g}, whose errors would hide the shifts",
+                    base.solver.rtol, input.solver.rtol));
+  }
+  return remarks;
+}
+
+}  // namespace
+
+std::string_view to_string(EventQuantity quantity) {
+  switch (quantity) {
+    case EventQuantity::start:
+      return "start_s";
+    case EventQuantity::end:
+      return "end_s";
+    case EventQuantity::peak_force:
+      return "peak_force_N";
+    case EventQuantity::impulse:
+      return "impulse_Ns";
+    case EventQuantity::max_indentation:
+      return "max_indentation_m";
+    case EventQuantity::striker_velocity:
+      return "striker_velocity_m_per_s";
+  }
+  return "unknown";
+}
+
+const SensitivityRow* Sensitivity::find(EventQuantity quantity, std::size_t sub_impact) const {
+  for (const SensitivityRow& row : rows) {
+    if (row.quantity == quantity && row.sub_impact == sub_impact) return &row;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> sensitivity_keys(const Case& input) { return shifted_keys(input); }
+
+Case sensitivity_case(const Case& input) {
+  Case base = input;
+  if (events_of(input) == EventHandling::interpolated) {
+    base.solver = {};
+    base.solver.method = method_for_damping(input, Method::nystrom);
+  }
+  base.solver.rtol = std::min(input.solver.rtol, tightest);
+  base.accuracy.event_times.reset();
+  base.output.keep_no_rows();
+  if (const auto step = resolve(base).settings().step) base.solver.step = step;
+  return base;
+}
+
+Sensitivity sensitivity(const Case& input, const SensitivityOptions& options) {
+  Sensitivity study;
+  study.input = sensitivity_case(input);
+  study.remarks = remarks_on(input, study.input);
+  const std::vector<const CaseKey*> keys = keys_of(study.input, options.keys);
+  for (const CaseKey* key : keys) study.keys.push_back(key->name);
+  const std::vector<Case> cases = shifted_cases(study.input, keys);
+
+  Runner runner(options, cases.size() + 2);
+  const CheckRun check_run = check_run_of(study.input);
+  std::vector<Result> first = runner.run({study.input, check_run.input});
+  study.base = std::move(first[0]);
+  study.interrupted = runner.stopped();
+  if (!study.base.outcome.completed()) return study;
+  std::vector<Result> shifted_runs = runner.run(cases);
+  study.interrupted = runner.stopped();
+  drop_incomplete(study, shifted_runs);
+
+  const Differences differences(study.base, first[1], check_run.share, shifted_runs);
+  for (std::size_t i = 0; i < study.base.sub_impacts.size(); ++i) {
+    for (const EventQuantity quantity : event_quantities) {
+      const auto value = value_of(study.base.sub_impacts[i], quantity);
+      if (value) study.rows.push_back(row_of(differences, quantity, i, *value, study.keys));
+    }
+  }
+  study.near_misses = near_misses_of(study.base, shifted_runs, study.keys.size());
+  flag_near_misses(study);
+  flag_later_contacts(study, shifted_runs);
+  return study;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,115 @@
+#include "subimpact/study/predictability.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "elastic_case.h"
+#include "subimpact/study/ensemble.h"
+
+namespace subimpact {
+namespace {
+
+Case small_strike(double end_time) {
+  Case input = elastic_case(end_time);
+  input.model.segments = 101;
+  input.solver.method = Method::exponential;
+  return input;
+}
+
+Sensitivity study_of(const Case& input) {
+  SensitivityOptions options;
+  options.keys = {"striker.velocity", "beam.thickness"};
+  options.jobs = 2;
+  return sensitivity(input, options);
+}
+
+Result predicted(const Sensitivity& study, const Scatter& scatter) {
+  Result result = study.base;
+  set_predictability(result, study, scatter);
+  return result;
+}
+
+TEST(Deviation, IsTheRootOfTheSumOfSquaresOverTheKeysThatScatter) {
+  const std::vector<std::string> keys = {"a", "b", "c"};
+  const std::vector<std::optional<Derivative>> by_key = {Derivative{3.0, 0.0},
+                                                         Derivative{-4.0, 0.0}, std::nullopt};
+  EXPECT_DOUBLE_EQ(*deviation_of(by_key, keys, {{"a", 0.1}, {"b", 0.1}}), 0.5);
+  EXPECT_DOUBLE_EQ(*deviation_of(by_key, keys, {{"b", 0.1}, {"c", 0.0}}), 0.4);
+  EXPECT_FALSE(deviation_of(by_key, keys, {{"c", 0.1}}));
+}
+
+TEST(Predictability, OfLittleScatterReachesTheEndWithDeviationsInProportion) {
+  const Sensitivity study = study_of(small_strike(1e-3));
+  ASSERT_GE(study.base.sub_impacts.size(), 5u);
+  const Result once = predicted(study, {{"striker.velocity", 1e-6}});
+  const Result twice = predicted(study, {{"striker.velocity", 2e-6}});
+  EXPECT_FALSE(once.predictability->first_unpredictable) << once.predictability->reason;
+  for (std::size_t i = 0; i < once.sub_impacts.size(); ++i) {
+    if (!once.sub_impacts[i].end) continue;
+    EXPECT_NEAR(*twice.sub_impacts[i].end_scatter, 2.0 * *once.sub_impacts[i].end_scatter, 1e-18);
+  }
+}
+
+TEST(Predictability, EndsSoonerTheMoreTheNumbersScatter) {
+  const Sensitivity study = study_of(small_strike(2e-3));
+  double last = 1.0;
+  for (const double deviation : {1e-6, 1e-3, 1e-2, 0.1, 0.5}) {
+    const Result result =
+        predicted(study, {{"striker.velocity", deviation}, {"beam.thickness", deviation}});
+    EXPECT_LE(result.predictability->horizon, last) << deviation;
+    last = result.predictability->horizon;
+  }
+  EXPECT_LT(last, 1e-3);
+}
+
+TEST(Predictability, OfAZonesImpulseIsThatOfTheStrikersVelocity) {
+  const Sensitivity study = study_of(small_strike(1e-3));
+  const Result result = predicted(study, {{"beam.thickness", 1e-3}});
+  ASSERT_EQ(result.predictability->zones.size(), 1u);
+  EXPECT_NEAR(*result.predictability->zones[0].impulse_scatter,
+              study.input.scene.striker.mass * *result.predictability->striker_velocity_scatter,
+              1e-15);
+}
+
+TEST(Predictability, IsNotLookedForWithoutScatterThatHasAnEffect) {
+  Case input = small_strike(1e-4);
+  Result result = simulate(input);
+  add_predictability(result, input);
+  EXPECT_FALSE(result.predictability);
+  input.scatter = {{"striker.gap", 0.1}, {"beam.length", 0.0}};
+  add_predictability(result, input);
+  EXPECT_FALSE(result.predictability);
+  input.scatter["beam.length"] = 0.01;
+  add_predictability(result, input);
+  EXPECT_TRUE(result.predictability);
+}
+
+TEST(Ensemble, HasTheStandardDeviationsOfTheDerivatives) {
+  const Sensitivity study = study_of(small_strike(3e-4));
+  const Scatter scatter = {{"striker.velocity", 1e-3}, {"beam.thickness", 1e-3}};
+  const Result result = predicted(study, scatter);
+  EnsembleOptions options;
+  options.n_runs = 400;
+  options.jobs = 2;
+  const Ensemble found = ensemble(study, scatter, options);
+  EXPECT_EQ(found.runs.size(), 400u);
+  ASSERT_EQ(found.events[0].n_present, 400u);
+  // 400 samples leave 3.5 % of a standard deviation open.
+  EXPECT_NEAR(found.events[0].end_deviation / *result.sub_impacts[0].end_scatter, 1.0, 0.1);
+}
+
+TEST(Ensemble, IsTheSameForAnyNumberOfJobsAndAnotherForAnotherSeed) {
+  const Sensitivity study = study_of(small_strike(3e-4));
+  const Scatter scatter = {{"striker.velocity", 1e-3}};
+  EnsembleOptions options;
+  options.n_runs = 20;
+  const double one = ensemble(study, scatter, options).events[0].end_mean;
+  options.jobs = 3;
+  EXPECT_EQ(ensemble(study, scatter, options).events[0].end_mean, one);
+  options.seed = 2;
+  EXPECT_NE(ensemble(study, scatter, options).events[0].end_mean, one);
+}
+
+}  // namespace
+}  // namespace subimpact

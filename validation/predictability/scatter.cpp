@@ -1,0 +1,211 @@
+// What scatter leaves of the published strike: standard deviations and horizon by first
+// derivatives, beside an ensemble of runs.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "predictability/checks.h"
+#include "predictability/support.h"
+#include "report/gnuplot.h"
+#include "subimpact/study/ensemble.h"
+
+namespace subimpact::predictability {
+namespace {
+
+constexpr double us = 1e6;  // per second
+constexpr double ms = 1e3;
+constexpr std::size_t n_runs = 2000;
+constexpr double share_that_ends = 0.05;  // of runs in which a contact changes
+
+struct Study {
+  double scatter;
+  Sensitivity sensitivity;
+  Result result;  // with predictability
+  Ensemble ensemble;
+};
+
+Scatter all_by(double deviation) {
+  return {{"striker.velocity", deviation},
+          {"beam.thickness", deviation},
+          {"beam.yield_stress", deviation}};
+}
+
+Study study_of(SectionKind section, double deviation, Jobs jobs) {
+  Study study{deviation, {}, {}, {}};
+  const Scatter scatter = all_by(deviation);
+  SensitivityOptions options;
+  for (const auto& [key, unused] : scatter) options.keys.push_back(key);
+  options.jobs = jobs;
+  study.sensitivity = sensitivity(paper_strike(section), options);
+  study.result = study.sensitivity.base;
+  set_predictability(study.result, study.sensitivity, scatter);
+  EnsembleOptions how;
+  how.n_runs = n_runs;
+  how.jobs = jobs;
+  study.ensemble = ensemble(study.sensitivity, scatter, how);
+  return study;
+}
+
+/// What an ensemble says of a horizon by first derivatives.
+struct Judged {
+  std::size_t n_unchanged = 0;   // leading sub-impacts that every run has
+  std::size_t first_ending = 0;  // the first that changes in more than 5 % of the runs
+  std::size_t horizon = 0;       // sub-impacts before the horizon
+  double largest_off = 0.0;      // of standard deviations of the leading ones, relative
+};
+
+Judged judge(const Study& study) {
+  Judged judged;
+  const auto& events = study.ensemble.events;
+  const std::size_t n = events.size();
+  const auto n_all = static_cast<double>(study.ensemble.runs.size());
+  while (judged.n_unchanged < n && events[judged.n_unchanged].n_changed_so_far == 0) {
+    ++judged.n_unchanged;
+  }
+  while (judged.first_ending < n &&
+         static_cast<double>(events[judged.first_ending].n_changed) <= share_that_ends * n_all) {
+    ++judged.first_ending;
+  }
+  judged.horizon = study.result.predictability->first_unpredictable.value_or(n);
+  for (std::size_t i = 0; i < judged.n_unchanged; ++i) {
+    const SubImpact& s = study.result.sub_impacts[i];
+    if (i > 0) {
+      judged.largest_off = std::max(judged.largest_off,
+                                    std::abs(*s.start_scatter / events[i].start_deviation - 1.0));
+    }
+    if (s.end) {
+      judged.largest_off =
+          std::max(judged.largest_off, std::abs(*s.end_scatter / events[i].end_deviation - 1.0));
+    }
+  }
+  return judged;
+}
+
+void print_events(const Study& study) {
+  fmt::print(
+      "\n| no. | start, us | by derivatives | ensemble | end, us | by derivatives | ensemble | "
+      "runs "
+      "that have it |\n|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < study.ensemble.events.size(); ++i) {
+    const SubImpact& s = study.result.sub_impacts[i];
+    const EnsembleEvent& e = study.ensemble.events[i];
+    const auto cell = [](const std::optional<double>& x) {
+      return x ? fmt::format("{:.3g}", us * *x) : std::string("-");
+    };
+    fmt::print(
+        "| {} | {:.2f} | {} | {:.3g} | {:.2f} | {} | {:.3g} | {:.1f} % |\n", i + 1, us * s.start,
+        cell(s.start_scatter), us * e.start_deviation, us * s.end.value_or(NAN),
+        cell(s.end_scatter), us * e.end_deviation,
+        100.0 * static_cast<double>(e.n_present) / static_cast<double>(study.ensemble.runs.size()));
+  }
+}
+
+// The share of the runs that are in contact, at equal times.
+std::string contact_table(const Study& study, double end) {
+  constexpr int n = 4000;
+  std::vector<int> steps(n + 1, 0);  // changes of the number in contact
+  const auto index = [&](double t) {
+    return static_cast<std::size_t>(std::clamp(t / end * n, 0.0, static_cast<double>(n)));
+  };
+  for (const Result& run : study.ensemble.runs) {
+    for (const SubImpact& s : run.sub_impacts) {
+      ++steps[index(s.start)];
+      --steps[index(run.end_of(s))];
+    }
+  }
+  std::string text;
+  int in_contact = 0;
+  for (int i = 0; i < n; ++i) {
+    in_contact += steps[static_cast<std::size_t>(i)];
+    text += fmt::format("{:.5g} {:.4g}\n", ms * end * i / n,
+                        100.0 * in_contact / static_cast<double>(study.ensemble.runs.size()));
+  }
+  return text;
+}
+
+std::string panel(const Study& study, const std::string& name, const char* title) {
+  const Predictability& p = *study.result.predictability;
+  std::string text = fmt::format("unset object\nunset arrow\nunset label\n");
+  int number = 0;
+  for (const SubImpact& s : study.result.sub_impacts) {
+    text += fmt::format(
+        "set object {} rectangle from first {:.6g}, graph 1.02 to first {:.6g}, graph 1.1 "
+        "fillcolor rgb '#404040' fillstyle solid noborder\n",
+        ++number, ms * s.start, ms * study.result.end_of(s));
+  }
+  text += fmt::format(
+      "set arrow 1 from first {0:.6g}, graph 0 to first {0:.6g}, graph 1.12 nohead lt 2 lw 2\n"
+      "set title '{1}' offset 0,0.6\n"
+      "set label 1 'predictable up to here' at first {0:.6g}, graph 0.9 left offset 0.6,0 tc lt 2\n"
+      "plot ${2} using 1:2 with filledcurves y1=0 lc rgb '#56B4E9' notitle\n",
+      ms * p.horizon, title, name);
+  return text;
+}
+
+void draw(const std::vector<Study>& studies) {
+  std::string script = figure_style();
+  const double end = studies.front().result.outcome.time;
+  std::string panels;
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    const std::string name = fmt::format("contact{}", i);
+    script += fmt::format("${} << EOD\n{}EOD\n", name, contact_table(studies[i], end));
+    panels += panel(studies[i], name,
+                    fmt::format("velocity, thickness and yield stress known to {:g} %",
+                                100.0 * studies[i].scatter)
+                        .c_str());
+  }
+  script += fmt::format(
+      "set xrange [0:{:g}]\nset yrange [0:100]\nset ylabel 'in contact, % of runs'\n"
+      "set xlabel 'time, ms'\nset multiplot layout {},1 spacing 0.1,0.14\n{}unset multiplot\n",
+      ms * end, studies.size(), panels);
+  const std::filesystem::path directory = SUBIMPACT_PREDICTABILITY;
+  draw_figure(directory, "scatter", script, {1100, 620});
+  std::filesystem::remove(directory / "scatter.gp");  // this source is the script
+  std::filesystem::remove(directory / "scatter.png");
+}
+
+}  // namespace
+
+bool check_scatter(Jobs jobs) {
+  bool all = true;
+  std::vector<Study> drawn;
+  for (const SectionKind section : {SectionKind::elastic, SectionKind::exact}) {
+    for (const double deviation : {1e-2, 1e-3}) {
+      Study study = study_of(section, deviation, jobs);
+      const Judged judged = judge(study);
+      const Predictability& p = *study.result.predictability;
+      fmt::print("\n### {} section, {:g} %\n\n",
+                 section == SectionKind::elastic ? "elastic" : "exact", 100.0 * deviation);
+      fmt::print(
+          "{} runs, {} failed. Every run has the first {} sub-impacts as they are; by derivatives "
+          "their standard deviations are off by {:.1f} % at most. Number {} is the first that "
+          "changes in more than 5 % of the runs.\nPredicted: {} sub-impacts, to {:.1f} us; beyond: "
+          "{}.\n",
+          study.ensemble.runs.size(), study.ensemble.n_failed, judged.n_unchanged,
+          100.0 * judged.largest_off, judged.first_ending + 1, judged.horizon, us * p.horizon,
+          p.reason);
+      for (std::size_t z = 0; z < p.zones.size(); ++z) {
+        const auto& zone = p.zones[z];
+        fmt::print("zone {}: start {:.2g} us, end {:.2g} us, impulse {:.2g} N s\n", z + 1,
+                   us * zone.start_scatter.value_or(NAN), us * zone.end_scatter.value_or(NAN),
+                   zone.impulse_scatter.value_or(NAN));
+      }
+      print_events(study);
+      std::fflush(stdout);
+      all = all && judged.largest_off < 0.1 && judged.horizon <= judged.first_ending;
+      if (section == SectionKind::exact) drawn.push_back(std::move(study));
+    }
+  }
+  draw(drawn);
+  fmt::print(
+      "\nstandard deviations within 10 %, no horizon beyond a contact that changes in more than "
+      "5 %: {}\n",
+      all ? "holds" : "FAILS");
+  return all;
+}
+
+}  // namespace subimpact::predictability
