@@ -75,7 +75,7 @@ TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
 
 TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
   const Table rows = parse_csv(events_csv(sample_result()));
-  ASSERT_EQ(rows[3].size(), 20u);
+  ASSERT_EQ(rows[3].size(), 22u);
   EXPECT_EQ(rows[3][4], "");
   EXPECT_EQ(rows[3][5], "");
   EXPECT_NE(rows[3][6], "");
