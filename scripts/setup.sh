@@ -22,6 +22,7 @@ readonly packages=(
   libtomlplusplus-dev
   libcli11-dev
   libssl-dev
+  libjs-dygraphs
   libgtest-dev
   libbenchmark-dev
 )
@@ -70,7 +71,8 @@ install_with_apt() {
   as_root "${apt_get[@]}" -q install -y --no-install-recommends "$@"
 }
 
-# Installs what is missing. Never fatal: CMake has the last word on what it can use.
+# install_missing_packages [PACKAGE...]: installs what is missing of the build's packages and of these.
+# Never fatal: CMake has the last word on what it can use.
 install_missing_packages() {
   local -a missing=()
   local name
@@ -84,7 +86,7 @@ install_missing_packages() {
     say "Going on with what CMake finds."
     return
   fi
-  for name in "${packages[@]}"; do
+  for name in "${packages[@]}" "$@"; do
     is_installed "$name" || missing+=("$name")
   done
   install_or_name "${missing[@]}"

@@ -16,16 +16,23 @@ namespace {
 struct PlotOptions {
   std::string run;
   std::string directory;
+  std::string scripts;
 };
 
 int plot(const PlotOptions& options) {
   const FinishedRun run = read_results(options.run);
   OutputDirectory directory(options.directory.empty() ? options.run : options.directory, "figures",
                             run.identity);
-  const DrawnFigures figures = draw_figures(directory.staging(), run.input, run.result);
+  if (!options.scripts.empty()) {
+    for (const std::string& file : write_figure_scripts(options.scripts)) {
+      print("{}\n", (std::filesystem::path(options.scripts) / file).string());
+    }
+  }
+  const DrawnFigures figures =
+      draw_figures(directory.staging(), run.input, run.result, options.scripts);
   directory.commit();
   for (const DrawnFigure& figure : figures.drawn) {
-    print("{0}.svg, {0}.png\n    {1}\n", figure.name, figure.caption);
+    print("{0}.svg, {0}.png, {0}.pdf\n    {1}\n", figure.name, figure.caption);
   }
   print("\nfigures in {}\n", directory.path().string());
   std::fflush(stdout);
@@ -39,21 +46,25 @@ int plot(const PlotOptions& options) {
 
 void add_plot(CLI::App& program, int& status) {
   CLI::App* command =
-      program.add_subcommand("plot", "Draw the figures of a finished run (SVG and PNG)");
+      program.add_subcommand("plot", "Draw the figures of a finished run (SVG, PNG and PDF)");
   auto options = std::make_shared<PlotOptions>();
   command->add_option("DIR", options->run, "Output directory of `subimpact run`")->required();
   command->add_option("--out", options->directory,
                       "Directory for the figures; made if missing. Default: DIR");
+  command->add_option("--scripts", options->scripts,
+                      "Directory of gnuplot scripts to draw with; those it lacks are put there "
+                      "first, to be changed");
   command->footer(
       "Draws response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
-      "(both "
-      "unless output.shapes = 0) and, if the run kept sections (output.sections), bending; needs "
+      "(both unless output.shapes = 0) and, if the run kept sections (output.sections), bending; "
+      "needs "
       "gnuplot. The gnuplot scripts stay beside the "
       "figures, ready to be edited and run again.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
       "  subimpact plot out/first\n"
       "  subimpact plot out/first --out figures\n"
+      "  subimpact plot out/first --scripts mine    (change mine/style.gp, and repeat)\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
       "missing; 3 a figure could not be drawn, the others are.");
   command->callback([options, &status] { status = plot(*options); });

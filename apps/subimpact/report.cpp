@@ -3,31 +3,56 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "print.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/comparison_report.h"
 #include "subimpact/report/html_report.h"
 
 namespace subimpact::app {
 namespace {
 
 struct ReportOptions {
-  std::string run;
+  std::vector<std::string> runs;
   std::string directory;
+  std::string dygraphs;
 };
 
+void print_charts_missing(const std::string& reason) {
+  if (!reason.empty()) print_error("subimpact: note: no zoomable charts: {}\n", reason);
+}
+
 int report(const ReportOptions& options) {
-  const FinishedRun run = read_results(options.run);
-  OutputDirectory directory(options.directory.empty() ? options.run : options.directory, "figures",
-                            run.identity);
-  const WrittenReport written = write_html_report(directory.staging(), run);
+  const FinishedRun run = read_results(options.runs.front());
+  OutputDirectory directory(options.directory.empty() ? options.runs.front() : options.directory,
+                            "figures", run.identity);
+  const WrittenReport written = write_html_report(directory.staging(), run, options.dygraphs);
   directory.commit();
   print("{}\n", (directory.path() / written.page.filename()).string());
   std::fflush(stdout);
   print_warnings(directory.notes());
   print_figure_notes(run);
+  print_charts_missing(written.charts_missing);
   throw_if_failed(written.figures);
+  return done;
+}
+
+// Several runs: one page that compares them, in a directory of its own.
+int compare_runs(const ReportOptions& options) {
+  if (options.directory.empty()) {
+    throw CLI::ValidationError("DIR",
+                               "several runs are given; --out DIR must name the directory "
+                               "for the page that compares them");
+  }
+  std::vector<FinishedRun> runs;
+  for (const std::string& run : options.runs) runs.push_back(read_results(run));
+  OutputDirectory directory(options.directory, "report");
+  write_comparison_report(directory.staging(), runs, options.runs, options.dygraphs);
+  directory.commit();
+  print("{}\n", (directory.path() / "comparison.html").string());
+  print_warnings(directory.notes());
   return done;
 }
 
@@ -35,20 +60,34 @@ int report(const ReportOptions& options) {
 
 void add_report(CLI::App& program, int& status) {
   CLI::App* command =
-      program.add_subcommand("report", "Write a finished run up as one page of HTML");
+      program.add_subcommand("report", "Write finished runs up as one page of HTML");
   auto options = std::make_shared<ReportOptions>();
-  command->add_option("DIR", options->run, "Output directory of `subimpact run`")->required();
+  command
+      ->add_option("DIR", options->runs,
+                   "Output directory of `subimpact run`; several: their runs are compared")
+      ->required();
   command->add_option("--out", options->directory,
-                      "Directory for report.html and its figures; made if missing. Default: DIR");
+                      "Directory for report.html and its figures, or for comparison.html; made if "
+                      "missing. Default: DIR; needed with several");
+  command->add_option("--dygraphs", options->dygraphs,
+                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
+                      "Default: that of Debian's libjs-dygraphs");
   command->footer(
-      "report.html holds case, summary in words, figures, table, method, error bars and "
-      "conservation; it needs no other file and no network. Figures are drawn with gnuplot.\n"
+      "report.html needs no other file and no network. In a browser it shows the beam moving, "
+      "zoomable charts, force against indentation, a timeline with error bars and the table of "
+      "sub-impacts, linked; printed, or without scripts, it is a still report. Figures are drawn "
+      "with gnuplot.\n"
+      "comparison.html shows the curves of several runs in common charts, the keys in which their "
+      "cases differ, and their sub-impacts matched with those of the first.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
       "  subimpact report out/first\n"
+      "  subimpact report out/first out/second --out out/both\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
       "missing; 3 a figure could not be drawn, the page is written without it.");
-  command->callback([options, &status] { status = report(*options); });
+  command->callback([options, &status] {
+    status = options->runs.size() > 1 ? compare_runs(*options) : report(*options);
+  });
 }
 
 }  // namespace subimpact::app

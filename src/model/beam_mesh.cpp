@@ -11,13 +11,13 @@ double SparseFunctional::of_all(std::span<const double> unknowns) const {
 }
 
 void SparseFunctional::add(double factor, const SparseFunctional& other) {
-  for (const auto& [unknown, coefficient] : other.terms) {
+  for (const Term& term : other.terms) {
     const auto same =
-        std::ranges::find_if(terms, [&](const Term& term) { return term.unknown == unknown; });
+        std::ranges::find_if(terms, [&](const Term& t) { return t.unknown == term.unknown; });
     if (same == terms.end()) {
-      terms.push_back({unknown, factor * coefficient});
+      terms.push_back({term.unknown, factor * term.coefficient});
     } else {
-      same->coefficient += factor * coefficient;
+      same->coefficient += factor * term.coefficient;
     }
   }
   std::erase_if(terms, [](const Term& term) { return term.coefficient == 0.0; });

@@ -45,9 +45,11 @@ FigureScript energies_figure(const Case&, const Result& result) {
   line("elastic", &HistoryRow::bending_elastic, joule.factor);
   line("plastic", &HistoryRow::bending_plastic, joule.factor);
   line("contact", &HistoryRow::contact_plastic, joule.factor);
+  line("damping", &HistoryRow::beam_damping, joule.factor);
   line("struck_point", &HistoryRow::struck_deflection, metre.factor);
   line("striker_path", &HistoryRow::striker_relative, metre.factor);
   figure.set("end", result.outcome.time * unit.per_second).set("time_unit", unit.name);
+  figure.set("is_damped", result.beam_damping_loss > 0.0 ? 1.0 : 0.0);
   figure.set("energy_unit", joule.name).set("length_unit", metre.name);
   return figure;
 }

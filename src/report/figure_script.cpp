@@ -114,14 +114,16 @@ FigureSize FigureScript::size() const {
   return {size_.width, size_.height + mark_height * static_cast<int>(marks_.size())};
 }
 
-std::string FigureScript::text() const {
+std::string FigureScript::text(const std::filesystem::path& scripts) const {
   std::string marks;  // a newline between marks, as gnuplot writes it within double quotes
   for (const std::string& text : marks_) {
     marks += fmt::format("{}{{/:Bold {}}}", marks.empty() ? "" : "\\n", text);
   }
   return "# " + caption_ + "\n" +
-         figure_script(name_, settings_ + fmt::format("panels = {:#.6g}\nmarks = \"{}\"\n",
-                                                      1.0 * size_.height / size().height, marks));
+         figure_script(name_,
+                       settings_ + fmt::format("panels = {:#.6g}\nmarks = \"{}\"\n",
+                                               1.0 * size_.height / size().height, marks),
+                       scripts);
 }
 
 FigureScript& FigureScript::set(const std::string& variable, double value) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -41,8 +42,8 @@ class FigureScript {
   FigureSize size() const;
   /// Writes a line across the top, above the panels: a warning about the whole figure.
   void mark(const std::string& text) { marks_.push_back(text); }
-  /// The complete script for gnuplot, with tables and variables.
-  std::string text() const;
+  /// The complete script for gnuplot, with tables and variables; `scripts`: see figure_script().
+  std::string text(const std::filesystem::path& scripts = {}) const;
 
   FigureScript& set(const std::string& variable, double value);
   FigureScript& set(const std::string& variable, const std::string& value);

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "io/write_file.h"
 #include "report/figure_script.h"
+#include "report/files.h"
 #include "subimpact/io/report.h"
 
 namespace subimpact {
@@ -87,13 +89,31 @@ std::vector<FigureScript> figure_scripts(const Case& input, const Result& result
   return figures;
 }
 
+std::vector<std::string> write_figure_scripts(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    throw OutputError(
+        fmt::format("{}: this directory cannot be made ({})", directory.string(), error.message()));
+  }
+  std::vector<std::string> written;
+  for (const char* name : {"style", "tables", "response", "first-sub-impact", "indentation",
+                           "energies", "timeline", "bending", "shapes", "envelope"}) {
+    const std::string file = std::string(name) + ".gp";
+    if (std::filesystem::exists(directory / file)) continue;
+    write_file(directory / file, std::string(embedded_file("figures/" + file)));
+    written.push_back(file);
+  }
+  return written;
+}
+
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
-                          const Result& result) {
+                          const Result& result, const std::filesystem::path& scripts) {
   DrawnFigures figures;
   figures.left_out = figures_left_out(input, result);
   for (const FigureScript& figure : figure_scripts(input, result)) {
     try {
-      draw_figure(directory, figure.name(), figure.text(), figure.size());
+      draw_figure(directory, figure.name(), figure.text(scripts), figure.size());
       figures.drawn.push_back({figure.name(), figure.caption()});
     } catch (const GnuplotMissing&) {
       throw;

@@ -13,6 +13,7 @@
 #include <system_error>
 #include <vector>
 
+#include "io/sealed_files.h"
 #include "io/write_file.h"
 #include "report/files.h"
 #include "subimpact/io/results.h"
@@ -130,14 +131,20 @@ void draw(const fs::path& directory, const std::string& name, const std::string&
 
 std::string figure_style() { return std::string(embedded_file("figures/style.gp")); }
 
-std::string figure_script(const std::string& name, const std::string& settings) {
-  return figure_style() + std::string(embedded_file("figures/tables.gp")) + settings +
-         std::string(embedded_file("figures/" + name + ".gp"));
+std::string figure_script(const std::string& name, const std::string& settings,
+                          const fs::path& scripts) {
+  const auto file = [&](const std::string& script) {
+    const fs::path own = scripts / (script + ".gp");
+    return !scripts.empty() && fs::exists(own)
+               ? read_whole_file(own)
+               : std::string(embedded_file("figures/" + script + ".gp"));
+  };
+  return file("style") + file("tables") + settings + file(name);
 }
 
 void draw_figure(const std::filesystem::path& directory, const std::string& name,
                  const std::string& script, FigureSize size) {
-  for (const char* ending : {".svg", ".png"}) {  // of an earlier drawing
+  for (const char* ending : {".svg", ".png", ".pdf"}) {  // of an earlier drawing
     std::error_code ignored;
     fs::remove(directory / (name + ending), ignored);
   }
@@ -151,6 +158,11 @@ void draw_figure(const std::filesystem::path& directory, const std::string& name
        fmt::format("pngcairo size {},{} enhanced font 'sans,14' fontscale 2 linewidth 2 "
                    "pointscale 2 background rgb 'white'",
                    2 * size.width, 2 * size.height));
+  constexpr double pixels_per_inch = 96.0;
+  draw(directory, name, "pdf",
+       fmt::format("pdfcairo size {:.4f}in,{:.4f}in enhanced font 'sans,10.5' fontscale 1 "
+                   "linewidth 1 pointscale 0.6 background rgb 'white'",
+                   size.width / pixels_per_inch, size.height / pixels_per_inch));
 }
 
 }  // namespace subimpact

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "subimpact/report/figures.h"
 
@@ -17,11 +18,13 @@ struct FigureSize {
 /// the colour-blind can distinguish, thin grey grid, borders on two sides.
 std::string figure_style();
 
-/// The script of a figure, figures/<name>.gp, after the style, what scripts share and the
-/// `settings` of this drawing: variables and tables of data.
-std::string figure_script(const std::string& name, const std::string& settings = {});
+/// The script of a figure, <name>.gp, after the style (style.gp), what scripts share (tables.gp)
+/// and the `settings` of this drawing: variables and tables of data. Each file is taken from the
+/// directory `scripts` if it is there, else from the library.
+std::string figure_script(const std::string& name, const std::string& settings = {},
+                          const std::filesystem::path& scripts = {});
 
-/// Draws a figure with gnuplot as directory/name.svg and directory/name.png. `script` sets no
+/// Draws a figure with gnuplot as directory/name.svg, name.png and name.pdf. `script` sets no
 /// terminal and no output; data are in it (`$data << EOD`) or in files named relative to the
 /// directory. It is left as directory/name.gp, so that a figure can be changed and drawn again:
 ///

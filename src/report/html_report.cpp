@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "case/counted.h"
@@ -9,35 +10,60 @@
 #include "io/sub_impact_rows.h"
 #include "io/uncertain.h"
 #include "io/write_file.h"
+#include "report/chart_library.h"
 #include "report/files.h"
 #include "report/inlined_svg.h"
-#include "report/page_template.h"
+#include "report/page_data.h"
+#include "report/page_parts.h"
 #include "report/strike_words.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {
 
-using List = std::vector<Fields>;
-
-// A list of one text per entry.
-template <class Range>
-List list_of(const std::string& name, const Range& texts) {
-  List list;
-  for (const std::string& text : texts) list.push_back({{{name, text}}, {}});
-  return list;
-}
-
-// A part of the page that is there or not.
-List if_given(bool given, const Fields& fields = {}) { return given ? List{fields} : List{}; }
+using List = FieldList;
 
 List wish_list(const Result& result) {
   if (!result.wish) return {};
-  return {Fields{
-      {{"wish", wish_words(*result.wish, result)}, {"class", result.wish->met ? "met" : "warning"}},
-      {}}};
+  return {Fields{{{"wish", in_print(wish_words(*result.wish, result))},
+                  {"class", result.wish->met ? "met" : "warning"}},
+                 {}}};
+}
+
+// What is certain of a run, and what is not.
+List headlines(const Result& result) {
+  List list;
+  const auto line = [&](bool certain, const std::string& words) {
+    list.push_back(headline(certain, words));
+  };
+  const std::size_t n = result.sub_impacts.size();
+  if (const std::optional<std::size_t> n_decided = result.n_decided()) {
+    const std::string within =
+        n > 0 ? ", each start and end within " + error_text(result.error_estimate->largest_error)
+              : "";
+    if (*n_decided == n) {
+      line(true, fmt::format("count and order of all {}{}.", counted(n, "sub-impact"), within));
+    } else if (*n_decided > 0) {
+      const std::string first = *n_decided == 1 ? "sub-impact" : counted(*n_decided, "sub-impact");
+      line(true,
+           fmt::format("the first {}, up to {}{}.", first,
+                       duration_text(result.end_of(result.sub_impacts[*n_decided - 1])), within));
+    }
+    if (const std::string reason = undecided_reason(result); !reason.empty()) {
+      line(false, fmt::format("what comes from sub-impact {} on: {}.", *n_decided + 1, reason));
+    }
+  } else {
+    line(false, "event times, count and order of sub-impacts: no error bars were computed.");
+  }
+  if (result.outcome.completed()) {
+    line(true, fmt::format("energy is conserved to {:.1e} of its initial value, and every event "
+                           "and impulse passed its check.",
+                           result.max_energy_error));
+  }
+  return list;
 }
 
 List tiles(const Result& result) {
@@ -80,9 +106,9 @@ List column_list(const SubImpactRows& table) {
 
 // A line across the table, where sub-impacts are no longer decided.
 List undecided_line(const Result& result, std::size_t n_columns) {
-  return {Fields{
-      {{"n_columns", fmt::format("{}", n_columns)}, {"undecided_reason", undecided_reason(result)}},
-      {}}};
+  return {Fields{{{"n_columns", fmt::format("{}", n_columns)},
+                  {"undecided_reason", in_print(undecided_reason(result))}},
+                 {}}};
 }
 
 List sub_impact_list(const Result& result, const SubImpactRows& table) {
@@ -100,7 +126,8 @@ List sub_impact_list(const Result& result, const SubImpactRows& table) {
                           {"subzone", fmt::format("{}", subzone)}},
                          {}};
     const bool line_before = list.size() == n_decided;
-    list.push_back({{{"row_class", row.is_decided ? "" : " class=\"undecided\""}},
+    list.push_back({{{"index", fmt::format("{}", list.size())},
+                     {"row_class", row.is_decided ? "" : " class=\"undecided\""}},
                     {{"undecided_from", line_before ? undecided_line(result, n_columns) : List{}},
                      {"subzones", if_given(begins, heading)},
                      {"cells", list_of("cell", row.cells)}}});
@@ -116,17 +143,6 @@ List undecided_after(const Result& result, const SubImpactRows& table) {
              : List{};
 }
 
-List key_list(const Case& input) {
-  List list;
-  for (const CaseKey& key : case_keys()) {
-    const std::optional<KeyValue> value = key.get(input);
-    if (!value || key.name == "title") continue;
-    const std::string unit = key.unit.empty() ? "" : " " + key.unit;
-    list.push_back({{{"key", key.name}, {"value", to_text(*value) + unit}}, {}});
-  }
-  return list;
-}
-
 void add_method(Fields& page, const FinishedRun& run) {
   const ResolvedSettings& used = run.result.used;
   const Work& work = run.result.work;
@@ -140,7 +156,7 @@ void add_method(Fields& page, const FinishedRun& run) {
                             : fmt::format("adaptive, to {:.2g} m and {:.2g} m/s",
                                           used.position_tolerance, used.velocity_tolerance);
   texts["events"] = to_string(used.events);
-  texts["first_period"] = duration_text(used.first_period);
+  texts["first_period"] = in_print(duration_text(used.first_period));
   texts["work"] =
       fmt::format("{}, {} rejected, {}, {} located; {}", counted(work.steps, "step"),
                   work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
@@ -153,7 +169,8 @@ Fields error_bars(const ErrorEstimate& estimate) {
     parts.push_back(
         {{{"name", part.name},
           {"run", part.refined_run},
-          {"error", part.first_unresolved == std::size_t{0} ? "" : error_text(part.largest_error)},
+          {"error",
+           part.first_unresolved == std::size_t{0} ? "" : in_print(error_text(part.largest_error))},
           {"valid",
            part.first_unresolved
                ? fmt::format(
@@ -185,17 +202,23 @@ void add_conservation(Fields& page, const Result& result) {
                               last.bending_plastic, last.contact_elastic, last.contact_plastic}) {
     energies.push_back({{{"energy", fmt::format("{:.5g}", energy)}}, {}});
   }
-  page.lists["last_row"] = {Fields{{{"time", duration_text(last.time)}}, {{"energies", energies}}}};
+  page.lists["last_row"] = {
+      Fields{{{"time", in_print(duration_text(last.time))}}, {{"energies", energies}}}};
 }
 
 }  // namespace
 
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
-                        const std::filesystem::path& figure_directory) {
+                        const std::filesystem::path& figure_directory,
+                        const std::filesystem::path& dygraphs) {
   const Result& result = run.result;
   const Scene& scene = run.input.scene;
   const std::string caveat = outcome_caveat(result);
   const SubImpactRows table = sub_impact_rows(result, "±");
+  std::vector<std::string> paragraphs = strike_words(run.input, result);
+  std::ranges::transform(paragraphs, paragraphs.begin(), in_print);
+  const PageData data = page_data(run.input, result);
+  const ChartLibrary charts = chart_library(dygraphs);
   std::string versions = run.program_version;
   for (const auto& [name, version] : run.libraries) versions += ", " + name + " " + version;
   Fields page{
@@ -204,34 +227,40 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"striker_kg", fmt::format("{:.4g}", scene.striker.mass)},
        {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
        {"outcome", std::string(to_string(result.outcome.kind))},
-       {"end", duration_text(result.outcome.time)},
-       {"errors", error_words(run.input, result)},
+       {"end", in_print(duration_text(result.outcome.time))},
+       {"errors", in_print(error_words(run.input, result))},
+       {"toml", case_file_text(run.input)},
+       {"data", data.json},
+       {"history_note", data.history_note},
+       {"shapes_note", data.shapes_note},
        {"versions", versions}},
-      {{"wishes", wish_list(result)},
-       {"caveats", if_given(!caveat.empty(), {{{"caveat", caveat}}, {}})},
+      {{"headlines", headlines(result)},
+       {"wishes", wish_list(result)},
+       {"caveats", if_given(!caveat.empty(), {{{"caveat", in_print(caveat)}}, {}})},
        {"warnings", list_of("warning", result.warnings)},
        {"tiles", tiles(result)},
-       {"paragraphs", list_of("paragraph", strike_words(run.input, result))},
+       {"paragraphs", list_of("paragraph", paragraphs)},
        {"figures", figure_list(figures, figure_directory)},
        {"left_out", list_of("reason", figures.left_out)},
        {"failed", list_of("failure", figures.failed)},
        {"columns", column_list(table)},
        {"sub_impacts", sub_impact_list(result, table)},
        {"undecided_after", undecided_after(result, table)},
-       {"keys", key_list(run.input)},
        {"without_errors", if_given(!result.error_estimate)},
        {"with_errors", if_given(result.error_estimate.has_value(),
                                 error_bars(result.error_estimate.value_or(ErrorEstimate{})))}}};
+  add_scripts(page, charts, "pages/report.js");
   add_method(page, run);
   add_conservation(page, result);
   return filled(embedded_file("pages/report.html"), page);
 }
 
-WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run) {
+WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,
+                                const std::filesystem::path& dygraphs) {
   DrawnFigures figures = draw_figures(directory, run.input, run.result);
   const std::filesystem::path path = directory / "report.html";
-  write_file(path, html_report(run, figures, directory));
-  return {path, std::move(figures)};
+  write_file(path, html_report(run, figures, directory, dygraphs));
+  return {path, std::move(figures), chart_library(dygraphs).missing};
 }
 
 }  // namespace subimpact

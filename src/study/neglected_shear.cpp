@@ -26,7 +26,8 @@ Case coarse_case(const Case& input, const Result& result, double end_of_first) {
   coarse.accuracy = {};
   coarse.output = {};
   coarse.output.keep_no_rows();
-  coarse.model.segments = parts_that_resolve(coarse, result.used.contact_time);
+  // An odd number has a centre at mid-span.
+  coarse.model.segments = 2 * (parts_that_resolve(coarse, result.used.contact_time) / 2) + 1;
   return coarse;
 }
 

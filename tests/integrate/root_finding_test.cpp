@@ -161,6 +161,21 @@ TEST_P(RootFinding, MaximaThatStayBelowAreNoEvents) {
   EXPECT_EQ(integrator->state(), plain->state());
 }
 
+// The library would search for ever.
+TEST_P(RootFinding, EndsWhereValuesBlewUp) {
+  for (const double beyond :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
+    Oscillators system = oscillator();
+    const auto functions = std::make_shared<Functions>(1, [beyond](std::span<const double> y) {
+      return std::vector<EventValue>{{y[0] < 0.0 ? beyond : -beyond, -beyond}};
+    });
+    const auto integrator = GetParam().with(system, options_with(functions));
+    integrator->restart(0.0, system.initial());
+    const bool found = next_root(*integrator, 3.0);
+    EXPECT_EQ(found, !std::isnan(beyond));
+  }
+}
+
 TEST_P(RootFinding, TakesFunctionsThatStayAtZero) {
   Oscillators system = oscillator();
   const auto functions = std::make_shared<Functions>(1, [](std::span<const double> y) {

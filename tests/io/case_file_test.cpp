@@ -34,6 +34,31 @@ TEST(CaseFile, GivesEveryValueOfThePapersCase) {
   EXPECT_EQ(read.output.interval, 1e-6);
 }
 
+// The values of all keys of a case, as texts.
+std::vector<std::string> texts_of(const Case& input) {
+  std::vector<std::string> texts;
+  for (const CaseKey& key : case_keys()) {
+    const auto value = key.get(input);
+    texts.push_back(value ? to_text(*value) : "none");
+  }
+  return texts;
+}
+
+TEST(CaseFileText, IsReadBackAsTheSameCase) {
+  const std::vector<std::vector<Override>> settings = {
+      {},
+      {parse_override("beam.yield_stress=inf"), parse_override("output.sections=0.5,0.25")},
+      {parse_override("model.mesh=hermite"), parse_override("model.elements=40"),
+       parse_override("beam.damping.ratio=0.01"), parse_override("model.section=elastic")},
+      {parse_override("contact.law=hertz"), parse_override("contact.stiffness=1.1e9")}};
+  for (const auto& overrides : settings) {
+    Case input = read_case_file(SUBIMPACT_PAPER_CASE, overrides).value;
+    input.title = "\"quoted\" \\ <b> 'x' `y`\nsecond line \x01\x7f \xc3\xbc = [a]";
+    const std::string text = case_file_text(input);
+    EXPECT_EQ(texts_of(read_case_text(text, "copy").value), texts_of(input)) << text;
+  }
+}
+
 TEST(CaseFile, KeysLeftOutKeepTheirDefaults) {
   const Case read = read_case_text(small_case_text(), "small.toml").value;
   EXPECT_TRUE(std::isinf(read.scene.beam.yield_stress));

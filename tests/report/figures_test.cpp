@@ -269,6 +269,7 @@ TEST(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
   for (const DrawnFigure& figure : figures.drawn) {
     expect_in(content(directory.path / (figure.name + ".svg")), "</svg>");
     EXPECT_EQ(content(directory.path / (figure.name + ".png")).substr(1, 3), "PNG") << figure.name;
+    EXPECT_EQ(content(directory.path / (figure.name + ".pdf")).substr(0, 5), "%PDF-");
     EXPECT_GT(content(directory.path / (figure.name + ".gp")).size(), 500u);
     EXPECT_GT(figure.caption.size(), 40u);
   }
@@ -278,6 +279,35 @@ TEST(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
   }
   expect_in(content(directory.path / "indentation.svg"), "A: contact yields");
   expect_in(content(directory.path / "energies.svg"), "sub-zones");
+}
+
+TEST(Figures, AreDrawnWithAUsersScripts) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path mine = directory.path / "my scripts";
+  EXPECT_EQ(write_figure_scripts(mine).size(), 10u);
+  std::ofstream(mine / "style.gp", std::ios::app) << "set linetype 1 lc rgb '#123456'\n";
+  EXPECT_TRUE(write_figure_scripts(mine).empty());  // what is there stays
+  std::filesystem::remove(mine / "timeline.gp");    // that of the library is used
+  const Case input = short_case({});
+  draw_figures(directory.path, input, simulate(input), mine);
+  const std::string svg = content(directory.path / "response.svg");
+  EXPECT_TRUE(svg.find("#123456") != std::string::npos ||
+              svg.find("rgb( 18,  52,  86)") != std::string::npos);
+  expect_in(content(directory.path / "timeline.svg"), "</svg>");
+}
+
+TEST(Timeline, HasTwoLabelledTicksAtLeastOnItsLogarithmicAxes) {
+  const TemporaryDirectory directory;
+  const Case input = short_case({parse_override("time.end=1e-4")});  // one sub-impact
+  draw_figure(directory.path, "timeline", timeline_figure(input, simulate(input)).text());
+  const std::string svg = content(directory.path / "timeline.svg");
+  int decades = 0;
+  for (const char* label : {">1<", ">10<", ">100<", ">1000<", ">10000<"}) {
+    for (std::size_t at = svg.find(label); at != std::string::npos; at = svg.find(label, at + 1)) {
+      ++decades;
+    }
+  }
+  EXPECT_GE(decades, 4);  // of two panels
 }
 
 TEST(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {

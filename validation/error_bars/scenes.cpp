@@ -28,7 +28,7 @@ bool yields(const Case& input) { return may_yield(input); }
 
 double wave_speed(const Beam& beam) { return std::sqrt(beam.youngs_modulus / beam.density); }
 
-void draw_beam(Random& random, Case& input) {
+void draw_beam(Random& random, Case& input, Kind kind) {
   Beam& beam = input.scene.beam;
   beam.length = random.log_uniform(0.2, 1.5);
   beam.thickness = beam.length * random.log_uniform(1.0 / 150.0, 1.0 / 25.0);
@@ -36,6 +36,10 @@ void draw_beam(Random& random, Case& input) {
   beam.density = random.log_uniform(2000.0, 9000.0);
   beam.youngs_modulus = random.log_uniform(5e10, 4e11);
   beam.theory = random.chance(0.6) ? BeamTheory::rayleigh : BeamTheory::euler_bernoulli;
+  if (kind.shears) {
+    beam.theory = BeamTheory::timoshenko;
+    beam.poisson = 0.3;
+  }
   constexpr std::array kinds{EndSupport::free, EndSupport::pinned, EndSupport::clamped};
   beam.ends = {random.one_of(kinds), random.one_of(kinds)};
   if (random.chance(0.5)) beam.ends[1] = beam.ends[0];
@@ -81,6 +85,10 @@ void draw_strike(Random& random, Case& input) {
                             scene.striker.velocity / wave_speed(scene.beam);
 }
 
+MeshKind elements_of(const Case& input) {
+  return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
+}
+
 void draw_mesh(Random& random, Case& input) {
   ModelOptions& model = input.model;
   if (random.chance(0.6)) {
@@ -88,16 +96,17 @@ void draw_mesh(Random& random, Case& input) {
     model.segments = 2 * static_cast<int>(random.log_uniform(100.0, 4001.0)) + 1;
     input.solver.method = Method::central_difference;
   } else {
-    model.mesh = MeshKind::hermite;
+    model.mesh = elements_of(input);
     const double finest = !uses_symmetry(input) ? 50.0 : yields(input) ? 100.0 : 400.0;
     model.elements = 2 * static_cast<int>(random.log_uniform(20.0, finest + 1.0));
+    if (model.mesh == MeshKind::spectral) model.elements = 2 * (model.elements / 8 + 1);
     input.solver.method = yields(input) ? Method::nystrom : Method::exponential;
     input.solver.rtol = yields(input) ? 1e-7 : 1e-8;
   }
 }
 
 Case elements(Case input, int count) {
-  input.model.mesh = MeshKind::hermite;
+  input.model.mesh = elements_of(input);
   input.model.elements = count;
   input.solver = {};
   input.solver.method = Method::exponential;
@@ -117,12 +126,13 @@ Case cells(Case input, int count) {
 // from the run's own mesh on if it has cells.
 void choose_finer(DrawnScene& drawn) {
   const Case& input = drawn.input;
-  const bool rotary = input.scene.beam.theory == BeamTheory::rayleigh;
+  const bool rotary = input.scene.beam.theory != BeamTheory::euler_bernoulli;
   if (!yields(input)) {
     drawn.order = 4;
     // Modes of whole models are the eigenvectors of a dense matrix.
-    const int n = uses_symmetry(input) ? 400 : 200;
-    const int coarse = input.model.mesh == MeshKind::hermite ? input.model.elements : 0;
+    const int per_element = input.scene.beam.shears() ? 4 : 1;  // degree of spectral elements
+    const int n = (uses_symmetry(input) ? 400 : 200) / per_element;
+    const int coarse = input.model.mesh == MeshKind::cells ? 0 : input.model.elements;
     drawn.finer = {elements(input, std::max(n, 2 * coarse)),
                    elements(input, 2 * std::max(n, 2 * coarse))};
   } else if (input.model.mesh == MeshKind::cells) {
@@ -179,14 +189,14 @@ Random stream_of(std::uint64_t seed, int number, int attempt) {
 
 }  // namespace
 
-DrawnScene draw(std::uint64_t seed, int number, const Budget& budget) {
+DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind) {
   for (int attempt = 0;; ++attempt) {
     Random random = stream_of(seed, number, attempt);
     DrawnScene drawn;
     Case& input = drawn.input;
     input.output.interval = 0.0;
     input.end_time = 1.0;
-    draw_beam(random, input);
+    draw_beam(random, input, kind);
     draw_strike(random, input);
     draw_mesh(random, input);
     // The period depends on the beam alone.

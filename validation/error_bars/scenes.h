@@ -17,6 +17,11 @@ struct DrawnScene {
   int order = 2;  ///< at which `finer` converges
 };
 
+/// What is drawn from.
+struct Kind {
+  bool shears = false;  ///< all beams of Timoshenko's theory, on cells and spectral elements
+};
+
 /// What a scene's finest run may take, roughly.
 struct Budget {
   double seconds = 12.0;
@@ -26,6 +31,6 @@ struct Budget {
 /// beams are elastic. Cells (201 to 8001) by central differences, elements (40 to 800) by
 /// `exponential` (elastic) or `nystrom`. A scene with fewer than four sub-impacts on 151 cells is
 /// drawn again; one with more than twelve ends after them.
-DrawnScene draw(std::uint64_t seed, int number, const Budget& budget);
+DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind = {});
 
 }  // namespace subimpact::error_bars

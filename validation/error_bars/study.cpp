@@ -1,7 +1,7 @@
 // Stated errors of event times beside true ones on random scenes, meshes from coarse to fine: how
 // many of the errors are covered, and how many counts are wrong without a sign.
 //
-//   subimpact_error_bars [--seed S] [--scenes N] [--budget seconds]
+//   subimpact_error_bars [--seed S] [--scenes N] [--budget seconds] [--shear]
 //   subimpact_error_bars --cost [--seed S] [--scenes N] [--budget seconds]    what they cost
 
 #include <fmt/format.h>
@@ -22,6 +22,7 @@
 #include "study/error_part.h"
 #include "study/free_end_error.h"
 #include "study/parallel.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/companion.h"
 #include "subimpact/study/match.h"
@@ -101,10 +102,11 @@ Case coarser_of(const Case& input) {
   return coarser;
 }
 
-Judged judge(int number, std::uint64_t seed, const error_bars::Budget& budget) {
+Judged judge(int number, std::uint64_t seed, const error_bars::Budget& budget,
+             error_bars::Kind kind) {
   Judged judged;
   judged.number = number;
-  judged.scene = error_bars::draw(seed, number, budget);
+  judged.scene = error_bars::draw(seed, number, budget, kind);
   const auto start = std::chrono::steady_clock::now();
   judged.run = simulate(judged.scene.input);
   judged.companion = simulate(coarser_of(judged.scene.input));
@@ -191,14 +193,13 @@ std::string row_of(const Judged& judged) {
   double largest = 0.0;
   for (const double ratio : counts.ratios) largest = std::max(largest, 1.0 / ratio);
   return fmt::format(
-      "{:3} {:18} {:4} {}{} {} at {:.2f} {:5.0f} us {:5.1f} s: known {:3} matched {:3} decided "
+      "{:3} {:18} {:4} {}{} {:15} at {:.2f} {:5.0f} us {:5.1f} s: known {:3} matched {:3} decided "
       "{:3} covered "
       "{:3} "
       "median {:5.1f} worst true/stated {:5.2f}{} {}",
       judged.number, kind_of(input),
       input.model.mesh == MeshKind::cells ? input.model.segments : input.model.elements,
-      letter(ends[0]), letter(ends[1]),
-      input.scene.beam.theory == BeamTheory::rayleigh ? "Rayleigh" : "Euler   ",
+      letter(ends[0]), letter(ends[1]), to_text(*find_case_key("beam.theory")->get(input)),
       input.scene.striker.position, us * input.end_time, judged.seconds, counts.known,
       counts.matched, counts.decided, counts.covered, counts.median(), largest,
       counts.wrong_counts > 0 ? " WRONG COUNT" : "", reason);
@@ -218,6 +219,7 @@ void print_totals(const std::vector<Judged>& all) {
         if (kind != "all" && kind_of(judged.scene.input) != kind) continue;
         total.add(coverage(judged, factor));
       }
+      if (total.scenes == 0) continue;
       fmt::print("| {} | {} | {} | {} | {} | {} ({:.0f} %) | {} ({:.1f} %) | {:.1f} | {} |\n", kind,
                  factor, total.scenes, total.known, total.matched, total.decided,
                  100.0 * total.decided / std::max(total.known, 1), total.covered,
@@ -271,7 +273,8 @@ Cost cost_of(const Case& input) {
   return cost;
 }
 
-void print_costs(std::uint64_t seed, int first, int n_scenes, const error_bars::Budget& budget) {
+void print_costs(std::uint64_t seed, int first, int n_scenes, const error_bars::Budget& budget,
+                 error_bars::Kind kind) {
   fmt::print(
       "| scene | run | counted work | wall time | processor time |\n|---|---|---|---|---|\n");
   std::vector<double> work, wall, processor;
@@ -281,7 +284,7 @@ void print_costs(std::uint64_t seed, int first, int n_scenes, const error_bars::
     std::fflush(stdout);
   };
   for (int i = first; i < first + n_scenes; ++i) {
-    const Case input = error_bars::draw(seed, i, budget).input;
+    const Case input = error_bars::draw(seed, i, budget, kind).input;
     const Cost cost = cost_of(input);
     row(fmt::format("{}", i), fmt::format("{}, {}", kind_of(input), mesh_count(input)), cost);
     work.push_back(cost.work);
@@ -299,21 +302,23 @@ int main(int argc, char** argv) {
   int n_scenes = 50;
   int first = 0;
   error_bars::Budget budget;
+  error_bars::Kind kind;
   app.add_option("--seed", seed, "of the scenes");
   app.add_option("--scenes", n_scenes, "how many");
   app.add_option("--first", first, "number of the first");
+  app.add_flag("--shear", kind.shears, "all beams of Timoshenko's theory");
   app.add_option("--budget", budget.seconds, "seconds that the finest run of a scene may take");
   bool cost = false;
   app.add_flag("--cost", cost, "what error bars cost, instead of what they cover");
   CLI11_PARSE(app, argc, argv);
   if (cost) {
-    print_costs(seed, first, n_scenes, budget);
+    print_costs(seed, first, n_scenes, budget, kind);
     return 0;
   }
 
   std::vector<Judged> all(static_cast<std::size_t>(n_scenes));
   in_parallel(all.size(), [&](std::size_t i) {
-    all[i] = judge(first + static_cast<int>(i), seed, budget);
+    all[i] = judge(first + static_cast<int>(i), seed, budget, kind);
     fmt::print("{}\n", row_of(all[i]));
     std::fflush(stdout);
   });

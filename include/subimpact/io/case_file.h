@@ -60,4 +60,8 @@ LoadedCase read_case_file(const std::filesystem::path& path,
 LoadedCase read_case_text(const std::string& text, const std::string& name,
                           const std::vector<Override>& overrides = {});
 
+/// A case as the text of a case file: every key that has a value, under its table, with its unit.
+/// read_case_text() reads the same case back.
+std::string case_file_text(const Case& input);
+
 }  // namespace subimpact

@@ -25,7 +25,7 @@ class GnuplotMissing : public FigureError {
 };
 
 struct DrawnFigure {
-  std::string name;     ///< of its files, without ending: name.svg, name.png, name.gp
+  std::string name;     ///< of its files, without ending: name.svg, .png, .pdf, .gp
   std::string caption;  ///< one or two sentences
 };
 
@@ -39,14 +39,20 @@ struct DrawnFigures {
 /// What the figures of a run leave out for want of data or room: "bending: ...".
 std::vector<std::string> figures_left_out(const Case& input, const Result& result);
 
-/// Draws into a directory, as SVG and PNG: `response` (force and displacements), `first-sub-impact`
-/// (force and back stress), `indentation` (force against indentation), `energies` (with zones),
-/// `timeline` (start, duration and impulse of every sub-impact), `bending` (moment against
-/// curvature of the sections kept), `shapes` and `envelope` (along the beam). The gnuplot scripts,
-/// tables included, stay beside them. Figures of a run that did not complete state this above their
-/// panels. Throws GnuplotMissing, and OutputError if a file cannot be written.
+/// Writes the gnuplot scripts of a run's figures (response.gp, ..., style.gp, tables.gp) into a
+/// directory, made if missing, but for those that it has: to be changed and handed to
+/// draw_figures(). Returns the names of the files written. Throws OutputError.
+std::vector<std::string> write_figure_scripts(const std::filesystem::path& directory);
+
+/// Draws into a directory, as SVG, PNG and PDF: `response` (force and displacements),
+/// `first-sub-impact` (force and back stress), `indentation` (force against indentation),
+/// `energies` (with zones), `timeline` (start, duration and impulse of every sub-impact), `bending`
+/// (moment against curvature of the sections kept), `shapes` and `envelope` (along the beam). The
+/// gnuplot scripts, tables included, stay beside them. Figures of a run that did not complete state
+/// this above their panels. A script that the directory `scripts` has replaces that of the library.
+/// Throws GnuplotMissing, and OutputError if a file cannot be written.
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
-                          const Result& result);
+                          const Result& result, const std::filesystem::path& scripts = {});
 
 /// Throws a FigureError with the messages of the figures that failed, if any did.
 void throw_if_failed(const DrawnFigures& figures);

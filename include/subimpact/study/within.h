@@ -46,9 +46,10 @@ double counted_work(const Result& result);
 /// second on one core.
 constexpr double default_work_limit = 2e8;
 
-/// Where a beam bends elastically: Hermite elements in natural modes, by the exponential method
-/// (fourth order in the mesh, next to no error in time). Where sections yield: cells by central
-/// differences, the cheapest known at any error above 1e-3 us. What the case fixes stays.
+/// Where a beam bends elastically: elements (Hermite, or spectral where it shears) in natural
+/// modes, by the exponential method (fourth order in the mesh, next to no error in time). Where
+/// sections yield: cells by central differences, the cheapest known at any error above 1e-3 us.
+/// What the case fixes stays.
 struct ChosenModel {
   Case input;
   std::string reason;  ///< in words
@@ -67,7 +68,10 @@ struct WithinRun {
 /// Runs a case on finer and finer meshes, each beside its companion, until every event time of
 /// the run is stated within accuracy.event_times. The next mesh follows from the stated error and
 /// the order of the mesh; from the counted work of the runs so far follows whether it is
-/// affordable. Neither depends on measured time or on the number of jobs.
+/// affordable. Neither depends on measured time or on the number of jobs. The sequence ends early
+/// where, by the errors of two levels, not even the first event beyond the horizon can come within
+/// the wish for the work that is left; the horizon then is that of a coarser mesh than the work
+/// limit allows.
 ///
 /// Result::wish states whether the wish is met and up to where; if not, why, and which key of the
 /// case stands in the way. Result::choice gives the reason of the choice. Throws InvalidCase.

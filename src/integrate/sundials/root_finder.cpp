@@ -11,10 +11,16 @@ namespace {
 constexpr double negative = -1.0;
 
 // Far below the rounding of functions of order one. The library finds a change of sign by the
-// product of two values, which must not underflow: its search would not end.
+// product of two values, which must not underflow: its search would not end. Nor does it end where
+// values overflow or are no numbers, as in a step that blew up.
 constexpr double smallest = 1e-100;
+constexpr double largest = 1e100;
 
-double without_zero(double value) { return std::abs(value) < smallest ? -smallest : value; }
+double searchable(double value) {
+  if (std::isnan(value)) return negative;
+  if (std::abs(value) < smallest) return -smallest;
+  return std::clamp(value, -largest, largest);
+}
 
 }  // namespace
 
@@ -43,8 +49,8 @@ void RootFinder::evaluate(std::span<const double> y, sunrealtype* result) {
   functions_->evaluate(y, values_);
   for (std::size_t i = 0; i < n; ++i) {
     const auto [value, rate] = values_[i];
-    result[i] = without_zero(value);
-    result[n + i] = std::isnan(rate) ? negative : without_zero(-rate);
+    result[i] = searchable(value);
+    result[n + i] = searchable(-rate);
   }
 }
 

@@ -1,6 +1,6 @@
 # Tables: $zones, $subzones (from, to, number), $sub_impacts, $sub_impacts_undecided (from, to),
-# $striker, $kinetic, $elastic, $plastic, $contact (energies) and $struck_point, $striker_path (x,
-# y). Variables: end, time_unit, energy_unit, length_unit, n_undecided.
+# $striker, $kinetic, $elastic, $plastic, $contact, $damping (energies) and $struck_point,
+# $striker_path (x, y). Variables: end, time_unit, energy_unit, length_unit, n_undecided, is_damped.
 middle(unused) = 0.5*(column('from') + column('to'))
 is_wide(unused) = column('to') - column('from') > 0.012*end
 set multiplot title marks font ',12'
@@ -40,6 +40,7 @@ plot $striker with lines title 'striker U_m', \
      $elastic with lines title 'bending, elastic U_e', \
      $plastic with lines title 'bending, plastic U_p', \
      $contact with lines title 'contact, plastic D_c', \
+     $damping using 1:(is_damped > 0 ? $2 : NaN) with lines title is_damped > 0 ? 'damping D_b' : '', \
      keyentry with boxes fillstyle solid noborder linecolor rgb '#F6DDAA' \
        title n_undecided > 0 ? 'sub-impacts not decided' : ''
 

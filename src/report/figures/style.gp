@@ -10,3 +10,6 @@ set linetype 8 lc rgb '#8B7500' lw 2 pt 4
 set border 3 lc rgb '#404040'
 set tics nomirror
 set grid lc rgb '#D8D8D8' lw 0.5
+# Minus signs as they are set in print.
+set encoding utf8
+set minussign

@@ -25,7 +25,13 @@ do for [name in 'duration_us impulse_mNs'] {
   stats $sub_impacts using (v = column(name), low = v > 0 && v < low ? v : low, \
                             high = v > high ? v : high, 0) nooutput
   if (high == 0) { low = 0.2; high = 10/3.0 }
-  set yrange [low/2:3*high]
+  low = low/2
+  high = 3*high
+  if (floor(log10(high)) - ceil(log10(low)) < 1) {  # two labelled ticks at least
+    low = 10**floor(log10(low))
+    high = 10**ceil(log10(high))
+  }
+  set yrange [low:high]
   set format x (first ? '' : '% h')
   do for [c=1:n] {
     eval placed(left[c], right[c], bottom, bottom + 0.38)

@@ -1,0 +1,346 @@
+'use strict';
+// Panels over time and over indentation.
+
+const lineStyles = [
+  {colour: 'line1', dash: null}, {colour: 'line2', dash: [7, 3]}, {colour: 'line3', dash: [2, 2]},
+  {colour: 'line4', dash: [9, 3, 2, 3]}, {colour: 'line5', dash: [4, 4]}, {colour: 'line6', dash: [12, 4]},
+  {colour: 'soft', dash: [1, 3]}];
+
+// A zoomable chart over time. rows: [time, value, ...] in the units of the labels.
+class TimeChart {
+  constructor(place, {rows, labels, valueLabel, unit, bands = [], view}) {
+    Object.assign(this, {place, unit, view, bands, quiet: true});
+    this.cursor = document.createElement('div');
+    this.cursor.className = 'cursor';
+    const body = place.querySelector('.plot');
+    this.chart = new Dygraph(body, rows, {
+      ...this.colours(labels.length),
+      labels: [unit.name, ...labels],
+      labelsDiv: place.querySelector('.legend'),
+      legend: 'always',
+      legendFormatter: (data) => this.legend(data),
+      strokeWidth: 1.6,
+      strokePattern: null,
+      series: Object.fromEntries(labels.map((label, i) => [
+        label, {strokePattern: lineStyles[i % lineStyles.length].dash, connectSeparatedPoints: true}])),
+      xlabel: 'time, ' + unit.name,
+      ylabel: valueLabel,
+      axes: {x: {axisLabelFormatter: (x) => printed(x, 7), axisLabelWidth: 70},
+             y: {axisLabelFormatter: (y) => printed(y, 5), axisLabelWidth: 56}},
+      dateWindow: [0, view.end * unit.per_second],
+      highlightCircleSize: 3,
+      animatedZooms: false,
+      underlayCallback: (draw, area, chart) => this.drawBands(draw, area, chart),
+      drawCallback: (chart, initial) => this.drawn(chart, initial),
+      clickCallback: (event, x) => view.setTime(x / unit.per_second),
+    });
+    body.append(this.cursor);
+    this.quiet = false;
+    this.showTime();
+  }
+
+  colours(n) {
+    return {
+      colors: Array.from({length: n}, (_, i) => colour(lineStyles[i % lineStyles.length].colour)),
+      axisLineColor: colour('soft'),
+      gridLineColor: colour('grid'),
+    };
+  }
+
+  // Names of the lines with a sample of each, and values at the cursor.
+  legend(data) {
+    const legend = document.createDocumentFragment();
+    if (data.x !== undefined) legend.append(`${printed(data.x, 8)} ${this.unit.name}: `);
+    data.series.forEach((series, i) => {
+      const sample = document.createElement('span');
+      sample.className = 'sample';
+      const dash = (lineStyles[i % lineStyles.length].dash ?? []).join(' ');
+      sample.innerHTML = `<svg viewBox="0 0 26 8"><path d="M0 4H26" stroke="${series.color}" stroke-width="2" stroke-dasharray="${dash}"/></svg>`;
+      const value = data.x === undefined || series.y === undefined ? '' : ` ${printed(series.y, 6)}`;
+      const item = document.createElement('span');
+      item.className = 'item';
+      item.append(sample, ` ${series.label}${value}`);
+      legend.append(item);
+    });
+    return legend;
+  }
+
+  // Sub-impacts, hatched where they are not decided.
+  drawBands(draw, area, chart) {
+    const hatch = hatching();
+    for (const {from, to, decided} of this.bands) {
+      const left = Math.max(chart.toDomXCoord(from), area.x);
+      const right = Math.min(chart.toDomXCoord(to), area.x + area.w);
+      if (right < left) continue;
+      draw.fillStyle = decided ? colour('band') : hatch;
+      draw.fillRect(left, area.y, Math.max(right - left, 0.5), area.h);
+    }
+  }
+
+  drawn(chart, initial) {
+    if (initial || this.quiet) return;
+    const [from, to] = chart.xAxisRange();
+    this.view.setPart(from / this.unit.per_second, to / this.unit.per_second);
+  }
+
+  showPart() {
+    this.quiet = true;
+    const {from, to} = this.view;
+    this.chart.updateOptions({dateWindow: [from, to].map((t) => t * this.unit.per_second), valueRange: null});
+    this.quiet = false;
+    this.showTime();
+  }
+
+  showTime() {
+    const {x, y, w, h} = this.chart.getArea();
+    const at = this.chart.toDomXCoord(this.view.time * this.unit.per_second);
+    this.cursor.hidden = at < x - 1 || at > x + w + 1;
+    Object.assign(this.cursor.style, {transform: `translateX(${at}px)`, top: `${y}px`, height: `${h}px`});
+  }
+
+  restyle() {
+    this.quiet = true;
+    this.chart.updateOptions(this.colours(this.chart.getLabels().length - 1));
+    this.quiet = false;
+  }
+}
+
+// Stripes in the colour of bands.
+function hatching() {
+  const tile = document.createElement('canvas');
+  tile.width = tile.height = 8;
+  const draw = tile.getContext('2d');
+  draw.strokeStyle = colour('band-edge');
+  for (const shift of [-8, 0, 8]) {
+    draw.beginPath();
+    draw.moveTo(shift, 8);
+    draw.lineTo(shift + 8, 0);
+    draw.stroke();
+  }
+  return draw.createPattern(tile, 'repeat');
+}
+
+// Contact force against indentation, with the branches of the contact law in colours.
+class Loop {
+  constructor(strike, canvas, view) {
+    Object.assign(this, {strike, canvas, view});
+    const {times, events} = strike;
+    this.pieces = [];
+    let next = 0, branch = 'apart', piece = null;
+    for (let i = 0; i < times.length; ++i) {
+      // An event has two rows: the first ends a branch, the second begins the next one.
+      const ends = times[i + 1] === times[i];
+      let turned = false;
+      while (next < events.length && (events[next].time < times[i] || (!ends && events[next].time === times[i]))) {
+        branch = eventKinds[events[next++].kind].branch;
+        turned = true;
+      }
+      if (branch === 'apart') {
+        piece = null;
+        continue;
+      }
+      if (piece === null || turned) {
+        const joins = i > 0 && (piece !== null || times[i - 1] === times[i]);
+        piece = {branch, rows: joins ? [i - 1] : []};
+        this.pieces.push(piece);
+      }
+      piece.rows.push(i);
+    }
+  }
+
+  static branchStyle = {
+    elastic: {colour: 'line1', name: 'elastic (loading, unloading)', width: 1.3},
+    yielding: {colour: 'line2', name: 'yielding', width: 3},
+  };
+
+  // Rows of a piece within the part of the strike that is shown.
+  shown({rows}) {
+    const {from, to} = this.view;
+    return rows.filter((i) => this.strike.times[i] >= from && this.strike.times[i] <= to);
+  }
+
+  drawPart() {
+    const {strike} = this;
+    const mm = (i) => 1e3 * strike.history.indentation_m[i], newton = (i) => strike.history.force_N[i];
+    const visible = this.pieces.map((piece) => ({...piece, rows: this.shown(piece)})).filter((p) => p.rows.length > 1);
+    let low = Infinity, high = 0, most = 0;
+    for (const {rows} of visible) {
+      for (const i of rows) {
+        low = Math.min(low, mm(i));
+        high = Math.max(high, mm(i));
+        most = Math.max(most, newton(i));
+      }
+    }
+    if (!(high > low)) [low, high, most] = [0, 1e3 * strike.max_indentation || 1, strike.max_force || 1];
+    const margin = 0.06 * (high - low);
+    const axes = new Axes(this.canvas, {
+      x: {range: [low > margin ? low - margin : 0, high + margin], label: 'indentation, mm'},
+      y: {range: [0, 1.06 * most], label: 'contact force, N'}});
+    this.axes = axes;
+    axes.frame();
+    axes.inside(() => {
+      for (const {branch, rows} of visible) {
+        const {colour: name, width} = Loop.branchStyle[branch];
+        axes.line(rows.map((i) => [axes.toX(mm(i)), axes.toY(newton(i))]), {colour: colour(name), width});
+      }
+    });
+    this.drawKey(axes);
+    axes.keep();
+    this.drawTime();
+  }
+
+  drawKey(axes) {
+    Object.values(Loop.branchStyle).forEach(({colour: name, name: words, width}, i) => {
+      const y = axes.top + 8 + 18 * i;
+      axes.line([[axes.left + 10, y], [axes.left + 36, y]], {colour: colour(name), width});
+      axes.text(words, axes.left + 42, y);
+    });
+  }
+
+  drawTime() {
+    const {axes, strike, view} = this;
+    axes.restore();
+    const force = strike.at('force_N', view.time);
+    const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(force);
+    axes.inside((draw) => {
+      draw.fillStyle = colour('text');
+      draw.beginPath();
+      draw.arc(x, y, 5, 0, 2 * Math.PI);
+      draw.fill();
+    });
+  }
+}
+
+// Durations of sub-impacts and of the separations after them, with their errors as bars.
+class Timeline {
+  constructor(strike, canvas, view, choose) {
+    Object.assign(this, {strike, canvas, view});
+    const hits = strike.sub_impacts;
+    this.marks = [];
+    hits.forEach((s, i) => {
+      const error = s.start_error === null || s.end_error === null ? null : s.start_error + s.end_error;
+      this.marks.push({kind: 'contact', index: i, time: s.start, value: s.end - s.start, error, decided: s.decided});
+      const after = hits[i + 1];
+      if (!after || s.ongoing) return;
+      const gapError = s.end_error === null || after.start_error === null ? null : s.end_error + after.start_error;
+      this.marks.push({kind: 'separation', index: i, time: s.end, value: after.start - s.end, error: gapError,
+                       decided: after.decided});
+    });
+    canvas.addEventListener('click', (event) => {
+      const nearest = this.nearest(event.offsetX, event.offsetY);
+      if (nearest) choose(nearest.index);
+    });
+  }
+
+  nearest(x, y) {
+    const {axes, strike} = this;
+    const far = ({time, value}) => Math.hypot(axes.toX(time * strike.time_unit.per_second) - x, axes.toY(1e6 * value) - y);
+    const found = this.marks.reduce((best, mark) => (!best || far(mark) < far(best) ? mark : best), null);
+    return found && far(found) < 20 ? found : null;
+  }
+
+  drawPart() {
+    const {view, strike, canvas} = this;
+    const unit = strike.time_unit;
+    const margin = 0.02 * (view.to - view.from);
+    const range = [(view.from - margin) * unit.per_second, (view.to + margin) * unit.per_second];
+    const axes = new Axes(canvas, {
+      x: {range, label: `start, ${unit.name}`},
+      y: {range: logRange(this.marks.map(({value}) => 1e6 * value)), label: 'duration, µs', log: true}});
+    this.axes = axes;
+    axes.frame();
+    axes.inside((draw) => {
+      for (const mark of this.marks) this.drawMark(axes, draw, mark);
+    });
+    this.drawKey(axes);
+    axes.keep();
+    this.drawTime();
+  }
+
+  drawMark(axes, draw, {kind, time, value, error, decided}) {
+    const x = axes.toX(time * this.strike.time_unit.per_second), y = axes.toY(1e6 * value);
+    const name = kind === 'contact' ? 'line1' : 'line2';
+    if (error !== null && error > 0) {
+      const bottom = value > error ? axes.toY(1e6 * (value - error)) : axes.bottom;
+      const top = axes.toY(1e6 * (value + error));
+      axes.line([[x, bottom], [x, top]], {colour: colour(name), width: 1.5});
+      axes.line([[x - 4, top], [x + 4, top]], {width: 1.5});
+      if (value > error) axes.line([[x - 4, bottom], [x + 4, bottom]], {width: 1.5});
+    }
+    draw.beginPath();
+    if (kind === 'contact') draw.arc(x, y, 4, 0, 2 * Math.PI);
+    else draw.rect(x - 3.5, y - 3.5, 7, 7);
+    draw.fillStyle = colour(decided ? name : 'paper');
+    draw.strokeStyle = colour(name);
+    draw.lineWidth = 1.4;
+    draw.fill();
+    draw.stroke();
+  }
+
+  drawKey(axes) {
+    const y = 8;
+    const {draw} = axes;
+    const words = [['contact', 'contacts'], ['separation', 'separations'], ['open', 'open: not decided']];
+    words.forEach(([kind, text], i) => {
+      const x = axes.left + 12 + 100 * i;
+      draw.beginPath();
+      if (kind === 'separation') draw.rect(x - 3.5, y - 3.5, 7, 7);
+      else draw.arc(x, y, 4, 0, 2 * Math.PI);
+      draw.strokeStyle = colour(kind === 'separation' ? 'line2' : kind === 'contact' ? 'line1' : 'text');
+      draw.fillStyle = kind === 'open' ? colour('paper') : draw.strokeStyle;
+      draw.lineWidth = 1.4;
+      draw.fill();
+      draw.stroke();
+      axes.text(text, x + 9, y);
+    });
+  }
+
+  drawTime() {
+    const {axes, view, strike} = this;
+    axes.restore();
+    const x = axes.toX(view.time * strike.time_unit.per_second);
+    axes.inside(() => axes.line([[x, axes.top], [x, axes.bottom]], {colour: colour('cursor'), width: 1.5}));
+  }
+}
+
+// Extremes along the beam, and its shape at rest.
+function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
+  const all = lines.flatMap(({values}) => Array.from(values));
+  const most = Math.max(...all, 0), least = Math.min(...all, 0);
+  const margin = 0.08 * (most - least) || 1;
+  const axes = new Axes(canvas, {
+    x: {range: [0, strike.length], label: 'position along the beam, m'},
+    y: {range: [least - margin, most + margin], label}, top: 22});
+  axes.frame();
+  axes.inside((draw) => {
+    draw.fillStyle = colour('band');
+    for (const {from, to} of zones) {
+      draw.fillRect(axes.toX(from), axes.top, Math.max(1, axes.toX(to) - axes.toX(from)), axes.bottom - axes.top);
+    }
+    lines.forEach(({values}, k) => {
+      const {colour: name, dash} = lineStyles[k];
+      axes.line(strike.envelope.positions.map((x, i) => [axes.toX(x), axes.toY(values[i])]),
+                {colour: colour(name), width: 1.8, dash: dash ?? []});
+    });
+  });
+  lines.forEach(({name}, k) => {
+    const x = axes.left + 6 + 150 * k;
+    axes.line([[x, 10], [x + 26, 10]], {colour: colour(lineStyles[k].colour), width: 1.8, dash: lineStyles[k].dash ?? []});
+    axes.text(name, x + 32, 10);
+  });
+}
+
+// Light, dark or as the system is. `restyle` draws in the new colours.
+function addThemeButton(restyle) {
+  const names = ['auto', 'light', 'dark'];
+  const button = document.getElementById('theme');
+  let at = 0;
+  button.addEventListener('click', () => {
+    at = (at + 1) % names.length;
+    if (at === 0) delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = names[at];
+    button.textContent = 'Colours: ' + names[at];
+    restyle();
+  });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', restyle);
+}
