@@ -21,7 +21,8 @@ plt.rcParams.update({"svg.hashsalt": "subimpact", "font.size": 9, "figure.figsiz
 
 
 def save(figure, name):
-    figure.savefig(HERE / name, metadata={"Date": None}, bbox_inches="tight")
+    metadata = {"Date": None} if name.endswith(".svg") else {}
+    figure.savefig(HERE / name, metadata=metadata, bbox_inches="tight", dpi=130)
     plt.close(figure)
 
 
@@ -113,8 +114,8 @@ def draw_ensemble(directory):
         axes.plot(1e3 * times, linear, color="tab:red", linewidth=0.8, label="linear prediction")
         axes.set(xlim=(0, 1e3 * last), ylim=(0, 1.05), ylabel="probability of contact")
     zone.set_xlabel("time, ms")
-    whole.legend(loc="upper right")
-    save(figure, "contact_probability.svg")
+    whole.legend(loc="upper center")
+    save(figure, "contact_probability.png")
     counts = runs.n_sub_impacts.value_counts().sort_index()
     print(f"ensemble: {len(runs)} runs, {runs.n_sub_impacts.min()} to {runs.n_sub_impacts.max()} sub-impacts, "
           f"most often {counts.idxmax()} ({counts.max()} runs); linear prediction up to {1e6 * horizon:.0f} us")

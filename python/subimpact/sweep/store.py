@@ -10,6 +10,7 @@ from __future__ import annotations
 import fcntl
 import os
 import sqlite3
+import time
 import zlib
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -23,6 +24,7 @@ _LAYOUT = 1
 _APPLICATION = 0x53554249  # "SUBI"
 _MAGIC = b"SQLite format 3\0"
 _ALL = "SELECT identity, outcome, cells, sub_impacts, checksum FROM rows"
+_SECONDS_OF_THE_DYING = 2.0  # for which workers of a killed sweep may hold its lock
 _TABLE = (
     "CREATE TABLE rows (identity TEXT PRIMARY KEY, outcome TEXT NOT NULL, cells TEXT NOT NULL, "
     "sub_impacts BLOB NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID"
@@ -64,15 +66,20 @@ class Store:
 
     def _locked(self) -> IO[bytes]:
         lock = open(self.directory / ".lock", "wb")
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
+        deadline = time.monotonic() + _SECONDS_OF_THE_DYING
+        while True:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                return lock
+            except OSError:
+                if time.monotonic() < deadline:
+                    time.sleep(0.05)
+                    continue
             lock.close()
             raise StoreError(
                 f"{self.directory}: another sweep writes there; wait for its end, or choose another "
                 "directory with --out"
-            ) from None
-        return lock
+            )
 
     def _opened(self) -> sqlite3.Connection:
         if not self.path.exists() or self.path.stat().st_size == 0:
