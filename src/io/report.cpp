@@ -130,7 +130,7 @@ std::string maxima_text(const Result& result, const FinalErrors& errors) {
 
 std::string final_velocities_text(const Case& input, const Result& result,
                                   const FinalErrors& errors) {
-  // By the conservation of momentum, where neither supports nor damping take part of it.
+  // By the conservation of momentum, where neither supports nor damping take momentum up.
   const double beam_error =
       result.max_momentum_error && input.scene.beam.damping.mass == 0.0
           ? errors.striker_velocity * input.scene.striker.mass / input.scene.beam.mass()
