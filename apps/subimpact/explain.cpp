@@ -4,6 +4,7 @@
 #include "print.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
+#include "subimpact/study/companion.h"
 #include "subimpact/study/within.h"
 
 namespace subimpact::app {
@@ -27,7 +28,9 @@ void add_explain(CLI::App& program, int& status) {
       ResolvedRun run = resolve(chosen.input);
       print_notes(loaded);
       print_warnings(doubtful_units(loaded.value));
-      print("{}", explanation(chosen.input, run.settings(), estimate_cost(run)));
+      ResolvedSettings settings = run.settings();
+      settings.memory = memory_with_companion(chosen.input, settings);
+      print("{}", explanation(chosen.input, settings, estimate_cost(run)));
       if (chooses) print("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);
     });
     status = done;

@@ -121,6 +121,11 @@ void add_companion_errors(Result& result, const Case& input, const Companion& co
   doubt_open_contact(result, input);
 }
 
+double memory_with_companion(const Case& input, const ResolvedSettings& settings) {
+  const std::optional<Companion> companion = companion_of(input);
+  return settings.memory + (companion ? resolve(companion->input).settings().memory : 0.0);
+}
+
 Result simulate_with_companion(const Case& input, Jobs jobs, const Progress& progress,
                                RowSink* rows) {
   resolve(input);  // whatever is wrong with the case itself

@@ -214,7 +214,7 @@ TEST(Memory, OfExplainIsSmallAndThatOfTheRunIsForetold) {
       run_program({"explain", SUBIMPACT_PAPER_CASE, "--method", "exponential", "--set",
                    "model.section=elastic", "--set", "model.segments=20001"});
   EXPECT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.output, "memory                about 8.5e+02 MB");
+  expect_in(finished.output, "memory                about 1.1e+03 MB");
   EXPECT_LT(finished.megabytes, 100.0);
   printf("explain of 20,001 cells in modes: %.0f MB\n", finished.megabytes);
 }

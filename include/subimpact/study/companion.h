@@ -25,6 +25,10 @@ struct Companion {
 };
 std::optional<Companion> companion_of(const Case& input);
 
+/// Bytes that a run with these settings and the companion of its case take beside one another,
+/// roughly.
+double memory_with_companion(const Case& input, const ResolvedSettings& settings);
+
 /// Fills the errors and the error estimate of a result from the run of its companion. Elements of
 /// which no section has yielded converge at the order of an elastic beam.
 void add_companion_errors(Result& result, const Case& input, const Companion& companion,
