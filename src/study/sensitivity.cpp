@@ -116,6 +116,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+Smoothness smoothness_of(const Result& base) {
+  return base.n_yielded_sections > 0 ? Smoothness::between_thresholds : Smoothness::everywhere;
+}
+
 /// Derives one quantity after the other from the runs of a study.
 class Differences {
  public:
@@ -125,7 +129,8 @@ class Differences {
       : base_(base.sub_impacts),
         check_(counterparts(base_, check_run.sub_impacts)),
         share_(share),
-        n_keys_(keys.size()) {
+        n_keys_(keys.size()),
+        smoothness_(smoothness_of(base)) {
     for (const std::string& key : keys) of_beam_.push_back(key.starts_with("beam."));
     for (const Result& run : shifted_runs) shifted_.push_back(counterparts(base_, run.sub_impacts));
   }
@@ -169,7 +174,7 @@ class Differences {
     return std::any_of(first, first + n_runs_per_key,
                        [i](const Counterparts& run) { return run.follows_new_one[i]; });
   }
-  std::size_t n_keys() const { return n_keys_; }
+  Smoothness smoothness() const { return smoothness_; }
 
  private:
   const Counterparts& run_of(std::size_t key, std::size_t shift, bool minus) const {
@@ -190,6 +195,7 @@ class Differences {
   double share_;
   std::vector<Counterparts> shifted_;
   std::size_t n_keys_;
+  Smoothness smoothness_;
   std::vector<bool> of_beam_;
 };
 
@@ -205,7 +211,8 @@ SensitivityRow row_of(const Differences& differences, EventQuantity quantity, st
   for (std::size_t key = 0; key < keys.size(); ++key) {
     const std::optional<Stencil> s = differences.stencil(quantity, i, key);
     const double error = differences.run_error(quantity, i, key);
-    row.by_key.push_back(s ? std::optional(derivative_of(*s, error)) : std::nullopt);
+    row.by_key.push_back(s ? std::optional(derivative_of(*s, error, differences.smoothness()))
+                           : std::nullopt);
     if (!s) bends.push_back(0.0);
     if (!s) flag("merges, splits or vanishes within the shifts of", keys[key]);
     if (s) largest = std::max(largest, std::abs(row.by_key.back()->value));
@@ -251,7 +258,8 @@ std::vector<NearMissSensitivity> near_misses_of(const Result& base,
         if (known) margins[k] = shifted_runs[run].near_misses[*partner].margin;
       }
       const Stencil s{here.margin, {margins[0], margins[2]}, {margins[1], margins[3]}};
-      row.by_key.push_back(known ? std::optional(derivative_of(s, noise_of(s))) : std::nullopt);
+      row.by_key.push_back(known ? std::optional(derivative_of(s, noise_of(s), smoothness_of(base)))
+                                 : std::nullopt);
     }
     list.push_back(std::move(row));
   }

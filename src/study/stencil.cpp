@@ -7,16 +7,13 @@ namespace subimpact {
 namespace {
 
 // Stated error over the one that a difference stands for.
-constexpr double safety = 2.0;
+constexpr double safety = 3.0;
 constexpr double kink_share = 1e-3;  // of the slope
 constexpr double shift_ratio = sensitivity_shifts[0] / sensitivity_shifts[1];
-
-// What extrapolation leaves of an error, as its share. Where a graze is at the distance d, numbers
-// change as the root of d: their slope is off by the part r = (h/d)^2/8, after it by 3.5 r^2.
-double share_left(double step, double slope) {
-  constexpr double of_root = 3.5, least = 0.1;
-  return std::min(1.0, least + of_root * std::abs(step / slope));
-}
+// What extrapolation adds to the slope over the smaller shift, of its difference from the other.
+constexpr double gain_if_smooth = 1.0 / (shift_ratio * shift_ratio - 1.0);
+// What may be left of an error that grows as the root of the shift, in the same unit.
+constexpr double left_by_thresholds = 0.46;  // 1/(sqrt(shift_ratio) - 1)
 
 }  // namespace
 
@@ -30,17 +27,16 @@ double bend_of_slope(const Stencil& s, double error) {
   return std::max(0.0, std::abs(s.slope(0) - s.slope(1)) - error / sensitivity_shifts[1]);
 }
 
-Derivative derivative_of(const Stencil& s, double error) {
+Derivative derivative_of(const Stencil& s, double error, Smoothness smoothness) {
   if (s.is_constant()) return {};
-  constexpr double gain = 1.0 / (shift_ratio * shift_ratio - 1.0);
   const double step = s.slope(1) - s.slope(0);
-  const double extrapolated = s.slope(1) + gain * step;
   const double noise = error + std::numeric_limits<double>::epsilon() * std::abs(s.base);
-  const double of_larger = std::abs(step) + noise / sensitivity_shifts[0];
-  const double of_extrapolated =
-      gain * std::abs(step) * share_left(step, extrapolated) + noise / sensitivity_shifts[1];
-  if (of_larger < of_extrapolated) return {s.slope(0), safety * of_larger};
-  return {extrapolated, safety * of_extrapolated};
+  const double gain = smoothness == Smoothness::everywhere ? gain_if_smooth : 0.0;
+  const double left = smoothness == Smoothness::everywhere ? gain_if_smooth : left_by_thresholds;
+  const double of_larger = std::abs(step) * (1.0 + left) + noise / sensitivity_shifts[0];
+  const double of_smaller = std::abs(step) * left + noise / sensitivity_shifts[1];
+  if (of_larger < of_smaller) return {s.slope(0), safety * of_larger};
+  return {s.slope(1) + gain * step, safety * of_smaller};
 }
 
 bool has_kink(const Stencil& s, double error) {

@@ -31,8 +31,12 @@ double noise_of(const Stencil& s);
 /// run.
 double bend_of_slope(const Stencil& s, double error);
 
+/// Where sections yield, a section that just does not flow for one value of a key does so for
+/// another, for a time that grows as the root of the distance: slopes then have a root's error.
+enum class Smoothness { everywhere, between_thresholds };
+
 /// The derivative and its error, as sensitivity() describes. `error`: of one run.
-Derivative derivative_of(const Stencil& s, double error);
+Derivative derivative_of(const Stencil& s, double error, Smoothness smoothness);
 
 /// Whether the slopes to either side differ: by as much over the smaller shift as over the larger
 /// one. For smooth numbers it is less by the ratio of the shifts, for the errors of runs more.

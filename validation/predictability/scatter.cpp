@@ -43,6 +43,7 @@ Study study_of(SectionKind section, double deviation, Jobs jobs) {
   study.sensitivity = sensitivity(paper_strike(section), options);
   study.result = study.sensitivity.base;
   set_predictability(study.result, study.sensitivity, scatter);
+  study.sensitivity.input.solver.rtol = 1e-8;  // errors of 1e-5 us
   EnsembleOptions how;
   how.n_runs = n_runs;
   how.jobs = jobs;

@@ -95,12 +95,13 @@ Case sensitivity_case(const Case& input);
 /// shifts h of sensitivity_shifts. All have mesh, method and symmetry of the base run.
 ///
 /// With D1 and D2 the differences of the larger and the smaller shift, q their ratio and e the
-/// error of one run, D1 is off by some |D1 - D2| + e/h1. D2 + (D2 - D1)/(q^2 - 1) is off by e/h2
-/// and by a share of |D1 - D2|/(q^2 - 1) that grows with the curvature of the number, a tenth to
-/// the whole. The one with the smaller error is stated, with twice that error. e is the larger of
-/// what the base run of ten times the tolerance shows and of the scatter of the second differences,
-/// over the sub-impact and its neighbours; it is larger for numbers of the beam, which change
-/// matrices.
+/// error of one run, D1 is off by some |D1 - D2| + e/h1. Where no section yields, numbers are
+/// smooth and D2 + (D2 - D1)/(q^2 - 1) is off by |D1 - D2|/(q^2 - 1) + e/h2 at most. Where sections
+/// yield, D2 is off by |D1 - D2|/(sqrt(q) - 1) + e/h2: a section that begins to flow for one value
+/// of the key and does not for another adds an error that grows as the root of the shift. The value
+/// with the smaller error is stated, with three times that error. e is the larger of what the base
+/// run of ten times the tolerance shows and of the scatter of the second differences, over the
+/// sub-impact and its neighbours; it is larger for numbers of the beam, which change matrices.
 ///
 /// A sub-impact is flagged where a shifted run has it merged, split or lost, where one appears
 /// before it, where a near miss is within its change over the shifts, where the slopes to either
