@@ -146,7 +146,7 @@ ResolvedSettings used_from(const Json& json) {
   used.initial_energy = number(json.at("initial_energy_J"));
   used.energy_tolerance = number(json.value("energy_tolerance_relative", Json(0.0)));
   used.shape_interval = number(json.value("shape_interval_s", Json(0.0)));
-  used.n_shape_points = json.value("n_shape_points", std::size_t{0});
+  used.n_shape_points = integer<std::size_t>(json.value("n_shape_points", Json(0)));
   return used;
 }
 
@@ -275,7 +275,7 @@ bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
 int read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run) {
   try {
     const Json json = Json::parse(text, refuse_deep_nesting);
-    const int layout = json.value("layout", 1);
+    const int layout = integer<int>(json.value("layout", Json(1)));
     if (layout > summary_layout) {
       throw ResultsError(
           fmt::format("{}: has layout {}, but this program reads layouts 1 to {}; use the program "

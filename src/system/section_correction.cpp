@@ -17,8 +17,9 @@ constexpr double cut_safety = 0.8;
 // remain: with it steps of the paper's beam at rtol 1e-11 are off by 0.7 of the tolerance (root
 // mean square), without it single ones by 600 times the tolerance.
 constexpr double coupling_left = 0.03;
-// Steps shorter than this, in radians of the highest frequency, are not cut: in a very short step
-// curvatures reverse by rounding.
+// Steps are not cut shorter than this, in radians of the highest frequency: in a very short step
+// curvatures reverse by rounding, and a step that ends where a section begins to flow may end
+// before that by rounding, the next one too.
 constexpr double shortest_cut = 1e-3;
 
 #ifndef NDEBUG
@@ -74,9 +75,8 @@ void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correcti
   const SectionMotion& start = beam_.committed_motion();
   beam_.read_motion(step.y1, end_);
   if (!finder_.find_candidates(start, end_, step.length())) return;
-  const bool may_cut = beam_.highest_frequency() * step.length() > shortest_cut;
-  if (finder_.cut() && may_cut) {
-    correction.valid_until = step.t0 + *finder_.cut() * step.length();
+  if (finder_.cut() && may_cut(step)) {
+    correction.valid_until = cut_at(step.t0 + *finder_.cut() * step.length(), step);
     return;
   }
   read_loads(step.y0, start, start_loads_);
@@ -85,9 +85,19 @@ void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correcti
   if (correction.events.empty()) return;
   read_response(step, correction);
   const SectionEvents::Coupling& coupling = finder_.coupling();
-  if (may_cut && coupling_left * coupling.velocity > tolerance_ && coupling.time > step.t0) {
-    correction.valid_until = coupling.time;
+  if (may_cut(step) && coupling_left * coupling.velocity > tolerance_ && coupling.time > step.t0) {
+    correction.valid_until = cut_at(coupling.time, step);
   }
+}
+
+double SectionCorrector::shortest_step() const { return shortest_cut / beam_.highest_frequency(); }
+
+bool SectionCorrector::may_cut(const StepEnds& step) const {
+  return step.length() > shortest_step();
+}
+
+double SectionCorrector::cut_at(double time, const StepEnds& step) const {
+  return std::min(std::max(time, step.t0 + shortest_step()), step.t1);
 }
 
 void SectionCorrector::read_response(const StepEnds& step, SectionCorrection& correction) {
@@ -105,7 +115,7 @@ void SectionCorrector::read_response(const StepEnds& step, SectionCorrection& co
   // The term grows as this power of the time since the event, or faster.
   const double power = static_cast<double>(2 * (last + 1) + 3);
   const double tolerable = (step.t1 - start) * std::pow(tolerance_ / left_out, 1.0 / power);
-  correction.valid_until = std::min(std::max(start, step.t0) + cut_safety * tolerable, step.t1);
+  correction.valid_until = cut_at(std::max(start, step.t0) + cut_safety * tolerable, step);
 }
 
 void SectionCorrector::read_loads(const State& y, const SectionMotion& motion,

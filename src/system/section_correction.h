@@ -44,6 +44,10 @@ class SectionCorrector {
   long n_mass_solves() const { return n_mass_solves_; }
 
  private:
+  double shortest_step() const;  // s
+  bool may_cut(const StepEnds& step) const;
+  // Where a step that is to be cut at a time ends: no sooner than the shortest step.
+  double cut_at(double time, const StepEnds& step) const;
   void read_loads(const State& y, const SectionMotion& motion, SectionLoads& loads);
   void read_response(const StepEnds& step, SectionCorrection& correction);
   // Tangents of the smooth pieces, taken at the step's end, times changes of curvature.
