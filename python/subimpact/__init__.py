@@ -16,6 +16,7 @@ from ._errors import CaseError, OutputError, PlanError, ResultsError, StoreError
 from .case import Case, Key, keys
 from .result import Result, columns, read_results
 from .running import run
+from .sensitivity import Sensitivity, sensitivity
 from .sweep import Plan, sweep
 
 __all__ = [
@@ -27,11 +28,13 @@ __all__ = [
     "PlanError",
     "Result",
     "ResultsError",
+    "Sensitivity",
     "StoreError",
     "__version__",
     "columns",
     "keys",
     "read_results",
     "run",
+    "sensitivity",
     "sweep",
 ]

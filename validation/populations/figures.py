@@ -15,7 +15,6 @@ import subimpact as si
 
 HERE = Path(__file__).parent
 BEAM_MASS = 0.7112 * 0.0163 * 0.0075 * 2600.0
-GRAZE = 0.25  # of a duration or gap: a shift beyond which counts may change
 
 plt.rcParams.update({"svg.hashsalt": "subimpact", "font.size": 9, "figure.figsize": (6.5, 4.4)})
 
@@ -73,30 +72,21 @@ def share_in_contact(sub_impacts, n_runs, times, end):
     return (np.searchsorted(starts, times, "right") - np.searchsorted(ends, times, "right")) / n_runs
 
 
-def linear_prediction(plan, times, step=1e-4):
+def linear_prediction(plan, times):
     """Probability of contact if every event time were normal, with the standard deviation that its
-    derivative by ln v gives; up to the first sub-impact that a shift by `step` merges or splits."""
-    deviation = plan.scatter["striker.velocity"]
-    velocity = plan.case["striker.velocity"]
-    base, lower, upper = (
-        si.run(plan.case.changed({"striker.velocity": velocity * np.exp(shift)}), error_bars="off").sub_impacts
-        for shift in (0.0, -step, step)
-    )
+    derivatives give; up to the first sub-impact without. And the run with these deviations."""
+    scatter = {f"scatter.{key}": deviation for key, deviation in plan.scatter.items()}
+    run = si.sensitivity(plan.case.changed(scatter), list(plan.scatter), jobs=2).base
     probability = np.zeros_like(times)
-    horizon = times[-1]
-    for i in range(len(base)):
-        if i >= min(len(lower), len(upper)):
-            horizon = base["start_s"][i]
+    last = times[-1]
+    for row in run.sub_impacts:
+        if not np.isfinite([row["start_scatter_s"], row["end_scatter_s"]]).all():
+            last = row["start_s"]
             break
-        slopes = [(upper[name][i] - lower[name][i]) / (2 * step) for name in ("start_s", "end_s")]
-        duration = base["end_s"][i] - base["start_s"][i]
-        if not max(abs(slope) * step for slope in slopes) < GRAZE * duration:
-            horizon = base["start_s"][i]
-            break
-        for name, slope, sign in zip(("start_s", "end_s"), slopes, (1, -1)):
-            spread = max(abs(slope) * deviation, 1e-12)
-            probability += sign * ndtr((times - base[name][i]) / spread)
-    return np.where(times <= horizon, probability, np.nan), horizon
+        for name, sign in (("start", 1), ("end", -1)):
+            deviation = max(row[f"{name}_scatter_s"], 1e-12)
+            probability += sign * ndtr((times - row[f"{name}_s"]) / deviation)
+    return np.where(times <= last, probability, np.nan), run
 
 
 def draw_ensemble(directory):
@@ -106,7 +96,7 @@ def draw_ensemble(directory):
     end = plan.case["time.end"]
     times = np.linspace(0.0, end, 8001)
     share = share_in_contact(sub_impacts, len(runs), times, end)
-    linear, horizon = linear_prediction(plan, times)
+    linear, run = linear_prediction(plan, times)
     figure, (whole, zone) = plt.subplots(2, 1, figsize=(6.5, 5.5))
     for axes, last in ((whole, end), (zone, 2e-3)):
         axes.fill_between(1e3 * times, share, color="tab:blue", alpha=0.35, linewidth=0,
@@ -118,7 +108,8 @@ def draw_ensemble(directory):
     save(figure, "contact_probability.png")
     counts = runs.n_sub_impacts.value_counts().sort_index()
     print(f"ensemble: {len(runs)} runs, {runs.n_sub_impacts.min()} to {runs.n_sub_impacts.max()} sub-impacts, "
-          f"most often {counts.idxmax()} ({counts.max()} runs); linear prediction up to {1e6 * horizon:.0f} us")
+          f"most often {counts.idxmax()} ({counts.max()} runs); {run.n_predictable} sub-impacts can be predicted: "
+          f"{run.summary['predictability']['reason']}")
 
 
 def main():

@@ -158,7 +158,7 @@ def sweep(
     *,
     out: str | os.PathLike[str],
     scatter: Mapping[str, float] | None = None,
-    samples: int = 1,
+    samples: int | None = None,
     seed: int = 1,
     error_bars: str | None = None,
     timeout: float | None = None,
@@ -192,7 +192,7 @@ def sweep(
     if isinstance(case, Plan):
         plan = case
     else:
-        plan = Plan(case, axes or {}, scatter or {}, samples, seed, error_bars, timeout)
+        plan = Plan(case, axes or {}, scatter, samples, seed, error_bars, timeout)
     return run_plan(
         plan,
         out,
