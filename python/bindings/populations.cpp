@@ -61,7 +61,11 @@ void bind_populations(py::module_& module) {
       .def(
           "check",
           [](const Population& population, const LoadedCase& base) {
-            check(population, base.value);
+            try {
+              check(population, base.value);
+            } catch (const InvalidCase& error) {
+              throw InvalidCase(error.key, error.key + ' ' + error.what());
+            }
           },
           py::arg("base"))
       .def(

@@ -15,54 +15,67 @@ import subimpact as si
 
 HERE = Path(__file__).parent
 BEAM_MASS = 0.7112 * 0.0163 * 0.0075 * 2600.0
+PUBLISHED = (15.9, 0.201 / BEAM_MASS)  # velocity, m/s, and ratio of masses
 
-plt.rcParams.update({"svg.hashsalt": "subimpact", "font.size": 9, "figure.figsize": (6.5, 4.4)})
+plt.rcParams.update({"font.size": 9, "hatch.linewidth": 0.5})
 
 
 def save(figure, name):
-    metadata = {"Date": None} if name.endswith(".svg") else {}
-    figure.savefig(HERE / name, metadata=metadata, bbox_inches="tight", dpi=130)
+    figure.savefig(HERE / name, bbox_inches="tight", dpi=130)
     plt.close(figure)
 
 
-def grid(runs, column):
-    table = runs.pivot(index="striker.mass", columns="striker.velocity", values=column)
-    return table.columns.to_numpy(), table.index.to_numpy() / BEAM_MASS, table.to_numpy(dtype=float)
+def edges(values):
+    """Limits of the cells about values."""
+    middles = (values[1:] + values[:-1]) / 2
+    return np.concatenate([[2 * values[0] - middles[0]], middles, [2 * values[-1] - middles[-1]]])
 
 
-def map_axes(title):
-    figure, axes = plt.subplots()
-    axes.set(xlabel="velocity, m/s", ylabel="mass of the striker over that of the beam", yscale="log",
-             title=title)
-    return figure, axes
+def draw_map(axes, runs, column, label, *, factor=1.0, doubtful=None, ticks=None, **colours):
+    """Colours of a column over velocity and ratio of masses; cells that are doubtful are hatched, a
+    ring is about the published strike."""
+
+    def table(values):
+        cells = runs.assign(shown=values).pivot(
+            index="striker.mass", columns="striker.velocity", values="shown").astype(float)
+        return cells.columns.to_numpy(), cells.index.to_numpy() / BEAM_MASS, cells.to_numpy()
+
+    velocity, ratio, values = table(factor * runs[column])
+    x, y = edges(velocity), np.exp(edges(np.log(ratio)))
+    mesh = axes.pcolormesh(x, y, values, **colours)
+    bar = axes.figure.colorbar(mesh, ax=axes, label=label, ticks=ticks)
+    bar.ax.minorticks_off()
+    if ticks is not None:
+        bar.ax.set_yticklabels(ticks)
+    if doubtful is not None:
+        marked = table(doubtful)[2]
+        axes.pcolor(x, y, np.ma.masked_where(marked != 1, marked), hatch="//////", alpha=0.0)
+    axes.plot(*PUBLISHED, "o", color="white", markerfacecolor="none", markersize=7)
+    axes.set(xlabel="velocity, m/s", yscale="log")
+    axes.set_yticks([0.1, 0.2, 0.5, 1, 2, 4], ["0.1", "0.2", "0.5", "1", "2", "4"])
+    axes.minorticks_off()
 
 
 def draw_counts(runs):
-    figure, axes = map_axes("sub-impacts within 8 ms; crosses: the count is not decided")
-    velocity, ratio, counts = grid(runs, "n_sub_impacts")
-    mesh = axes.pcolormesh(velocity, ratio, counts, shading="nearest", cmap="viridis", rasterized=True)
-    figure.colorbar(mesh, label="sub-impacts")
-    unsure = runs[runs.all_decided != 1]
-    axes.plot(unsure["striker.velocity"], unsure["striker.mass"] / BEAM_MASS, "x", color="white",
-              markersize=2, markeredgewidth=0.4)
-    save(figure, "counts.svg")
-    figure, axes = map_axes("leading sub-impacts that are decided")
-    velocity, ratio, counts = grid(runs, "n_decided")
-    mesh = axes.pcolormesh(velocity, ratio, counts, shading="nearest", cmap="viridis", rasterized=True)
-    figure.colorbar(mesh, label="decided sub-impacts")
-    save(figure, "decided.svg")
+    figure, (all_of_them, decided) = plt.subplots(1, 2, figsize=(10, 4.2), sharey=True)
+    most = runs.n_sub_impacts.max()
+    ticks = [n for n in (5, 10, 20, 30, 50, 70, 100) if n <= most]
+    draw_map(all_of_them, runs, "n_sub_impacts", "sub-impacts within 8 ms", ticks=ticks,
+             norm=matplotlib.colors.LogNorm(runs.n_sub_impacts.min(), most), doubtful=runs.all_decided != 1)
+    draw_map(decided, runs, "n_decided", "sub-impacts that are certain in count and order", vmin=0)
+    all_of_them.set(ylabel="mass of the striker over that of the beam",
+                    title="sub-impacts of the run; hatched: not decided")
+    decided.set(title="leading sub-impacts that are decided")
+    save(figure, "counts.png")
 
 
 def draw_first_separation(runs):
-    figure, axes = map_axes("end of the first contact, us; crosses: its existence is not decided")
-    velocity, ratio, times = grid(runs, "first_separation_s")
-    mesh = axes.pcolormesh(velocity, ratio, 1e6 * times, shading="nearest", cmap="magma",
-                           norm=matplotlib.colors.LogNorm(), rasterized=True)
-    figure.colorbar(mesh, label="us")
-    unsure = runs[runs.n_decided == 0]
-    axes.plot(unsure["striker.velocity"], unsure["striker.mass"] / BEAM_MASS, "x", color="white",
-              markersize=2, markeredgewidth=0.4)
-    save(figure, "first_separation.svg")
+    figure, axes = plt.subplots(figsize=(6.5, 4.4))
+    draw_map(axes, runs, "first_separation_s", "us", factor=1e6, cmap="magma",
+             doubtful=runs.n_decided == 0)
+    axes.set(ylabel="mass of the striker over that of the beam",
+             title="end of the first contact; hatched: not decided")
+    save(figure, "first_separation.png")
 
 
 def share_in_contact(sub_impacts, n_runs, times, end):
