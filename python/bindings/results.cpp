@@ -79,11 +79,6 @@ void bind_results(py::module_& module) {
                     (has_scatter ? '\n' + scatter_table(run.result) : std::string());
            })
       .def("brief", [](const Finished& run) { return run.result.brief_report(); })
-      .def("failure",
-           [](const Finished& run) {
-             return run.result.outcome.completed() ? std::string()
-                                                   : failure_message(run.input, run.result);
-           })
       .def(
           "value",
           [](const Finished& run, const std::string& name) {
@@ -133,8 +128,6 @@ void bind_results(py::module_& module) {
       .def_property_readonly("striker_velocity", member(&Result::striker_velocity))
       .def_property_readonly("beam_mean_velocity", member(&Result::beam_mean_velocity))
       .def_property_readonly("max_energy_error", member(&Result::max_energy_error))
-      .def_property_readonly("wall_seconds",
-                             [](const Finished& run) { return run.result.work.wall_seconds; })
       .def_readonly("interrupted", &Finished::interrupted)
       .def_readonly("timed_out", &Finished::timed_out);
 }

@@ -26,9 +26,9 @@ except ModuleNotFoundError as error:
     ) from None
 from ._errors import CaseError, OutputError, PlanError, ResultsError, StoreError
 from .case import Case, Key, keys
+from .derivatives import Sensitivity, sensitivity
 from .result import Result, columns, read_results
 from .running import run
-from .sensitivity import Sensitivity, sensitivity
 from .sweep import Plan, sweep
 
 __all__ = [

@@ -122,6 +122,12 @@ def test_what_keys_must_have_together_is_checked_before_a_run(elastic):
         si.run(elastic)
 
 
+def test_a_path_in_place_of_a_case_is_refused_with_the_way_to_read_it():
+    for call in (si.Case, si.run, si.sensitivity, si.Plan, lambda path: si.sweep(path, out="none")):
+        with pytest.raises(TypeError, match="from_file"):
+            call("strike.toml")
+
+
 def test_explain_and_resolve_are_those_of_the_program(elastic, tmp_path, program):
     elastic.write(tmp_path / "case.toml")
     printed = program("explain", tmp_path / "case.toml").stdout

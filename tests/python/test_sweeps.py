@@ -94,6 +94,9 @@ def test_what_is_no_plan_is_refused(elastic, axes, scatter, words):
     (dict(samples=10, scatter={"striker.velocity": "1 %"}), "scatter of striker.velocity"),
     (dict(seed=-1), "seed is -1"), (dict(timeout=0.0), "timeout is 0"),
     (dict(error_bars="some"), "error_bars"),
+    (dict(axes={"striker.velocity": 3.0}), "a list of values"),
+    (dict(axes={"solver.method": "erk"}), "a list of values"),
+    (dict(axes={("beam.width", "beam.thickness"): [0.01, 0.02]}), "tuples of 2 values"),
 ])
 def test_numbers_that_are_no_plan_are_refused(elastic, values, words):
     with pytest.raises(si.PlanError, match=words):
@@ -224,6 +227,38 @@ def test_the_command_parts_and_merges(plan_file, tmp_path):
                    *(tmp_path / part for part in ("0:150", "150:300", "300:")))
     assert done.returncode == 0 and "400 cases: 400 completed" in done.stdout
     assert tables(tmp_path / "merged") == tables(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("options, status, words", [
+    (["--workers", -1], 2, "workers is -1"), (["--memory", -1], 2, "memory is -1"),
+    (["--only", "5"], 2, "0:1000"), (["--out", "plan.toml"], 3, "plan.toml"),
+    (["--dask", "tcp://127.0.0.1:1"], 3, "127.0.0.1"),
+])
+def test_what_cannot_be_done_is_one_message(plan_file, options, status, words, monkeypatch):
+    monkeypatch.chdir(plan_file.parent)
+    monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT", "0.5s")
+    if "--dask" in options:
+        pytest.importorskip("dask.distributed")
+    done = command(plan_file, *options)
+    assert done.returncode == status, done.stderr
+    assert words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_full_disk_ends_the_sweep_and_the_next_one_goes_on(population, tmp_path, monkeypatch):
+    import sqlite3
+
+    from subimpact.sweep.store import Store
+
+    def insert(*_):
+        raise sqlite3.OperationalError("database or disk is full")
+
+    with monkeypatch.context() as full:
+        full.setattr(Store, "_insert", insert)
+        with pytest.raises(si.OutputError, match="make room"):
+            si.sweep(population, out=tmp_path / "full", workers=2)
+    si.sweep(population, out=tmp_path / "full", workers=0)
+    si.sweep(population, out=tmp_path / "whole", workers=0)
+    assert tables(tmp_path / "full") == tables(tmp_path / "whole")
 
 
 def test_two_sweeps_do_not_share_a_directory(population, tmp_path):

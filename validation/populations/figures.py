@@ -62,7 +62,8 @@ def draw_counts(runs):
     ticks = [n for n in (5, 10, 20, 30, 50, 70, 100) if n <= most]
     draw_map(all_of_them, runs, "n_sub_impacts", "sub-impacts within 8 ms", ticks=ticks,
              norm=matplotlib.colors.LogNorm(runs.n_sub_impacts.min(), most), doubtful=runs.all_decided != 1)
-    draw_map(decided, runs, "n_decided", "sub-impacts that are certain in count and order", vmin=0)
+    draw_map(decided, runs, "n_decided", "sub-impacts that are certain in count and order", vmin=0,
+             ticks=list(range(0, int(runs.n_decided.max()) + 1, 5)))
     all_of_them.set(ylabel="mass of the striker over that of the beam",
                     title="sub-impacts of the run; hatched: not decided")
     decided.set(title="leading sub-impacts that are decided")

@@ -101,7 +101,7 @@ Case sensitivity_case(const Case& input);
 /// side differ (a kink), or where an error is a tenth of the largest derivative of the row.
 ///
 /// Throws InvalidCase, also for a key that has no derivative. If the base run does not complete, no
-/// shifted run is made and there are no rows.
+/// shifted run is made, and there are no keys and no rows.
 Sensitivity sensitivity(const Case& input, const SensitivityOptions& options = {});
 
 }  // namespace subimpact

@@ -14,10 +14,9 @@ from typing import Any, Union
 from .. import _core
 from .._errors import PlanError
 from .._toml import flat
-from ..case import Case
+from ..case import Case, as_case
 
 Axes = Mapping[Union[str, tuple[str, ...]], Iterable[Any]]
-Points = list[tuple[list[str], list[list[Any]]]]
 
 
 @dataclass
@@ -48,13 +47,8 @@ class Plan:
 
     def __post_init__(self) -> None:
         self._check_numbers()
-        points: Points = []
-        for keys, values in self.axes.items():
-            if isinstance(keys, str):
-                points.append(([keys], [[value] for value in values]))
-            else:
-                points.append((list(keys), [list(value) for value in values]))
-        self._points = points
+        as_case(self.case)
+        points = self._points = [_points(keys, values) for keys, values in self.axes.items()]
         self.axes = {tuple(keys): values for keys, values in points}
         self._drawn = self._what_is_drawn()
         self._population.check(self.case._load())
@@ -135,6 +129,22 @@ class Plan:
             return _plan_of(tables, path.parent)
         except PlanError as error:
             raise PlanError(f"{path}: {error}") from None
+
+
+def _points(keys: str | tuple[str, ...], values: Iterable[Any]) -> tuple[list[str], list[list[Any]]]:
+    """An axis: its keys, and their values in each point."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise PlanError(f"the axis of {keys} is {values!r}; allowed: a list of values")
+    if isinstance(keys, str):
+        return [keys], [[value] for value in values]
+    points = []
+    for point in values:
+        if isinstance(point, str) or not isinstance(point, Iterable):
+            raise PlanError(
+                f"the axis of {', '.join(keys)} has {point!r}; allowed: tuples of {len(keys)} values"
+            )
+        points.append(list(point))
+    return list(keys), points
 
 
 def _without_scatter(case: Case) -> Case:

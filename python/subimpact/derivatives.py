@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from . import _core
-from .case import Case
+from .case import Case, as_case
 from .result import Result
 
 if TYPE_CHECKING:
@@ -106,4 +106,4 @@ def sensitivity(
     if jobs < 1:
         raise ValueError(f"jobs is {jobs}; allowed: 1 or more")
     keys = [by] if isinstance(by, str) else list(by)
-    return Sensitivity(_core.sensitivity(case._load(), keys, jobs, progress))
+    return Sensitivity(_core.sensitivity(as_case(case)._load(), keys, jobs, progress))
