@@ -15,6 +15,8 @@ import subimpact as si
 
 HERE = Path(__file__).parent
 BEAM_MASS = 0.7112 * 0.0163 * 0.0075 * 2600.0
+BEGIN_MARK = "<!-- results: written by scripts/populations -->"
+END_MARK = "<!-- end of results -->"
 PUBLISHED = (15.9, 0.201 / BEAM_MASS)  # velocity, m/s, and ratio of masses
 
 plt.rcParams.update({"font.size": 9, "hatch.linewidth": 0.5})
@@ -120,10 +122,27 @@ def draw_ensemble(directory):
     zone.set_xlabel("time, ms")
     whole.legend(loc="upper center")
     save(figure, "contact_probability.png")
-    counts = runs.n_sub_impacts.value_counts().sort_index()
-    print(f"ensemble: {len(runs)} runs, {runs.n_sub_impacts.min()} to {runs.n_sub_impacts.max()} sub-impacts, "
-          f"most often {counts.idxmax()} ({counts.max()} runs); {run.n_predictable} sub-impacts can be predicted: "
-          f"{run.summary['predictability']['reason']}")
+    counts = runs.n_sub_impacts.value_counts()
+    return (f"The ensemble: {len(runs)} runs, {(runs.outcome == 'completed').sum()} completed, with "
+            f"{runs.n_sub_impacts.min()} to {runs.n_sub_impacts.max()} sub-impacts, most often {counts.idxmax()} "
+            f"({counts.max()} runs). By first derivatives {run.n_predictable} leading sub-impacts can be predicted: "
+            f"{run.summary['predictability']['reason']}.")
+
+
+def words_on_map(runs):
+    done = runs[runs.outcome == "completed"]
+    return (f"The map: {len(runs)} cases, {len(done)} completed, with {done.n_sub_impacts.min()} to "
+            f"{done.n_sub_impacts.max()} sub-impacts. In {(done.all_decided == 1).sum()} cases all of them are decided, in "
+            f"{(done.wish_met == 1).sum()} every event is within the wish, in {(done.n_decided > 0).sum()} the first "
+            f"separation is decided, with an error of {1e6 * done.first_separation_error_s.median():.2g} us in the median.")
+
+
+def renew_results(text):
+    """Writes a text between the marks of the page."""
+    page = HERE / "README.md"
+    before, rest = page.read_text(encoding="utf-8").split(BEGIN_MARK)
+    after = rest.split(END_MARK)[1]
+    page.write_text(f"{before}{BEGIN_MARK}\n{text}\n{END_MARK}{after}", encoding="utf-8")
 
 
 def main():
@@ -131,10 +150,9 @@ def main():
     runs = pd.read_csv(directory / "map" / "runs.csv")
     draw_counts(runs)
     draw_first_separation(runs)
-    print(f"map: {len(runs)} cases, {(runs.outcome == 'completed').sum()} completed, "
-          f"{(runs.all_decided == 1).sum()} with all sub-impacts decided, {(runs.wish_met == 1).sum()} within the wish, "
-          f"{(runs.n_decided > 0).sum()} with the first separation decided")
-    draw_ensemble(directory / "ensemble")
+    text = f"{words_on_map(runs)}\n\n{draw_ensemble(directory / 'ensemble')}"
+    renew_results(text)
+    print(text)
 
 
 if __name__ == "__main__":
