@@ -90,19 +90,31 @@ def share_in_contact(sub_impacts, n_runs, times, end):
 
 def linear_prediction(plan, times):
     """Probability of contact if every event time were normal, with the standard deviation that its
-    derivatives give; up to the first sub-impact without. And the run with these deviations."""
+    derivatives give; up to the first sub-impact that scatters by more than its duration, or by an
+    unknown amount. And the run with these deviations."""
     scatter = {f"scatter.{key}": deviation for key, deviation in plan.scatter.items()}
     run = si.sensitivity(plan.case.changed(scatter), list(plan.scatter), jobs=2).base
     probability = np.zeros_like(times)
     last = times[-1]
     for row in run.sub_impacts:
-        if not np.isfinite([row["start_scatter_s"], row["end_scatter_s"]]).all():
+        largest = max(row["start_scatter_s"], row["end_scatter_s"])
+        if not largest <= row["duration_s"]:
             last = row["start_s"]
             break
         for name, sign in (("start", 1), ("end", -1)):
             deviation = max(row[f"{name}_scatter_s"], 1e-12)
             probability += sign * ndtr((times - row[f"{name}_s"]) / deviation)
     return np.where(times <= last, probability, np.nan), run
+
+
+def zone_limits(run):
+    """Starts and ends of zones with their standard deviations, s."""
+    limits = []
+    for zone, scatter in zip(run.summary["zones"], run.summary["predictability"]["zones"]):
+        for name in ("start", "end"):
+            if zone[f"{name}_s"] and scatter[f"{name}_scatter_s"]:
+                limits.append((zone[f"{name}_s"], scatter[f"{name}_scatter_s"]))
+    return limits
 
 
 def draw_ensemble(directory):
@@ -118,6 +130,9 @@ def draw_ensemble(directory):
         axes.fill_between(1e3 * times, share, color="tab:blue", alpha=0.35, linewidth=0,
                           label=f"{len(runs)} runs")
         axes.plot(1e3 * times, linear, color="tab:red", linewidth=0.8, label="linear prediction")
+        for time, deviation in zone_limits(run):
+            axes.axvspan(1e3 * (time - 2 * deviation), 1e3 * (time + 2 * deviation), color="tab:red",
+                         alpha=0.12, linewidth=0)
         axes.set(xlim=(0, 1e3 * last), ylim=(0, 1.05), ylabel="probability of contact")
     zone.set_xlabel("time, ms")
     whole.legend(loc="upper center")
