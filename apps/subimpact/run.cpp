@@ -113,8 +113,6 @@ void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListe
   };
   how.progress = [&](double) { return !listener.interrupted(); };
   add_predictability(run.result, run.input, how);
-  if (!listener.interrupted()) return;
-  run.result.warnings.emplace_back("interrupted before the scatter of the event times was known");
 }
 
 // Writes the results; returns why they could not be written.

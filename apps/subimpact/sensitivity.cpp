@@ -15,7 +15,7 @@
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/sensitivity.h"
-#include "subimpact/study/within.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::app {
 namespace {
@@ -40,18 +40,6 @@ void check_keys(const std::vector<std::string>& names) {
   }
 }
 
-// The case with the mesh that `run` would choose, where the case leaves it open.
-Case with_mesh(const LoadedCase& loaded, Jobs jobs, const InterruptListener& listener) {
-  const OpenChoices open = open_choices(loaded.given);
-  if (!open.all() && !loaded.value.accuracy.event_times) return loaded.value;
-  Case input = loaded.value;
-  input.output.keep_no_rows();
-  WithinOptions how;
-  how.jobs = jobs;
-  how.progress = [&](double) { return !listener.interrupted(); };
-  return simulate_within(input, open, how).input;
-}
-
 int run_sensitivity(const SensitivityCommand& command) {
   const LoadedCase loaded = command.input.load();
   check_keys(command.keys);
@@ -67,7 +55,8 @@ int run_sensitivity(const SensitivityCommand& command) {
   const Sensitivity study = with_places(loaded, [&] {
     show("choosing the mesh");
     const Jobs jobs = command.jobs.number();
-    const Case input = with_mesh(loaded, jobs, listener);
+    const auto goes_on = [&](double) { return !listener.interrupted(); };
+    const Case input = case_as_chosen(loaded.value, loaded.given, jobs, goes_on);
     show("base run");
     SensitivityOptions options;
     options.keys = command.keys;
@@ -75,7 +64,7 @@ int run_sensitivity(const SensitivityCommand& command) {
     options.finished = [&](std::size_t n_done, std::size_t n_all) {
       show(fmt::format("{} of {} runs", n_done, n_all));
     };
-    options.progress = [&](double) { return !listener.interrupted(); };
+    options.progress = goes_on;
     return sensitivity(input, options);
   });
   status.clear();

@@ -18,10 +18,13 @@ namespace py = pybind11;
 void bind_cases(py::module_& module);
 void bind_results(py::module_& module);
 void bind_runs(py::module_& module);
+void bind_sensitivities(py::module_& module);
 void bind_populations(py::module_& module);
 
+/// The key of this name. Throws InvalidCase for a name that is none.
+const CaseKey& key_of(const std::string& name);
 /// A Python value as one of a key; NumPy's numbers and arrays are taken as Python's. Throws
-/// InvalidCase for a value that the key does not allow.
+/// InvalidCase, whose message begins with the key, for a value that the key does not allow.
 KeyValue key_value(const CaseKey& key, py::handle value);
 /// None: left open.
 py::object to_python(const std::optional<KeyValue>& value);

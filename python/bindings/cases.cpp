@@ -13,7 +13,6 @@
 #include "subimpact/study/within.h"
 
 namespace subimpact::python {
-namespace {
 
 const CaseKey& key_of(const std::string& name) {
   if (const CaseKey* key = find_case_key(name)) return *key;
@@ -24,6 +23,8 @@ const CaseKey& key_of(const std::string& name) {
                                       near.empty() ? "subimpact.keys() lists those there are"
                                                    : fmt::format("did you mean \"{}\"?", near)));
 }
+
+namespace {
 
 const char* type_name(KeyType type) {
   switch (type) {

@@ -11,25 +11,28 @@
 namespace subimpact::python {
 namespace {
 
-// The population, with values as their keys take them.
-Population make(const py::list& axes, const std::map<std::string, double>& scatter,
-                std::size_t n_samples, std::uint64_t seed) {
-  Population population;
-  for (const py::handle item : axes) {
-    const auto [keys, points] = item.cast<std::pair<std::vector<std::string>, py::list>>();
-    PopulationAxis axis;
-    axis.keys = keys;
-    for (const py::handle point : points) {
-      const auto values = point.cast<std::vector<py::object>>();
-      std::vector<KeyValue> converted;
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        const CaseKey* key = k < keys.size() ? find_case_key(keys[k]) : nullptr;
-        converted.push_back(key != nullptr ? key_value(*key, values[k]) : KeyValue());
-      }
-      axis.points.push_back(std::move(converted));
+// The points of one axis, with values as their keys take them.
+PopulationAxis axis_of(const std::vector<std::string>& keys, const py::list& points) {
+  PopulationAxis axis{keys, {}};
+  for (const py::handle point : points) {
+    const auto values = point.cast<std::vector<py::object>>();
+    std::vector<KeyValue> converted;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const CaseKey* key = k < keys.size() ? find_case_key(keys[k]) : nullptr;
+      converted.push_back(key != nullptr ? key_value(*key, values[k]) : KeyValue());
     }
-    population.axes.push_back(std::move(axis));
+    axis.points.push_back(std::move(converted));
   }
+  return axis;
+}
+
+using Axes = std::vector<std::pair<std::vector<std::string>, py::list>>;
+using Scatter = std::map<std::string, double>;
+
+Population make(const Axes& axes, const Scatter& scatter, std::size_t n_samples,
+                std::uint64_t seed) {
+  Population population;
+  for (const auto& [keys, points] : axes) population.axes.push_back(axis_of(keys, points));
   population.scatter = scatter;
   population.n_samples = n_samples;
   population.seed = seed;
@@ -58,7 +61,17 @@ void bind_populations(py::module_& module) {
       .def(
           "check",
           [](const Population& population, const LoadedCase& base) {
-            check(population, base.value);
+            try {
+              check(population, base.value);
+            } catch (const InvalidCase& error) {
+              throw InvalidCase(error.key, error.key + ' ' + error.what());
+            }
+          },
+          py::arg("base"))
+      .def(
+          "scatter_of",
+          [](const Population& population, const LoadedCase& base) {
+            return scatter_of(base.value, population.axes);
           },
           py::arg("base"))
       .def("settings", &settings, py::arg("base"), py::arg("number"));

@@ -65,10 +65,9 @@ std::optional<KeyValue> any_value(py::handle value) {
 
 KeyValue key_value(const CaseKey& key, py::handle value) {
   const std::optional<KeyValue> converted = any_value(value);
-  if (!converted) {
-    throw InvalidCase(key.name, refusal(key, py::repr(value).cast<std::string>()));
-  }
-  if (const auto problem = problem_with(key, *converted)) throw InvalidCase(key.name, *problem);
+  const auto problem = converted ? problem_with(key, *converted)
+                                 : std::optional(refusal(key, py::repr(value).cast<std::string>()));
+  if (problem) throw InvalidCase(key.name, key.name + ' ' + *problem);
   return *converted;
 }
 

@@ -11,9 +11,22 @@ SI units everywhere. `keys()` lists the keys of a case, `columns()` the columns 
 result. `sweep()` runs populations of cases; docs/populations.md explains how.
 """
 
-from ._core import __version__
+import sys
+
+try:
+    from ._core import __version__
+except ModuleNotFoundError as error:
+    if error.name != f"{__name__}._core":
+        raise
+    raise ModuleNotFoundError(
+        f"the package subimpact in {__path__[0]} was built for another Python than {sys.executable} "
+        f"({sys.version.split()[0]}); run the one that scripts/install named, or build for this one: "
+        "docs/populations.md",
+        name=error.name,
+    ) from None
 from ._errors import CaseError, OutputError, PlanError, ResultsError, StoreError
 from .case import Case, Key, keys
+from .derivatives import Sensitivity, sensitivity
 from .result import Result, columns, read_results
 from .running import run
 from .sweep import Plan, sweep
@@ -27,11 +40,13 @@ __all__ = [
     "PlanError",
     "Result",
     "ResultsError",
+    "Sensitivity",
     "StoreError",
     "__version__",
     "columns",
     "keys",
     "read_results",
     "run",
+    "sensitivity",
     "sweep",
 ]

@@ -54,6 +54,10 @@ class Case:
     """
 
     def __init__(self, tables: Mapping[str, Any] | None = None, /, **more: Any) -> None:
+        if tables is not None and not isinstance(tables, Mapping):
+            raise TypeError(
+                f"Case() has {tables!r}; allowed: tables of values by key; Case.from_file(path) reads a file"
+            )
         values = flat({**(tables or {}), **more})
         lines = []
         for key, value in values.items():
@@ -202,3 +206,12 @@ class Case:
         """A hash of the program's version, of all keys but the title, and of `how`. Cases of the
         same identity have the same results, to the last bit."""
         return self._load().identity(how)
+
+
+def as_case(case: object) -> Case:
+    """The same, if it is a case. Raises TypeError."""
+    if not isinstance(case, Case):
+        raise TypeError(
+            f"{case!r} is no Case; allowed: a subimpact.Case, such as Case.from_file(path)"
+        )
+    return case

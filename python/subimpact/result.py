@@ -120,6 +120,12 @@ class Result:
         """How many leading sub-impacts are certain in count and order; None without error bars."""
         return self._finished.n_decided
 
+    @property
+    def n_predictable(self) -> int | None:
+        """How many leading sub-impacts can be predicted in spite of the case's [scatter]; None
+        without scatter. `summary["predictability"]` has the reason and the horizon."""
+        return self._finished.n_predictable
+
     def __getitem__(self, key: str) -> Any:
         """The value of a key of the case that was run, with every choice made."""
         return self._finished.value(key)

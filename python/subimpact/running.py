@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from . import _core
-from .case import Case
+from .case import Case, as_case
 from .result import Result
 
 ErrorBars = Literal["off", "time", "all"]
@@ -39,7 +39,11 @@ def run(
     returns what there is, with the outcome "stopped"; `Result.interrupted` and `Result.timed_out`
     give the reason. A solver that fails returns a result too, with an outcome that says so. Raises
     CaseError for a case that cannot be run.
+
+    If numbers of the case scatter ([scatter]), four more runs per number, on `jobs` threads, show
+    what that leaves of event times: columns start_scatter_s and end_scatter_s, `n_predictable`.
     """
+    case = as_case(case)
     if within is not None:
         case = case.changed({"accuracy.event_times": within})
     if jobs < 1:

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "io/csv_columns.h"
+#include "io/sensitivity_columns.h"
 #include "io/uncertain.h"
 #include "io/write_file.h"
 #include "subimpact/case/case_keys.h"
@@ -54,16 +54,20 @@ Line line_of(const Row& row) {
 
 }  // namespace
 
-std::string sensitivity_csv(const Sensitivity& study) {
+Columns<SensitivityRow> sensitivity_columns(const std::vector<std::string>& keys) {
   Columns<Row> columns = {{"quantity", [](const Row& row) { return row.quantity; }},
                           {"sub_impact", [](const Row& row) { return row.sub_impact + 1; }},
                           {"value", &Row::value}};
-  for (std::size_t key = 0; key < study.keys.size(); ++key) {
-    columns.push_back({"d_" + study.keys[key], by_key(key, &Derivative::value)});
-    columns.push_back({"error_" + study.keys[key], by_key(key, &Derivative::error)});
+  for (std::size_t key = 0; key < keys.size(); ++key) {
+    columns.push_back({"d_" + keys[key], by_key(key, &Derivative::value)});
+    columns.push_back({"error_" + keys[key], by_key(key, &Derivative::error)});
   }
   columns.push_back({"flag", &Row::flag});
-  return csv_text(columns, study.rows);
+  return columns;
+}
+
+std::string sensitivity_csv(const Sensitivity& study) {
+  return csv_text(sensitivity_columns(study.keys), study.rows);
 }
 
 void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study) {

@@ -100,9 +100,9 @@ void check_scatter(const CaseKey& key, double deviation, const std::optional<Key
   }
 }
 
-std::optional<KeyValue> first_value(const Population& population, const CaseKey& key,
+std::optional<KeyValue> first_value(const std::vector<PopulationAxis>& axes, const CaseKey& key,
                                     const Case& base) {
-  for (const PopulationAxis& axis : population.axes) {
+  for (const PopulationAxis& axis : axes) {
     const auto found = std::ranges::find(axis.keys, key.name);
     if (found != axis.keys.end()) {
       return axis.points.front()[static_cast<std::size_t>(found - axis.keys.begin())];
@@ -158,6 +158,17 @@ Settings Population::settings(const Case& base, std::size_t number) const {
   return settings;
 }
 
+std::map<std::string, double> scatter_of(const Case& base,
+                                         const std::vector<PopulationAxis>& axes) {
+  std::map<std::string, double> scatter;
+  for (const auto& [name, deviation] : base.scatter) {
+    const std::optional<double> number = number_of(first_value(axes, known_key(name), base));
+    const bool is_drawn = number && std::isfinite(*number) && *number != 0.0;
+    if (deviation > 0.0 && is_drawn) scatter[name] = deviation;
+  }
+  return scatter;
+}
+
 void check(const Population& population, const Case& base) {
   std::set<std::string> seen;
   for (const PopulationAxis& axis : population.axes) check_axis(axis, seen);
@@ -165,7 +176,7 @@ void check(const Population& population, const Case& base) {
     throw InvalidCase("samples", "are 0 in number; allowed: 1 or more");
   for (const auto& [name, deviation] : population.scatter) {
     const CaseKey& key = known_key(name);
-    check_scatter(key, deviation, first_value(population, key, base));
+    check_scatter(key, deviation, first_value(population.axes, key, base));
   }
   population.size();
 }

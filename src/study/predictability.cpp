@@ -250,7 +250,10 @@ void add_predictability(Result& result, const Case& input, SensitivityOptions op
   options.keys = scattering_keys(input);
   if (options.keys.empty()) return;
   const Sensitivity study = sensitivity(input, options);
-  if (study.interrupted) return;
+  if (study.interrupted) {
+    result.warnings.emplace_back("interrupted before the scatter of the event times was known");
+    return;
+  }
   if (!study.base.outcome.completed() || study.keys.size() < options.keys.size()) {
     result.warnings.push_back(fmt::format(
         "the scatter of the event times is not known: {}",

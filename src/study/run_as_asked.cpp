@@ -60,4 +60,16 @@ WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest req
   return run;
 }
 
+Case case_as_chosen(const Case& input, const GivenKeys& given, Jobs jobs,
+                    const Progress& progress) {
+  const std::optional<OpenChoices> open = choices_left(input, given, std::nullopt);
+  if (!open) return input;
+  RunRequest request;
+  request.jobs = jobs;
+  request.progress = progress;
+  Case without_rows = input;
+  without_rows.output.keep_no_rows();
+  return simulate_as_chosen(without_rows, *open, request).input;
+}
+
 }  // namespace subimpact

@@ -404,7 +404,10 @@ Sensitivity sensitivity(const Case& input, const SensitivityOptions& options) {
   std::vector<Result> first = runner.run({study.input, check_run.input});
   study.base = std::move(first[0]);
   study.interrupted = runner.stopped();
-  if (!study.base.outcome.completed()) return study;
+  if (!study.base.outcome.completed()) {
+    study.keys.clear();
+    return study;
+  }
   std::vector<Result> shifted_runs = runner.run(cases);
   study.interrupted = runner.stopped();
   drop_incomplete(study, shifted_runs);

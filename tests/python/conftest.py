@@ -64,15 +64,17 @@ def python():
 
 
 @pytest.fixture
-def population(elastic):
+def without_rows(elastic):
+    """The elastic case without history, to 1 ms."""
+    return elastic.changed({"output.interval": 0.0, "output.sections": [], "output.points": [],
+                            "output.shapes": 0.0, "time.end": 1e-3})
+
+
+@pytest.fixture
+def population(without_rows):
     """Forty quick cases."""
-    elastic["output.interval"] = 0.0
-    elastic["output.sections"] = []
-    elastic["output.points"] = []
-    elastic["output.shapes"] = 0.0
-    elastic["time.end"] = 1e-3
     return si.Plan(
-        elastic,
+        without_rows,
         {"striker.mass": [0.05, 0.1, 0.2, 0.4], "striker.velocity": [1.0, 2.0, 4.0, 8.0, 16.0]},
         scatter={"beam.thickness": 0.01},
         samples=2,

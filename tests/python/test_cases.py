@@ -23,7 +23,7 @@ def test_every_key_takes_its_value_and_refuses_others_by_name(key, elastic):
     with pytest.raises(si.CaseError) as refused:
         elastic[key.name] = WRONG[key.type]
     assert refused.value.key == key.name
-    assert str(refused.value).startswith("is ")
+    assert str(refused.value).startswith(key.name + " is ")
     with pytest.raises(si.CaseError) as refused:
         elastic[key.name] = object()
     assert refused.value.key == key.name
@@ -120,6 +120,12 @@ def test_what_keys_must_have_together_is_checked_before_a_run(elastic):
     assert refused.value.key == "contact.stiffness"
     with pytest.raises(si.CaseError, match="contact.stiffness"):
         si.run(elastic)
+
+
+def test_a_path_in_place_of_a_case_is_refused_with_the_way_to_read_it():
+    for call in (si.Case, si.run, si.sensitivity, si.Plan, lambda path: si.sweep(path, out="none")):
+        with pytest.raises(TypeError, match="from_file"):
+            call("strike.toml")
 
 
 def test_explain_and_resolve_are_those_of_the_program(elastic, tmp_path, program):

@@ -83,7 +83,54 @@ def test_keys_that_change_together_are_one_axis(elastic):
 ])
 def test_what_is_no_plan_is_refused(elastic, axes, scatter, words):
     with pytest.raises(ValueError, match=words):
-        si.Plan(elastic, axes, scatter)
+        si.Plan(elastic, axes, scatter or None, samples=1 if scatter else None)
+
+
+@pytest.mark.parametrize("values, words", [
+    (dict(scatter={"striker.velocity": 0.01}), "without samples"),
+    (dict(samples=10), "nothing scatters"),
+    (dict(samples=10, scatter={}), "nothing scatters"),
+    (dict(samples=0, scatter={"striker.velocity": 0.01}), "samples is 0"),
+    (dict(samples=10, scatter={"striker.velocity": "1 %"}), "scatter of striker.velocity"),
+    (dict(seed=-1), "seed is -1"), (dict(timeout=0.0), "timeout is 0"),
+    (dict(error_bars="some"), "error_bars"),
+    (dict(axes={"striker.velocity": 3.0}), "a list of values"),
+    (dict(axes={"solver.method": "erk"}), "a list of values"),
+    (dict(axes={("beam.width", "beam.thickness"): [0.01, 0.02]}), "tuples of 2 values"),
+])
+def test_numbers_that_are_no_plan_are_refused(elastic, values, words):
+    with pytest.raises(si.PlanError, match=words):
+        si.Plan(elastic, **values)
+
+
+SCATTER = {"scatter.striker.velocity": 0.01, "scatter.beam.yield_stress": 0.02,
+           "scatter.beam.width": 0.0}
+
+
+def test_samples_are_drawn_from_the_scatter_of_the_case(without_rows, tmp_path):
+    """Of numbers that are there; and what is drawn scatters no more."""
+    given = si.Plan(without_rows, scatter={"striker.velocity": 0.01}, samples=5)
+    of_case = si.Plan(without_rows.changed(SCATTER), samples=5)
+    assert [of_case.settings(i) for i in range(5)] == [given.settings(i) for i in range(5)]
+    assert of_case.case_of(3) == given.case_of(3)
+    si.sweep(given, out=tmp_path / "given", workers=0)
+    si.sweep(of_case, out=tmp_path / "of-case", workers=0)
+    assert tables(tmp_path / "given") == tables(tmp_path / "of-case")
+    by_axis = si.Plan(without_rows.changed(SCATTER), {"beam.yield_stress": [1e8, 2e8]}, samples=5)
+    assert by_axis.keys() == ["beam.yield_stress", "striker.velocity"]
+    assert by_axis.settings(0)[0][1] != 1e8
+    of_plan = si.Plan(without_rows.changed(SCATTER), scatter={"beam.width": 0.01}, samples=5)
+    assert of_plan.keys() == ["beam.width"]
+
+
+def test_without_samples_the_scatter_of_a_case_is_that_of_its_run(without_rows, tmp_path):
+    case = without_rows.changed({"time.end": 5e-4, "scatter.striker.velocity": 0.001})
+    sweep = si.sweep(case, {"striker.velocity": [10.0, 15.9]}, out=tmp_path, workers=2)
+    result = si.run(case)
+    assert sweep.runs["n_predictable"][1] == result.n_predictable
+    assert sweep.runs["predictable_until_s"][1] == result.summary["predictability"]["horizon_s"]
+    rows = sweep.sub_impacts[sweep.sub_impacts.run == 1]
+    np.testing.assert_array_equal(rows["end_scatter_s"], result.sub_impacts["end_scatter_s"])
 
 
 @pytest.mark.parametrize("line, words", [
@@ -180,6 +227,38 @@ def test_the_command_parts_and_merges(plan_file, tmp_path):
                    *(tmp_path / part for part in ("0:150", "150:300", "300:")))
     assert done.returncode == 0 and "400 cases: 400 completed" in done.stdout
     assert tables(tmp_path / "merged") == tables(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("options, status, words", [
+    (["--workers", -1], 2, "workers is -1"), (["--memory", -1], 2, "memory is -1"),
+    (["--only", "5"], 2, "0:1000"), (["--out", "plan.toml"], 3, "plan.toml"),
+    (["--dask", "tcp://127.0.0.1:1"], 3, "127.0.0.1"),
+])
+def test_what_cannot_be_done_is_one_message(plan_file, options, status, words, monkeypatch):
+    monkeypatch.chdir(plan_file.parent)
+    monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT", "0.5s")
+    if "--dask" in options:
+        pytest.importorskip("dask.distributed")
+    done = command(plan_file, *options)
+    assert done.returncode == status, done.stderr
+    assert words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_full_disk_ends_the_sweep_and_the_next_one_goes_on(population, tmp_path, monkeypatch):
+    import sqlite3
+
+    from subimpact.sweep.store import Store
+
+    def insert(*_):
+        raise sqlite3.OperationalError("database or disk is full")
+
+    with monkeypatch.context() as full:
+        full.setattr(Store, "_insert", insert)
+        with pytest.raises(si.OutputError, match="make room"):
+            si.sweep(population, out=tmp_path / "full", workers=2)
+    si.sweep(population, out=tmp_path / "full", workers=0)
+    si.sweep(population, out=tmp_path / "whole", workers=0)
+    assert tables(tmp_path / "full") == tables(tmp_path / "whole")
 
 
 def test_two_sweeps_do_not_share_a_directory(population, tmp_path):

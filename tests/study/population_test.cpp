@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "elastic_case.h"
 
@@ -87,6 +88,19 @@ TEST(Population, IsAnotherOneWithAnotherSeed) {
   const double first = value_of(population, 0, "striker.velocity");
   population.seed = 2;
   EXPECT_NE(value_of(population, 0, "striker.velocity"), first);
+}
+
+TEST(Population, TakesTheScatterOfACaseWhereNumbersAreThere) {
+  Case input = base;
+  input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
+  input.scatter = {{"striker.velocity", 0.01},
+                   {"beam.width", 0.0},
+                   {"beam.yield_stress", 0.02},
+                   {"striker.gap", 0.1}};
+  using Scatter = std::map<std::string, double>;
+  EXPECT_EQ(scatter_of(input, {}), (Scatter{{"striker.velocity", 0.01}}));
+  EXPECT_EQ(scatter_of(input, {{{"beam.yield_stress"}, {{1e8}, {2e8}}}}),
+            (Scatter{{"beam.yield_stress", 0.02}, {"striker.velocity", 0.01}}));
 }
 
 TEST(Population, RefusesWhatIsNoPlanByItsKey) {

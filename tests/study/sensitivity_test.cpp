@@ -290,5 +290,15 @@ TEST(Sensitivity, KeepsTheKeysWhoseRunsHadEndedWhenItIsStopped) {
   EXPECT_EQ(study.keys, std::vector<std::string>{"striker.mass"});
 }
 
+TEST(Sensitivity, HasNoKeysWhereItsBaseRunIsStopped) {
+  SensitivityOptions options;
+  options.keys = {"striker.mass"};
+  options.progress = [](double) { return false; };
+  const Sensitivity study = sensitivity(elastic_case(1e-3), options);
+  EXPECT_TRUE(study.interrupted);
+  EXPECT_TRUE(study.keys.empty());
+  EXPECT_TRUE(study.rows.empty());
+}
+
 }  // namespace
 }  // namespace subimpact

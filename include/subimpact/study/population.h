@@ -38,6 +38,10 @@ struct Population {
                                                          std::size_t number) const;
 };
 
+/// What scatters by the case file itself: deviations above 0 of its [scatter], of numbers that are
+/// finite and not 0 on an axis or else in the base case.
+std::map<std::string, double> scatter_of(const Case& base, const std::vector<PopulationAxis>& axes);
+
 /// Throws InvalidCase for a key that is unknown, on two axes, without values or with values that it
 /// does not allow, and for scatter of what is no finite number of the base case.
 void check(const Population& population, const Case& base);

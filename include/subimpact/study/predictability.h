@@ -39,7 +39,7 @@ void set_predictability(Result& result, const Sensitivity& study, const Scatter&
 std::vector<std::string> scattering_keys(const Case& input);
 
 /// Makes the study that a case's scatter needs (sensitivity()) and sets the predictability of its
-/// result. Nothing without scatter that has an effect, or if interrupted. A study that fails is
+/// result. Nothing without scatter that has an effect. A study that fails or is interrupted is
 /// named in the warnings of the result.
 void add_predictability(Result& result, const Case& input, SensitivityOptions options = {});
 

@@ -42,4 +42,9 @@ std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& give
 /// unless error bars are off. Throws InvalidCase.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request);
 
+/// The case with the mesh, method and tolerance that run_as_asked() would choose where they are
+/// left open, for studies that stay on one mesh. Takes the runs of that choice. Throws InvalidCase.
+Case case_as_chosen(const Case& input, const GivenKeys& given, Jobs jobs = 1,
+                    const Progress& progress = {});
+
 }  // namespace subimpact

@@ -109,7 +109,7 @@ Case sensitivity_case(const Case& input);
 /// (about to merge, split or vanish), or where an error is a tenth of it.
 ///
 /// Throws InvalidCase, also for a key that has no derivative. If the base run does not complete, no
-/// shifted run is made and there are no rows.
+/// shifted run is made, and there are no keys and no rows.
 Sensitivity sensitivity(const Case& input, const SensitivityOptions& options = {});
 
 }  // namespace subimpact

@@ -11,7 +11,7 @@ from typing import Any
 
 from .._errors import CaseError, PlanError, StoreError
 from .plan import Plan
-from .running import run_plan
+from .running import sweep
 
 _EXAMPLES = """examples:
   subimpact-sweep plan.toml
@@ -21,12 +21,15 @@ _EXAMPLES = """examples:
   subimpact-sweep plan.toml --only 0:1000 --out part-1      (one of several jobs)
   subimpact-sweep plan.toml --merge part-1 part-2           (and then their tables)
 
-exit status: 0 done; 2 bad command line, plan or case; 3 cases are missing or crashed; 130 stopped
+exit status: 0 done; 2 bad command line, plan or case; 3 cases are missing or crashed, or
+files cannot be written; 130 stopped
 by Ctrl-C. A sweep that was stopped goes on where it was: give the same command again."""
 
 
 def _part(text: str) -> tuple[int, int]:
-    first, _, end = text.partition(":")
+    first, colon, end = text.partition(":")
+    if not colon or not all(part == "" or part.isdecimal() for part in (first, end)):
+        raise argparse.ArgumentTypeError(f"is {text!r}; allowed: two numbers from 0, such as 0:1000")
     return int(first or 0), int(end) if end else sys.maxsize
 
 
@@ -84,9 +87,9 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
     out = options.out or options.plan.rsplit("/", 1)[-1].removesuffix(".toml") + "-sweep"
     display = _Display(options.quiet)
     try:
-        sweep = run_plan(
+        done = sweep(
             plan,
-            out,
+            out=out,
             workers=options.workers,
             memory=options.memory,
             executor=executor,
@@ -98,16 +101,16 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
     finally:
         display.end()
     if options.hdf5:
-        sweep.write_hdf5()
-    for note in sweep.notes:
+        done.write_hdf5()
+    for note in done.notes:
         print(f"subimpact-sweep: {note}", file=sys.stderr)
-    outcomes = _outcomes(sweep.directory / "runs.csv")
+    outcomes = _outcomes(done.directory / "runs.csv")
     if not options.quiet:
         counts = ", ".join(f"{count} {name}" for name, count in sorted(outcomes.items()))
         print(f"{len(plan)} cases: {counts or 'none run'}"
-              f"{f', {sweep.n_missing} missing' if sweep.n_missing else ''}")
-        print(f"files in {sweep.directory}")
-    is_whole = not sweep.n_missing or options.only is not None
+              f"{f', {done.n_missing} missing' if done.n_missing else ''}")
+        print(f"files in {done.directory}")
+    is_whole = not done.n_missing or options.only is not None
     return 0 if is_whole and "crashed" not in outcomes else 3
 
 
@@ -137,6 +140,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (CaseError, PlanError, StoreError) as error:
         print(f"subimpact-sweep: {error}", file=sys.stderr)
         return 2
+    except OSError as error:  # a directory or a disk that cannot be written, a scheduler out of reach
+        print(f"subimpact-sweep: {error}", file=sys.stderr)
+        return 3
     except ImportError as error:
         print(f"subimpact-sweep: {error}; Debian's packages are python3-distributed, python3-mpi4py and python3-h5py",
               file=sys.stderr)

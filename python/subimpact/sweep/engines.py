@@ -78,8 +78,8 @@ class Processes:
             process.kill()
 
 
-class Given:
-    """An executor of the caller's: of Dask, of mpi4py, of any other library."""
+class CallersExecutor:
+    """An executor that the caller has: of Dask, of mpi4py, of any other library."""
 
     seconds_per_chunk = 2.0
     deaths_per_failure = MOST_DEATHS  # an engine reports a task after it has tried it again itself
@@ -120,7 +120,7 @@ def run_here(plan: Plan, numbers: Iterable[int], sink: Sink) -> None:
 class Coordinator:
     """Gives chunks of cases to an engine until each case has a row."""
 
-    def __init__(self, engine: Processes | Given, plan: Plan, sink: Sink) -> None:
+    def __init__(self, engine: Processes | CallersExecutor, plan: Plan, sink: Sink) -> None:
         self._engine = engine
         self._plan = plan
         self._sink = sink

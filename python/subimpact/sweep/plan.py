@@ -7,16 +7,16 @@ import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, Union
 
 from .. import _core
 from .._errors import PlanError
 from .._toml import flat
-from ..case import Case
+from ..case import Case, as_case
 
 Axes = Mapping[Union[str, tuple[str, ...]], Iterable[Any]]
-Points = list[tuple[list[str], list[list[Any]]]]
 
 
 @dataclass
@@ -31,35 +31,63 @@ class Plan:
         Plan(case, {"striker.velocity": np.linspace(2, 16, 50),
                     ("beam.width", "beam.thickness"): [(0.016, 0.008), (0.02, 0.01)]})
 
-    `scatter` has relative standard deviations by key: values are p exp(s z) with z normal. A sample
-    is determined by `seed` and its number, and the same at every combination of the axes.
+    With `samples`, each combination is run so many times with numbers that scatter: p exp(s z),
+    with z normal. `scatter` has the relative standard deviations s by key; left out, they are those
+    of the case, its [scatter]. A sample is determined by `seed` and its number, and the same at
+    every combination of the axes. Samples have no [scatter] of their own any more.
     """
 
     case: Case
     axes: Axes = field(default_factory=dict)
-    scatter: Mapping[str, float] = field(default_factory=dict)
-    samples: int = 1
+    scatter: Mapping[str, float] | None = None
+    samples: int | None = None
     seed: int = 1
     error_bars: str | None = None  #: as in `subimpact.run`
     timeout: float | None = None  #: s per case; a case that takes longer has the outcome "timed_out"
 
     def __post_init__(self) -> None:
+        self._check_numbers()
+        as_case(self.case)
+        points = self._points = [_points(keys, values) for keys, values in self.axes.items()]
+        self.axes = {tuple(keys): values for keys, values in points}
+        self._drawn = self._what_is_drawn()
+        self._population.check(self.case._load())
+        #: of the samples
+        self._base = self.case if self.samples is None else _without_scatter(self.case)
+
+    def _check_numbers(self) -> None:
         if self.error_bars not in (None, "off", "time", "all"):
             raise PlanError(f'error_bars is "{self.error_bars}"; allowed: "off", "time", "all"')
-        points: Points = []
-        for keys, values in self.axes.items():
-            if isinstance(keys, str):
-                points.append(([keys], [[value] for value in values]))
-            else:
-                points.append((list(keys), [list(value) for value in values]))
-        self._points = points
-        self.axes = {tuple(keys): values for keys, values in points}
-        self.scatter = dict(self.scatter)
-        self._population.check(self.case._load())
+        for name, value, least in (("samples", self.samples, 1), ("seed", self.seed, 0)):
+            if value is not None and not (isinstance(value, Integral) and value >= least):
+                raise PlanError(f"{name} is {value!r}; allowed: a whole number, {least} or more")
+        numbers = [("timeout", self.timeout)] if self.timeout is not None else []
+        numbers += [(f"scatter of {key}", value) for key, value in (self.scatter or {}).items()]
+        for name, number in numbers:
+            if not (isinstance(number, Real) and number > 0):
+                raise PlanError(f"{name} is {number!r}; allowed: a number above 0")
+
+    def _what_is_drawn(self) -> dict[str, float]:
+        if self.samples is None:
+            if self.scatter:
+                raise PlanError("scatter is given without samples; give their number, such as 1000")
+            return {}
+        if self.scatter is not None:
+            drawn = dict(self.scatter)
+        else:
+            axes = _core.Population(self._points, {}, 1, 1)
+            axes.check(self.case._load())
+            drawn = axes.scatter_of(self.case._load())
+        if not drawn:
+            raise PlanError(
+                "samples are to be drawn, but nothing scatters; give scatter, here or as [scatter] "
+                'of the case, such as { "striker.velocity" = 0.01 }, or leave samples out'
+            )
+        return drawn
 
     @cached_property
     def _population(self) -> _core.Population:
-        return _core.Population(self._points, dict(self.scatter), self.samples, self.seed)
+        return _core.Population(self._points, self._drawn, int(self.samples or 1), int(self.seed))
 
     def __getstate__(self) -> dict[str, Any]:
         state = dict(self.__dict__)
@@ -79,7 +107,7 @@ class Plan:
 
     def case_of(self, number: int) -> Case:
         """A case of the plan, by its number from 0."""
-        return self.case.changed(dict(self.settings(number)))
+        return self._base.changed(dict(self.settings(number)))
 
     @property
     def how(self) -> str:
@@ -101,6 +129,30 @@ class Plan:
             return _plan_of(tables, path.parent)
         except PlanError as error:
             raise PlanError(f"{path}: {error}") from None
+
+
+def _points(keys: str | tuple[str, ...], values: Iterable[Any]) -> tuple[list[str], list[list[Any]]]:
+    """An axis: its keys, and their values in each point."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise PlanError(f"the axis of {keys} is {values!r}; allowed: a list of values")
+    if isinstance(keys, str):
+        return [keys], [[value] for value in values]
+    points = []
+    for point in values:
+        if isinstance(point, str) or not isinstance(point, Iterable):
+            raise PlanError(
+                f"the axis of {', '.join(keys)} has {point!r}; allowed: tuples of {len(keys)} values"
+            )
+        points.append(list(point))
+    return list(keys), points
+
+
+def _without_scatter(case: Case) -> Case:
+    base = case.copy()
+    for key in case.given():
+        if key.startswith("scatter."):
+            del base[key]
+    return base
 
 
 def _parse(text: str) -> dict[str, Any]:
@@ -135,19 +187,12 @@ def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
     return Plan(
         case,
         axes,
-        scatter=flat(tables.get("scatter", {})),
-        samples=_whole(tables, "samples"),
-        seed=_whole(tables, "seed"),
+        scatter=flat(tables["scatter"]) if "scatter" in tables else None,
+        samples=tables.get("samples"),
+        seed=tables.get("seed", 1),
         error_bars=tables.get("error_bars"),
         timeout=tables.get("timeout"),
     )
-
-
-def _whole(tables: dict[str, Any], name: str) -> int:
-    value = tables.get(name, 1)
-    if type(value) is not int or value < 1:
-        raise PlanError(f"{name} is {value!r}; allowed: a whole number, 1 or more")
-    return value
 
 
 def _lists(tables: Mapping[str, Any], prefix: str = "") -> dict[str, list[Any]]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping
+from functools import cached_property
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
-from .._errors import StoreError
+from .._errors import PlanError, StoreError
 from ..case import Case
-from .engines import Coordinator, Given, Processes, n_cores, run_here
+from .engines import CallersExecutor, Coordinator, Processes, n_cores, run_here
 from .plan import Axes, Plan
 from .store import Store
 from .tables import write_hdf5, write_tables
@@ -28,16 +30,16 @@ class Sweep:
 
     def __init__(self, plan: Plan, directory: Path, n_missing: int, notes: list[str]) -> None:
         self.plan = plan
-        self.directory = directory
+        self.directory = directory  #: of sweep.sqlite, runs.csv and sub_impacts.csv
         self.n_missing = n_missing  #: cases of the plan that have no row yet
         self.notes = notes  #: what the user has to be told
 
-    @property
+    @cached_property
     def runs(self) -> Any:
         """runs.csv as a DataFrame of pandas: one row per case."""
         return self._table("runs.csv")
 
-    @property
+    @cached_property
     def sub_impacts(self) -> Any:
         """sub_impacts.csv as a DataFrame of pandas: one row per sub-impact of each case."""
         return self._table("sub_impacts.csv")
@@ -93,36 +95,6 @@ def _missing(numbers: Iterable[int], identities: list[str], known: Mapping[str, 
     return missing
 
 
-def run_plan(
-    plan: Plan,
-    out: str | os.PathLike[str],
-    *,
-    workers: int | None = None,
-    memory: float | None = None,
-    executor: Any = None,
-    only: tuple[int, int] | None = None,
-    retry: bool = False,
-    merge: Iterable[str | os.PathLike[str]] = (),
-    progress: Progress | None = None,
-) -> Sweep:
-    """Runs the cases of a plan that have no row yet, and writes the tables; see `sweep`."""
-    numbers = range(len(plan))[slice(*only)] if only else range(len(plan))
-    identities = [identity_of(plan, number) for number in range(len(plan))]
-    with Store(out) as store:
-        for directory in merge:
-            _merge(store, directory)
-        if retry:
-            store.drop(RETRIED)
-        missing = _missing(numbers, identities, store.outcomes())
-        sink = _Sink(store, len(numbers) - len(missing), len(numbers), progress)
-        try:
-            _hand_out(plan, missing, sink, workers, memory, executor)
-        finally:
-            sink.flush()
-            n_missing = write_tables(plan, identities, store)
-        return Sweep(plan, Path(out), n_missing, store.notes)
-
-
 def _merge(store: Store, directory: str | os.PathLike[str]) -> None:
     if Path(directory).resolve() == store.directory.resolve():
         raise StoreError(f"{os.fspath(directory)}: is the directory to merge into")
@@ -144,7 +116,7 @@ def _hand_out(
     if not missing:
         return
     if executor is not None:
-        Coordinator(Given(executor), plan, sink).run(missing)
+        Coordinator(CallersExecutor(executor), plan, sink).run(missing)
     elif workers == 0:
         run_here(plan, missing, sink)
     else:
@@ -158,7 +130,7 @@ def sweep(
     *,
     out: str | os.PathLike[str],
     scatter: Mapping[str, float] | None = None,
-    samples: int = 1,
+    samples: int | None = None,
     seed: int = 1,
     error_bars: str | None = None,
     timeout: float | None = None,
@@ -167,6 +139,7 @@ def sweep(
     executor: Any = None,
     only: tuple[int, int] | None = None,
     retry: bool = False,
+    merge: Iterable[str | os.PathLike[str]] = (),
     progress: Progress | None = None,
 ) -> Sweep:
     """Runs a population of cases; each run keeps to one core.
@@ -184,6 +157,7 @@ def sweep(
                 another executor with the interface of `concurrent.futures`
     only        (first, end): a part of the cases, by their numbers from 0
     retry       runs cases again that were timed out, crashed or ran out of memory
+    merge       directories of other sweeps, whose rows are taken first
     progress    called with the number of cases that have a row, and of all
 
     The tables are the same, byte for byte, whatever ran the cases. After Ctrl-C the rows so far are
@@ -192,14 +166,22 @@ def sweep(
     if isinstance(case, Plan):
         plan = case
     else:
-        plan = Plan(case, axes or {}, scatter or {}, samples, seed, error_bars, timeout)
-    return run_plan(
-        plan,
-        out,
-        workers=workers,
-        memory=memory,
-        executor=executor,
-        only=only,
-        retry=retry,
-        progress=progress,
-    )
+        plan = Plan(case, axes or {}, scatter, samples, seed, error_bars, timeout)
+    for name, value in (("workers", workers), ("memory", memory)):
+        if value is not None and not (isinstance(value, Real) and value >= 0):
+            raise PlanError(f"{name} is {value!r}; allowed: 0 or more")
+    numbers = range(len(plan))[slice(*only)] if only else range(len(plan))
+    identities = [identity_of(plan, number) for number in range(len(plan))]
+    with Store(out) as store:
+        for directory in merge:
+            _merge(store, directory)
+        if retry:
+            store.drop(RETRIED)
+        missing = _missing(numbers, identities, store.outcomes())
+        sink = _Sink(store, len(numbers) - len(missing), len(numbers), progress)
+        try:
+            _hand_out(plan, missing, sink, workers, memory, executor)
+        finally:
+            sink.flush()
+            n_missing = write_tables(plan, identities, store)
+        return Sweep(plan, Path(out), n_missing, store.notes)

@@ -16,7 +16,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO
 
-from .._errors import StoreError
+from .._errors import OutputError, StoreError
 from .worker import COLUMNS, Row
 
 FILE = "sweep.sqlite"
@@ -183,8 +183,14 @@ class Store:
             )
 
     def add(self, rows: Iterable[Row]) -> None:
-        """Stores rows, all at once."""
-        self._insert(self._connection, rows)
+        """Stores rows, all at once. Raises OutputError."""
+        try:
+            self._insert(self._connection, rows)
+        except sqlite3.OperationalError as error:
+            raise OutputError(
+                f"{self.path}: cannot be written ({error}); make room, and start the sweep again: it "
+                "goes on from the rows that are stored"
+            ) from None
 
     def outcomes(self) -> dict[str, str]:
         """The outcome of every row by its identity."""

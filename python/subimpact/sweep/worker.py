@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from .. import _core
 from .._errors import CaseError
+from ..case import Case
 from .plan import Plan
 
 #: Columns of runs.csv between the swept keys and the message.
@@ -24,6 +25,8 @@ COLUMNS = (
     "all_decided",
     "wish_met",
     "horizon_s",
+    "n_predictable",
+    "predictable_until_s",
     "first_separation_s",
     "first_separation_error_s",
     "first_section_yield_s",
@@ -77,10 +80,10 @@ def row_without_result(identity: str, outcome: str, message: str) -> Row:
     return Row(identity, outcome, ",".join(cells), zlib.compress(b"", 1))
 
 
-def identity_of(plan: Plan, number: int) -> str:
-    """Of a case, allowed or not."""
+def identity_of(plan: Plan, number: int, case: Case | None = None) -> str:
+    """Of a case, allowed or not; `case` is plan.case_of(number), if it is there already."""
     try:
-        return plan.case_of(number).identity(plan.how)
+        return (case or plan.case_of(number)).identity(plan.how)
     except CaseError:
         settings = repr(plan.settings(number))
         base = plan.case.identity(plan.how + settings)
@@ -89,9 +92,9 @@ def identity_of(plan: Plan, number: int) -> str:
 
 def run_case(plan: Plan, number: int) -> Row:
     """Runs a case on one core. Raises KeyboardInterrupt if Ctrl-C ends it."""
-    identity = identity_of(plan, number)
+    case = plan.case_of(number)
+    identity = identity_of(plan, number, case)
     try:
-        case = plan.case_of(number)
         result = _core.run(case._load(), plan.error_bars, 1, None, plan.timeout)
     except CaseError as error:
         return row_without_result(identity, "refused", str(error))
@@ -120,6 +123,8 @@ def row_of(identity: str, result: _core.Finished) -> Row:
         None if decided is None else decided == result.n_sub_impacts,
         result.wish_met,
         result.horizon,
+        result.n_predictable,
+        result.predictable_until,
         first.get("end_s"),
         first.get("end_error_s"),
         result.first_section_yield,
