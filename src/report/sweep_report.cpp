@@ -191,7 +191,8 @@ FieldList tiles(const SweptRuns& runs) {
   const std::size_t n = runs.numbers.size();
   tile(fmt::format("{}", n), noun_after(n, "run"));
   tile(fmt::format("{}", outcomes(runs)["completed"]), "completed");
-  if (const SweptRuns::Column* counts = runs.find("n_sub_impacts")) {
+  const SweptRuns::Column* counts = runs.find("n_sub_impacts");
+  if (counts != nullptr && counts->words.empty()) {
     std::vector<double> known = counts->numbers;
     std::erase_if(known, [](double x) { return std::isnan(x); });
     const auto [least, most] = std::ranges::minmax(known);

@@ -1,9 +1,15 @@
 'use strict';
 // Axes with ticks and labels on a canvas.
 
+// A colour of the style sheet, by its name there.
+const colours = new Map();
 function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
+  if (!colours.has(name)) {
+    colours.set(name, getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim());
+  }
+  return colours.get(name);
 }
+function forgetColours() { colours.clear(); }
 
 // 1, 2 or 5 times a power of ten, nearest above.
 function roundSpacing(raw) {

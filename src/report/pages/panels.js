@@ -6,6 +6,14 @@ const lineStyles = [
   {colour: 'line4', dash: [9, 3, 2, 3]}, {colour: 'line5', dash: [4, 4]}, {colour: 'line6', dash: [12, 4]},
   {colour: 'soft', dash: [1, 3]}];
 
+// What marks the time shown, above a canvas that stays as it is.
+function overlay(canvas, name) {
+  const mark = document.createElement('div');
+  mark.className = name;
+  canvas.parentElement.append(mark);
+  return mark;
+}
+
 // A zoomable chart over time. rows: [time, value, ...] in the units of the labels.
 class TimeChart {
   constructor(place, {rows, labels, valueLabel, unit, bands = [], view}) {
@@ -123,7 +131,7 @@ function hatching() {
 // Contact force against indentation, with the branches of the contact law in colours.
 class Loop {
   constructor(strike, canvas, view) {
-    Object.assign(this, {strike, canvas, view});
+    Object.assign(this, {strike, canvas, view, dot: overlay(canvas, 'dot')});
     const {times, events} = strike;
     this.pieces = [];
     let next = 0, branch = 'apart', piece = null;
@@ -177,6 +185,7 @@ class Loop {
       x: {range: [low > margin ? low - margin : 0, high + margin], label: 'indentation, mm'},
       y: {range: [0, 1.06 * most], label: 'contact force, N'}});
     this.axes = axes;
+    Object.assign(this.dot.style, {left: `${this.canvas.offsetLeft - 5}px`, top: `${this.canvas.offsetTop - 5}px`});
     axes.frame();
     axes.inside(() => {
       for (const {branch, rows} of visible) {
@@ -185,7 +194,6 @@ class Loop {
       }
     });
     this.drawKey(axes);
-    axes.keep();
     this.drawTime();
   }
 
@@ -198,16 +206,10 @@ class Loop {
   }
 
   drawTime() {
-    const {axes, strike, view} = this;
-    axes.restore();
-    const force = strike.at('force_N', view.time);
-    const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(force);
-    axes.inside((draw) => {
-      draw.fillStyle = colour('text');
-      draw.beginPath();
-      draw.arc(x, y, 5, 0, 2 * Math.PI);
-      draw.fill();
-    });
+    const {axes, strike, view, dot} = this;
+    const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(strike.at('force_N', view.time));
+    dot.hidden = !(x >= axes.left && x <= axes.right && y >= axes.top - 1 && y <= axes.bottom + 1);
+    dot.style.transform = `translate(${x}px, ${y}px)`;
   }
 }
 
@@ -215,7 +217,7 @@ class Loop {
 // which each begins: bars from the axis, numerical error and scatter.
 class Timeline {
   constructor(strike, canvas, view, choose) {
-    Object.assign(this, {strike, canvas, view});
+    Object.assign(this, {strike, canvas, view, cursor: overlay(canvas, 'cursor')});
     const hits = strike.sub_impacts;
     this.marks = [];
     hits.forEach((s, i) => {
@@ -254,6 +256,8 @@ class Timeline {
       y: {range: logRange(this.shownValues()), label: this.bars.length > 0 ? 'duration; uncertainty, µs' : 'duration, µs', log: true},
       top: this.bars.length > 0 ? 40 : 22});
     this.axes = axes;
+    Object.assign(this.cursor.style, {left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop + axes.top}px`,
+                                      height: `${axes.bottom - axes.top}px`});
     axes.frame();
     axes.inside((draw) => {
       this.drawHorizon(axes, draw);
@@ -261,7 +265,6 @@ class Timeline {
       for (const mark of this.marks) this.drawMark(axes, draw, mark);
     });
     this.drawKey(axes);
-    axes.keep();
     this.drawTime();
   }
 
@@ -331,10 +334,10 @@ class Timeline {
   }
 
   drawTime() {
-    const {axes, view, strike} = this;
-    axes.restore();
+    const {axes, view, strike, cursor} = this;
     const x = axes.toX(view.time * strike.time_unit.per_second);
-    axes.inside(() => axes.line([[x, axes.top], [x, axes.bottom]], {colour: colour('cursor'), width: 1.5}));
+    cursor.hidden = !(x >= axes.left && x <= axes.right);
+    cursor.style.transform = `translateX(${x}px)`;
   }
 }
 
@@ -368,6 +371,10 @@ function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
 // Light, dark or as the system is. `restyle` draws in the new colours.
 function addThemeButton(restyle) {
   const names = ['auto', 'light', 'dark'];
+  const repaint = () => {
+    forgetColours();
+    restyle();
+  };
   const button = document.getElementById('theme');
   let at = 0;
   button.addEventListener('click', () => {
@@ -375,7 +382,7 @@ function addThemeButton(restyle) {
     if (at === 0) delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = names[at];
     button.textContent = 'Colours: ' + names[at];
-    restyle();
+    repaint();
   });
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', restyle);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
 }

@@ -557,7 +557,7 @@ class SweepPage {
     if (hits.length === 0) return;
     const old = byId('timeline');
     const canvas = old.cloneNode();
-    old.replaceWith(canvas);  // without what listened to the old one
+    old.parentElement.replaceChildren(canvas);  // without what listened to the old one, and its cursor
     const end = hits[hits.length - 1].end;
     const unit = end > 0.1 ? {name: 'ms', per_second: 1e3} : {name: 'µs', per_second: 1e6};
     const strike = {sub_impacts: hits, time_unit: unit, horizon: null};
@@ -581,6 +581,7 @@ class SweepPage {
     } else {
       delete root.dataset.theme;
     }
+    forgetColours();
     this.draw();
   }
 }
