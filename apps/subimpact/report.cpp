@@ -7,9 +7,11 @@
 
 #include "commands.h"
 #include "print.h"
+#include "subimpact/io/read_sweep.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/comparison_report.h"
 #include "subimpact/report/html_report.h"
+#include "subimpact/report/sweep_report.h"
 
 namespace subimpact::app {
 namespace {
@@ -56,6 +58,29 @@ int compare_runs(const ReportOptions& options) {
   return done;
 }
 
+// The directory of a sweep.
+int report_sweep(const ReportOptions& options) {
+  const std::string& sweep = options.runs.front();
+  const SweptRuns runs = read_sweep(sweep);
+  OutputDirectory directory(options.directory.empty() ? sweep : options.directory, "report");
+  write_sweep_report(directory.staging(), runs, options.runs.front());
+  directory.commit();
+  print("{}\n", (directory.path() / "sweep.html").string());
+  print_warnings(directory.notes());
+  return done;
+}
+
+int report_any(const ReportOptions& options) {
+  for (const std::string& run : options.runs) {
+    if (!holds_sweep(run)) continue;
+    if (options.runs.size() == 1) return report_sweep(options);
+    throw CLI::ValidationError(
+        "DIR",
+        fmt::format("{} holds a sweep, whose page shows all of its runs; give it alone", run));
+  }
+  return options.runs.size() > 1 ? compare_runs(options) : report(options);
+}
+
 }  // namespace
 
 void add_report(CLI::App& program, int& status) {
@@ -63,12 +88,15 @@ void add_report(CLI::App& program, int& status) {
       program.add_subcommand("report", "Write finished runs up as one page of HTML");
   auto options = std::make_shared<ReportOptions>();
   command
-      ->add_option("DIR", options->runs,
-                   "Output directory of `subimpact run`; several: their runs are compared")
+      ->add_option(
+          "DIR", options->runs,
+          "Output directory of `subimpact run`, or of subimpact-sweep; several of runs: they "
+          "are compared")
       ->required();
-  command->add_option("--out", options->directory,
-                      "Directory for report.html and its figures, or for comparison.html; made if "
-                      "missing. Default: DIR; needed with several");
+  command->add_option(
+      "--out", options->directory,
+      "Directory for report.html and its figures, comparison.html or sweep.html; made if "
+      "missing. Default: DIR; needed with several");
   command->add_option("--dygraphs", options->dygraphs,
                       "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                       "Default: that of Debian's libjs-dygraphs");
@@ -79,15 +107,14 @@ void add_report(CLI::App& program, int& status) {
       "with gnuplot.\n"
       "comparison.html shows the curves of several runs in common charts, the keys in which their "
       "cases differ, and their sub-impacts matched with those of the first.\n"
+      "sweep.html shows a map of the runs of a sweep; a click opens the numbers of a run.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
       "  subimpact report out/first\n"
       "  subimpact report out/first out/second --out out/both\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
       "missing; 3 a figure could not be drawn, the page is written without it.");
-  command->callback([options, &status] {
-    status = options->runs.size() > 1 ? compare_runs(*options) : report(*options);
-  });
+  command->callback([options, &status] { status = report_any(*options); });
 }
 
 }  // namespace subimpact::app

@@ -14,9 +14,10 @@ namespace {
 constexpr std::size_t longest_quotation = 80;
 }
 
-CsvReader::CsvReader(std::istream& file, std::string name) : file_(file), name_(std::move(name)) {
+CsvReader::CsvReader(std::istream& file, std::string name, std::string remedy)
+    : file_(file), name_(std::move(name)), remedy_(std::move(remedy)) {
   if (!read_line()) {
-    throw ResultsError(fmt::format("{}: has no heading; run the case again", name_));
+    throw ResultsError(fmt::format("{}: has no heading; {}", name_, remedy_));
   }
   heading_.assign(cells_.begin(), cells_.end());
 }
@@ -37,9 +38,8 @@ bool CsvReader::read_line() {
 bool CsvReader::next() {
   if (!read_line()) return false;
   if (cells_.size() != heading_.size()) {
-    throw ResultsError(fmt::format("{}:{}: has {} where the header has {}; run the case again",
-                                   name_, n_lines_, counted(cells_.size(), "cell"),
-                                   heading_.size()));
+    throw ResultsError(fmt::format("{}:{}: has {} where the header has {}; {}", name_, n_lines_,
+                                   counted(cells_.size(), "cell"), heading_.size(), remedy_));
   }
   return true;
 }
@@ -50,14 +50,14 @@ std::size_t CsvReader::find(std::string_view column) const {
 }
 
 void CsvReader::refuse_lack_of(std::string_view column) const {
-  throw ResultsError(fmt::format("{}: has no column {}; its columns are {}; run the case again",
-                                 name_, column, fmt::join(heading_, ", ")));
+  throw ResultsError(fmt::format("{}: has no column {}; its columns are {}; {}", name_, column,
+                                 fmt::join(heading_, ", "), remedy_));
 }
 
 void CsvReader::refuse_cell(std::size_t column, const char* allowed) const {
-  throw ResultsError(fmt::format("{}:{}: {} is \"{}\"; allowed: {}; run the case again", name_,
-                                 n_lines_, heading_[column],
-                                 cells_[column].substr(0, longest_quotation), allowed));
+  throw ResultsError(fmt::format("{}:{}: {} is \"{}\"; allowed: {}; {}", name_, n_lines_,
+                                 heading_[column], cells_[column].substr(0, longest_quotation),
+                                 allowed, remedy_));
 }
 
 }  // namespace subimpact

@@ -14,8 +14,9 @@ namespace subimpact {
 /// held at a time.
 class CsvReader {
  public:
-  /// `name`: of the file, for messages. Throws ResultsError if there is no heading.
-  CsvReader(std::istream& file, std::string name);
+  /// For messages: the file's name, and what to do if it is damaged. Throws ResultsError if there
+  /// is no heading.
+  CsvReader(std::istream& file, std::string name, std::string remedy = "run the case again");
 
   const std::vector<std::string>& heading() const { return heading_; }
   /// Whether there was a further row. Throws ResultsError if it has another number of cells.
@@ -32,7 +33,7 @@ class CsvReader {
   bool read_line();
 
   std::istream& file_;
-  std::string name_;
+  std::string name_, remedy_;
   std::string line_;
   std::size_t n_lines_ = 0;
   std::vector<std::string> heading_;

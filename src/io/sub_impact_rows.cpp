@@ -214,7 +214,7 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
   return table;
 }
 
-FinalErrors final_errors(const Result& result) {
+FinalErrors final_errors(const Case& input, const Result& result) {
   const std::vector<SubImpact>& all = result.sub_impacts;
   const std::size_t n_decided = result.n_decided().value_or(0);
   FinalErrors errors;
@@ -236,6 +236,10 @@ FinalErrors final_errors(const Result& result) {
   if (!result.error_estimate || result.error_estimate->first_unresolved) {
     errors.striker_velocity = unknown;
   }
+  const bool is_conserved = result.max_momentum_error && input.scene.beam.damping.mass == 0.0;
+  errors.beam_velocity =
+      is_conserved ? errors.striker_velocity * input.scene.striker.mass / input.scene.beam.mass()
+                   : unknown;
   return errors;
 }
 

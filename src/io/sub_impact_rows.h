@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
@@ -44,8 +45,11 @@ struct FinalErrors {
   double max_force = 0.0;         ///< N
   double max_indentation = 0.0;   ///< m
   double striker_velocity = 0.0;  ///< m/s
+  /// m/s, of the mean of the beam, by the conservation of momentum; infinite where supports or
+  /// damping take momentum up.
+  double beam_velocity = 0.0;
 };
-FinalErrors final_errors(const Result& result);
+FinalErrors final_errors(const Case& input, const Result& result);
 
 /// Why the sub-impacts from the first undecided one on are not decided; empty if all are, or if
 /// there is no error estimate.

@@ -50,6 +50,13 @@ std::optional<Rounding> rounding_of(double error, int most_decimals) {
   return Rounding{decimals, with_decimals(decimals >= 0 ? units / unit : units * unit, decimals)};
 }
 
+std::string with_two_digits(double value) {
+  const double size = std::abs(value);
+  return with_decimals(value, size > 0.0 && std::isfinite(size)
+                                  ? 1 - static_cast<int>(std::floor(std::log10(size)))
+                                  : 0);
+}
+
 std::string error_text(double seconds) {
   const bool in_ms = seconds >= 1e-3;
   const auto rounding = rounding_of((in_ms ? 1e3 : 1e6) * seconds, most_decimals_of_times);

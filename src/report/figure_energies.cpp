@@ -26,8 +26,8 @@ NumberRows spans(const Result& result, TimeUnit unit, int SubImpact::*number) {
 
 FigureScript energies_figure(const Case&, const Result& result) {
   FigureScript figure("energies",
-                      "Energies, and the motion of striker (u_mf = w_m - w(0)) and struck point "
-                      "(f_c = w_c - w(0)) relative to the beam's end. Above: zones, sub-zones and "
+                      "Energies, and the motion of striker (u_mf = w_m − w(0)) and struck point "
+                      "(f_c = w_c − w(0)) relative to the beam's end. Above: zones, sub-zones and "
                       "sub-impacts, pale where they are not decided; zones are shaded.",
                       {800, 660});
   const TimeUnit unit = time_unit(result.outcome.time);

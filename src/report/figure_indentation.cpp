@@ -128,7 +128,6 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
   figure.table("inset_loops", "inset,x,y", loops);
   figure.set("n_later", static_cast<double>(later.size()));
   figure.set("largest", result.max_indentation * length);
-  figure.set("yields", result.first_contact_yield.has_value());
   figure.set("force_unit", units.force.name).set("length_unit", units.length.name);
   set_mark(figure, "yields", units, first(EventKind::contact_yields, result), result);
   set_mark(figure, "unloads", units, first(EventKind::contact_unloads, result), result);

@@ -17,7 +17,7 @@ constexpr FigureSize panel{690, 210};
 FigureScript response_figure(const Case&, const Result& result) {
   FigureScript figure("response",
                       "Contact force and displacements over the strike: w_c of the struck point, "
-                      "w_m of the striker, f_c = w_c - w(0) the beam's deflection at the struck "
+                      "w_m of the striker, f_c = w_c − w(0) the beam's deflection at the struck "
                       "point. Shaded: sub-impacts, hatched where they are not decided.",
                       {800, 580});
   const TimeUnit unit = time_unit(result.outcome.time);

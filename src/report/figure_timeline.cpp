@@ -83,14 +83,27 @@ std::vector<bool> numbered(const Result& result, const Column& column, double sp
   return found;
 }
 
+// us, of the start; 0: exact, or not known.
+double error_us(const SubImpact& s) { return 1e6 * s.start_error.value_or(0.0); }
+double scatter_us(const SubImpact& s) { return 1e6 * s.start_scatter.value_or(0.0); }
+
+std::string caption_text(const Result& result) {
+  std::string text =
+      "Every sub-impact at the time it begins: duration and impulse, on logarithmic "
+      "axes; numbers count the sub-impacts. Pale with open circles: not decided.";
+  const auto any = [&](double (*bar)(const SubImpact&)) {
+    return std::any_of(result.sub_impacts.begin(), result.sub_impacts.end(),
+                       [&](const SubImpact& s) { return bar(s) > 0.0; });
+  };
+  if (any(error_us)) text += " Black bars: numerical error of the start.";
+  if (any(scatter_us)) text += " Purple bars: its standard deviation by the scatter of the case.";
+  return text;
+}
+
 }  // namespace
 
 FigureScript timeline_figure(const Case&, const Result& result) {
-  FigureScript figure(
-      "timeline",
-      "Every sub-impact at the time it begins: duration and impulse, on logarithmic "
-      "axes; numbers count the sub-impacts. Pale with open circles: not decided.",
-      {800, 560});
+  FigureScript figure("timeline", caption_text(result), {800, 580});
   const TimeUnit unit = time_unit(result.outcome.time);
   const std::vector<Column> columns = columns_of(result);
   NumberRows panels, sub_impacts;
@@ -111,14 +124,17 @@ FigureScript timeline_figure(const Case&, const Result& result) {
       sub_impacts.push_back({static_cast<double>(panels.size()), static_cast<double>(i + 1),
                              s.start * unit.per_second, duration_us(s, result),
                              impulse_mNs(s, result), 1.0 * durations[i], 1.0 * impulses[i],
-                             i < n_decided ? 1.0 : 0.0});
+                             i < n_decided ? 1.0 : 0.0, error_us(s), scatter_us(s)});
     }
   }
   figure.table("columns", "from,to,left,right", panels);
   figure.table("sub_impacts",
                "column,number,start,duration_us,impulse_mNs,label_duration_us,label_impulse_mNs,"
-               "decided",
+               "decided,error_us,scatter_us",
                sub_impacts);
+  const std::optional<Predictability>& found = result.predictability;
+  const bool ends = found && found->first_unpredictable;
+  figure.set("horizon", ends ? found->horizon * unit.per_second : NAN);
   figure.set("titles", titles).set("time_unit", unit.name);
   return figure;
 }

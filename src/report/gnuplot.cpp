@@ -160,7 +160,7 @@ void draw_figure(const std::filesystem::path& directory, const std::string& name
                    2 * size.width, 2 * size.height));
   constexpr double pixels_per_inch = 96.0;
   draw(directory, name, "pdf",
-       fmt::format("pdfcairo size {:.4f}in,{:.4f}in enhanced font 'sans,10.5' fontscale 1 "
+       fmt::format("pdfcairo size {:.4f}in,{:.4f}in enhanced font 'sans,14' fontscale 0.75 "
                    "linewidth 1 pointscale 0.6 background rgb 'white'",
                    size.width / pixels_per_inch, size.height / pixels_per_inch));
 }

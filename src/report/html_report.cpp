@@ -68,10 +68,17 @@ List headlines(const Result& result) {
 
 List predictability_list(const Result& result) {
   if (!result.predictability) return {};
-  return {Fields{{{"predictability", predictability_words(result)}}, {}}};
+  return {Fields{{{"predictability", in_print(predictability_words(result))},
+                  {"scatter_table", in_print(scatter_table(result))}},
+                 {}}};
 }
 
-List tiles(const Result& result) {
+List neglected_list(const Result& result) {
+  if (!result.neglected_shear) return {};
+  return {Fields{{{"neglected", in_print(neglected_shear_words(*result.neglected_shear))}}, {}}};
+}
+
+List tiles(const Case& input, const Result& result) {
   List list;
   const auto tile = [&](const std::string& value, const std::string& label) {
     list.push_back({{{"value", value}, {"label", label}}, {}});
@@ -80,10 +87,24 @@ List tiles(const Result& result) {
   tile(fmt::format("{}", result.sub_impacts.size()),
        noun_after(result.sub_impacts.size(), "sub-impact") + decided_words(result));
   tile(fmt::format("{}", n_zones), noun_after(n_zones, "zone"));
-  tile(fmt::format("{:.4g} kN", 1e-3 * result.max_force), "largest force");
-  tile(fmt::format("{:.4g} mm", 1e3 * result.max_indentation), "largest indentation");
-  tile(fmt::format("{:.4g} m/s", result.striker_velocity), "striker, at the end");
-  tile(fmt::format("{:.4g} m/s", result.beam_mean_velocity), "beam (mean), at the end");
+  // With the digits that the error allows; two where it is not known.
+  const auto tile_of = [&](double value, double error, const char* unit, const std::string& label) {
+    const std::optional<Rounding> rounding = rounding_of(error, 6);
+    if (!result.error_estimate) {
+      tile(fmt::format("{:.4g} {}", value, unit), label);
+    } else if (rounding) {
+      tile(fmt::format("{} ± {} {}", with_decimals(value, rounding->decimals), rounding->error,
+                       unit),
+           label);
+    } else {
+      tile(fmt::format("{} {}", with_two_digits(value), unit), label + " (error not known)");
+    }
+  };
+  const FinalErrors errors = final_errors(input, result);
+  tile_of(1e-3 * result.max_force, 1e-3 * errors.max_force, "kN", "largest force");
+  tile_of(1e3 * result.max_indentation, 1e3 * errors.max_indentation, "mm", "largest indentation");
+  tile_of(result.striker_velocity, errors.striker_velocity, "m/s", "striker, at the end");
+  tile_of(result.beam_mean_velocity, errors.beam_velocity, "m/s", "beam (mean), at the end");
   return list;
 }
 
@@ -180,7 +201,7 @@ Fields error_bars(const ErrorEstimate& estimate) {
            part.first_unresolved
                ? fmt::format(
                      "before sub-impact {}; from there on count and order are uncertain: {}",
-                     *part.first_unresolved + 1, part.reason)
+                     *part.first_unresolved + 1, in_print(part.reason))
                : "for all sub-impacts"}},
          {}});
   }
@@ -244,7 +265,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
        {"predictabilities", predictability_list(result)},
        {"caveats", if_given(!caveat.empty(), {{{"caveat", in_print(caveat)}}, {}})},
        {"warnings", list_of("warning", result.warnings)},
-       {"tiles", tiles(result)},
+       {"neglected", neglected_list(result)},
+       {"tiles", tiles(run.input, result)},
        {"paragraphs", list_of("paragraph", paragraphs)},
        {"figures", figure_list(figures, figure_directory)},
        {"left_out", list_of("reason", figures.left_out)},

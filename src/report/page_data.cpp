@@ -4,19 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 #include <utility>
-
-#include <nlohmann/json.hpp>
 
 #include "io/row_thinning.h"
 #include "report/figure_script.h"
+#include "report/packing.h"
 
 namespace subimpact {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Sizes that keep a page below 5 MB.
 constexpr std::size_t most_history_rows = 22'000;
@@ -42,73 +37,6 @@ constexpr HistoryColumn drawn_columns[] = {{"force_N", &HistoryRow::force},
                                            {"D_c_J", &HistoryRow::contact_plastic},
                                            {"D_b_J", &HistoryRow::beam_damping}};
 
-// --- packing -------------------------------------------------------------------------------------
-
-std::string base64(std::string_view bytes) {
-  static constexpr char digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * (bytes.size() / 3 + 1));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text.push_back(k <= n ? digits[group >> (18 - 6 * k) & 63u] : '=');
-    }
-  }
-  return text;
-}
-
-template <class Number, class Range, class Value>
-Json packed(const Range& rows, Value value) {
-  std::string bytes(rows.size() * sizeof(Number), '\0');
-  char* at = bytes.data();
-  for (const auto& row : rows) {
-    const Number number = static_cast<Number>(value(row));
-    std::memcpy(at, &number, sizeof number);
-    at += sizeof number;
-  }
-  Json column = Json::object();
-  column[std::is_same_v<Number, double> ? "f64" : "f32"] = base64(bytes);
-  return column;
-}
-
-Json packed_times(const std::vector<double>& times) {
-  return packed<double>(times, [](double x) { return x; });
-}
-
-Json packed_i24(const std::vector<double>& values) {
-  double largest = 0.0;
-  for (const double x : values) largest = std::max(largest, std::abs(x));
-  const double step = largest > 0.0 ? largest / 8388607.0 : 1.0;
-  std::string bytes;
-  bytes.reserve(3 * values.size());
-  for (const double x : values) {
-    const auto n = static_cast<unsigned>(static_cast<int>(std::lround(x / step)));
-    for (const unsigned shift : {0u, 8u, 16u}) bytes.push_back(static_cast<char>(n >> shift));
-  }
-  Json column = Json::object();
-  column["i24"] = base64(bytes);
-  column["step"] = step;
-  return column;
-}
-
-// JSON within a script element, where the text would end at "</script".
-std::string within_script(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<' || c == '>' || c == '&') {
-      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      text.push_back(c);
-    }
-  }
-  return text;
-}
-
 // --- history -------------------------------------------------------------------------------------
 
 std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::size_t most_rows) {
@@ -128,6 +56,10 @@ Json history_json(const std::vector<HistoryRow>& rows) {
         packed<float>(rows, [member = member](const HistoryRow& row) { return row.*member; });
   }
   return json;
+}
+
+Json packed_times(const std::vector<double>& times) {
+  return packed<double>(times, [](double x) { return x; });
 }
 
 // --- shapes --------------------------------------------------------------------------------------
@@ -284,9 +216,17 @@ Json sub_impacts_json(const Result& result) {
                     {"peak_force", s.peak_force},
                     {"start_error", number_or_null(s.start_error)},
                     {"end_error", number_or_null(s.end_error)},
+                    {"start_scatter", number_or_null(s.start_scatter)},
+                    {"end_scatter", number_or_null(s.end_scatter)},
                     {"decided", list.size() < n_decided}});
   }
   return list;
+}
+
+// s, up to which the strike can be predicted; null where its end can.
+Json horizon_json(const Result& result) {
+  const std::optional<Predictability>& found = result.predictability;
+  return found && found->first_unpredictable ? Json(found->horizon) : Json(nullptr);
 }
 
 Json events_json(const Result& result) {
@@ -341,6 +281,7 @@ PageData page_data(const Case& input, const Result& result) {
                {"max_force", result.max_force},
                {"max_indentation", result.max_indentation},
                {"sub_impacts", sub_impacts_json(result)},
+               {"horizon", horizon_json(result)},
                {"events", events_json(result)},
                {"plastic_zones", zones_json(result)},
                {"history", history_json(history)}};

@@ -15,24 +15,27 @@ std::string in_print(std::string text) {
       if (ends) text.replace(at + 1, 1, "µ");
     }
   }
+  for (std::size_t at = text.find("+-"); at != std::string::npos; at = text.find("+-", at)) {
+    text.replace(at, 2, "±");
+  }
   return text;
 }
 
-void add_scripts(Fields& page, const ChartLibrary& charts, std::string_view main_script) {
-  FieldList scripts;
-  const auto add = [&](std::string_view text) {
-    scripts.push_back({{{"script", std::string(text)}}, {}});
-  };
-  if (charts.missing.empty()) add(charts.script);
-  for (const char* name :
-       {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js"}) {
-    add(embedded_file(name));
+void add_own_scripts(Fields& page, std::initializer_list<std::string_view> names) {
+  FieldList& scripts = page.lists["scripts"];
+  for (const std::string_view name : names) {
+    scripts.push_back({{{"script", std::string(embedded_file(name))}}, {}});
   }
-  add(embedded_file(main_script));
-  page.lists["scripts"] = scripts;
+  page.texts["style"] = std::string(embedded_file("pages/report.css"));
+}
+
+void add_scripts(Fields& page, const ChartLibrary& charts, std::string_view main_script) {
+  if (charts.missing.empty()) page.lists["scripts"] = {{{{"script", charts.script}}, {}}};
+  add_own_scripts(
+      page, {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", main_script});
   page.lists["no_charts"] =
       if_given(!charts.missing.empty(), {{{"no_charts_reason", charts.missing}}, {}});
-  page.texts["style"] = std::string(embedded_file("pages/report.css")) + charts.style;
+  page.texts["style"] += charts.style;
 }
 
 }  // namespace subimpact

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,8 @@ inline FieldList if_given(bool given, const Fields& fields = {}) {
   return given ? FieldList{fields} : FieldList{};
 }
 
-/// Words of the program with units as they are set in print: "12 us" becomes "12 µs".
+/// Words of the program with units and signs as they are set in print: "12 us +- 1" becomes "12 µs
+/// ± 1".
 std::string in_print(std::string text);
 
 /// One line of a page's headline: what is certain, or what is not.
@@ -35,6 +37,9 @@ inline Fields headline(bool certain, const std::string& words) {
            {"words", in_print(words)}},
           {}};
 }
+
+/// Adds "style" and "scripts": files of pages/, in that order.
+void add_own_scripts(Fields& page, std::initializer_list<std::string_view> names);
 
 /// Adds "style", "scripts" and "no_charts": the chart library, if there is one, and the page's own
 /// scripts, the last of which is `main_script`.

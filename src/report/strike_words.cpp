@@ -4,8 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "case/counted.h"
+#include "io/sub_impact_rows.h"
+#include "io/uncertain.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/strike_account.h"
@@ -79,11 +82,22 @@ std::string yield_words(const Case& input, const Result& result) {
   return text;
 }
 
-std::string striker_words(const Result& result, const StrikeAccount& account) {
+// A number with the digits that its error allows; two where the error is not known.
+std::string certain_digits(const Result& result, double value, double error) {
+  if (!result.error_estimate) return fmt::format("{:.4g}", value);
+  const std::optional<Rounding> rounding = rounding_of(error, 6);
+  return rounding ? with_decimals(value, rounding->decimals) : with_two_digits(value);
+}
+
+std::string striker_words(const Case& input, const Result& result, const StrikeAccount& account) {
   const double first = result.history.front().striker_energy;
+  const double left = first - account.striker_loss;
+  const double error = final_errors(input, result).striker_velocity;
+  const double mass = input.scene.striker.mass;  // dU = m v dv
   std::string text =
-      fmt::format("The striker enters with {:.4g} J and leaves with {:.4g} J at {:.4g} m/s. ",
-                  first, first - account.striker_loss, result.striker_velocity);
+      fmt::format("The striker enters with {:.4g} J and leaves with {} J at {} m/s. ", first,
+                  certain_digits(result, left, mass * std::abs(result.striker_velocity) * error),
+                  certain_digits(result, result.striker_velocity, error));
   if (account.striker_gain <= negligible_gain * first) {
     text += "At no time does it gain energy: measured by the striker there is no recovery.";
   } else {
@@ -164,7 +178,7 @@ std::vector<std::string> strike_words(const Case& input, const Result& result) {
     paragraphs.insert(paragraphs.begin(), "Outcome: " + failure_message(input, result) + ".");
   }
   if (const auto account = account_of(result)) {
-    paragraphs.push_back(striker_words(result, *account));
+    paragraphs.push_back(striker_words(input, result, *account));
     paragraphs.push_back(recovery_words(*account));
   }
   return paragraphs;

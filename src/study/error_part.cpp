@@ -57,6 +57,12 @@ struct Doubt {
   std::string reason;
 };
 
+// "90" for 86, "0.4" for 0.43.
+std::string one_digit(double value) {
+  const std::string text = fmt::format("{:.1g}", value);
+  return value >= 9.5 && value < 1e6 ? fmt::format("{:.0f}", std::stod(text)) : text;
+}
+
 // The first sub-impact that a near miss leaves in doubt.
 std::optional<Doubt> doubt_by_near_miss(const Result& result, const ErrorPart& part) {
   for (std::size_t i = 0; i < part.gap_errors.size(); ++i) {
@@ -65,9 +71,10 @@ std::optional<Doubt> doubt_by_near_miss(const Result& result, const ErrorPart& p
     const bool opens = here.kind == NearMissKind::opening;
     return Doubt{first_in_doubt(result, here),
                  fmt::format("at {:.6g} us the {}: the indentation stays {:.2g} um {} the residual "
-                             "one, and its estimated error is {:.1g} um",
+                             "one, and its estimated error is {} um",
                              us * here.time, opens ? "contact nearly opens" : "gap nearly closes",
-                             um * here.margin, opens ? "above" : "below", um * part.gap_errors[i])};
+                             um * here.margin, opens ? "above" : "below",
+                             one_digit(um * part.gap_errors[i]))};
   }
   return std::nullopt;
 }

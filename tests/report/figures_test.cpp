@@ -229,6 +229,27 @@ TEST(Figures, SetUndecidedSubImpactsApart) {
   expect_in(content(directory.path / "response.svg"), "not decided");
 }
 
+TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
+  const TemporaryDirectory directory;
+  const Case input = short_case({});
+  Result result = sample_result_with_errors(3);
+  const std::string without = timeline_figure(input, result).text();
+  expect_in(without, "horizon = NaN");
+  result.sub_impacts[1].start_scatter = 2.5e-6;
+  result.predictability = Predictability{1, "contacts merge", 1e-3 / 3.0, 2.5e-6, {}, {}};
+  const FigureScript figure = timeline_figure(input, result);
+  expect_in(figure.text(), ",1,0.26,2.5\n");  // of a sub-impact: decided, error, scatter
+  expect_in(figure.text(), "horizon = 0.3333333");
+  expect_in(figure.caption(), "Purple bars: its standard deviation");
+  draw_figure(directory.path, "timeline", figure.text());
+  const std::string svg = content(directory.path / "timeline.svg");
+  for (const char* piece : {"error of the start", "its scatter", "not predictable"}) {
+    expect_in(svg, piece);
+  }
+  draw_figure(directory.path, "plain", timeline_figure(input, sample_result()).text());
+  EXPECT_EQ(content(directory.path / "plain.svg").find("error of the start"), std::string::npos);
+}
+
 TEST(Figures, OfARunWithoutErrorBarsSetNoSubImpactApart) {
   const Case input = short_case({});
   for (const FigureScript& figure : figure_scripts(input, sample_result())) {

@@ -263,6 +263,41 @@ TEST(HtmlReport, OfARunThatFailedSaysSo) {
   EXPECT_EQ(xml_problem(page), "");
 }
 
+TEST(HtmlReport, ShowsNoDigitBelowTheErrorOfWhatARunEndsWith) {
+  FinishedRun run = small_run();
+  run.result = sample_result_with_errors(3);
+  run.result.striker_velocity = 5.76912;
+  run.result.max_momentum_error = 1e-9;
+  run.result.sub_impacts.back().start_error = 0.1e-6;
+  const std::string known = page_of(run);
+  expect_in(known, "<b>5.7691 ± 0.0007 m/s</b><span>striker, at the end</span>");
+  expect_in(known, "<b>8.7963 ± 0.0005 kN</b>");
+  run.result.error_estimate->first_unresolved = 1;
+  const std::string unknown = page_of(run);
+  expect_in(unknown, "<b>5.8 m/s</b><span>striker, at the end (error not known)</span>");
+  EXPECT_EQ(unknown.find("5.76"), std::string::npos);
+}
+
+TEST(HtmlReport, StatesWhatTheTheoryLeavesOut) {
+  FinishedRun run = small_run();
+  run.result.neglected_shear = {200e-6, 210e-6};
+  expect_in(page_of(run),
+            "Left out: shear, which on a coarse mesh moves the end of the first contact from 200 "
+            "to 210 µs");
+}
+
+TEST(HtmlReport, ShowsTheScatterOfTimesAndTheHorizon) {
+  FinishedRun run = small_run();
+  run.result = sample_result_with_errors(3);
+  run.result.sub_impacts[1].start_scatter = 2.5e-6;
+  run.result.predictability = Predictability{1, "contacts merge", 1e-3 / 3.0, 2e-6, {}, {}};
+  const std::string page = page_of(run);
+  expect_in(page, "500 ± 3");
+  expect_in(page, "from here on not predictable: contacts merge");
+  expect_in(page, "\"horizon\":0.000333");
+  expect_in(page, "\"start_scatter\":2.5e-06");
+}
+
 TEST(ComparisonReport, ListsTheKeysThatDifferAndMatchesSubImpacts) {
   const std::vector<FinishedRun> runs = {
       small_run(), small_run({parse_override("solver.method=central-difference")})};

@@ -45,7 +45,7 @@ TEST(StabilityFigures, NameMethodsAndAxesOfTheirTables) {
   layers.points = {{10, {}}, {20, {}}};
   for (LayerPoint& p : layers.points) p.errors.maximum = p.errors.median = 1e-6 / p.layers;
   write_layers(directory.path, layers);
-  expect_in(directory.path / "layers.svg", {"layers - exact (us)", "lost or invented"});
+  expect_in(directory.path / "layers.svg", {"layers − exact (µs)", "lost or invented"});
 }
 
 TEST(AMapOfOutcomes, HasARowPerMethodAndAColumnPerSetting) {

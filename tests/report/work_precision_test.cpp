@@ -112,7 +112,7 @@ TEST(AWorkPrecisionChart, HasAPanelAStudyAndNamesMethodsAxesAndFailures) {
   draw_work_precision(directory.path, studies());
   const std::string svg = content(directory.path / "work_precision.svg");
   for (const char* piece : {"elastic section", "erk:dop853", "nystrom", "wall time (ms)",
-                            "largest error of an event time (us)", "failed", "lost or invented"}) {
+                            "largest error of an event time (µs)", "failed", "lost or invented"}) {
     EXPECT_NE(svg.find(piece), std::string::npos) << piece;
   }
   EXPECT_GT(content(directory.path / "work_precision.png").size(), 10000u);

@@ -15,7 +15,7 @@ set xrange [80:1000]
 do for [theory in 'rayleigh euler-bernoulli'] {
   first = theory eq 'rayleigh'
   set title (first ? 'Rayleigh: lines predicted, points measured' : 'Euler-Bernoulli (no rotary inertia)')
-  set ylabel (first ? 'largest stable step (us)' : '')
+  set ylabel (first ? 'largest stable step (µs)' : '')
   plot for [k=1:words(methods)] table using 'segments':(of(k, theory, 'predicted_s')) \
          with lines lt colour(k) dt dashes(k) notitle, \
        for [k=1:words(methods)] table using 'segments':(of(k, theory, 'measured_s')) \

@@ -26,14 +26,15 @@ plot $zones using (middle(0)):(2.5):'from':'to':(2.08):(2.92) with boxxyerror \
      $zones using (is_wide(0) ? middle(0) : NaN):(2.5):'number' with labels font ',12' notitle, \
      $subzones using (is_wide(0) ? middle(0) : NaN):(1.5):'number' with labels font ',12' notitle
 set border 3
-set ytics autofreq scale 1 font ',14'
-set xtics tics(end, 8)
+set ytics nomirror autofreq scale 1 font ',14'
+set xtics nomirror tics(end, 8)
 set grid
 eval shaded('$zones', '#F0F0F0')
 
 eval placed(0.15, 0.97, 0.46, 0.89)
 set ylabel 'energy, '.energy_unit
 set yrange [0:*]
+set offsets 0, 0, graph 0.3, 0  # room for the key
 set key top center maxrows 3 samplen 2.5
 plot $striker with lines title 'striker U_m', \
      $kinetic with lines title 'beam, kinetic U_k', \
@@ -48,8 +49,8 @@ eval placed(0.15, 0.97, 0.1, 0.43)
 set ylabel 'deformation, '.length_unit
 set yrange [*:*]
 set format x '% h'
-set key bottom right maxrows 2
-set offsets 0, 0, graph 0.05, 0
+set key top left horizontal maxrows 1
+set offsets 0, 0, graph 0.18, 0
 set xlabel 'time, '.time_unit
 plot $struck_point with lines lc 1 title 'struck point f_c', \
      $striker_path with lines lc 2 dashtype 2 title 'striker u_{mf}'

@@ -23,7 +23,7 @@ plot $moment_largest with lines lc 1 title 'largest', \
 
 eval placed(0.12, 0.97, 0.39, 0.62)
 set key at graph 1, graph 1.16 right top horizontal maxrows 1 samplen 2.5
-set ylabel 'outer strain, 10^{-3}'
+set ylabel 'outer strain, 10^{−3}'
 # A hinge strains far more than the rest of the beam: its peak is cut off.
 limit = 6*yield_strain
 stats $strain_largest using 'y' nooutput

@@ -1,22 +1,18 @@
 # Tables: $first, $later (x, y: the first sub-impact and those after it), $insets (number, start_ms,
 # from, to, peak) and $inset_loops (inset, x, y): later sub-impacts that yield again.
-# Variables: n_later, largest (indentation), yields (whether the contact does), force_unit,
+# Variables: n_later, largest (indentation), force_unit,
 # length_unit; yields_x, yields_y, unloads_x, unloads_y: marks in the first sub-impact, if any.
 n_insets = |$insets| - 1
 if ($insets[2] eq 'NaN,NaN,NaN,NaN,NaN') { n_insets = 0 }
 set multiplot title marks font ',12'
-eval placed(0.10, n_insets ? 0.61 : 0.97, 0.14, 0.95)
+eval placed(0.10, n_insets ? 0.61 : 0.97, 0.14, 0.91)
 set xlabel 'indentation, '.length_unit
 set ylabel 'contact force, '.force_unit offset 0.5
 set xrange [0:1.06*largest]
 set xtics tics(largest, 4)
 set yrange [0:*]
 set offsets 0, 0, graph 0.06, 0
-if (yields > 0) {  # under the yielding branch; an elastic contact leaves no room there
-  set key bottom left Left reverse at graph 0.13, graph 0.05 samplen 2.5
-} else {
-  set key bottom right samplen 2.5
-}
+set key at graph 1, graph 1.1 right top horizontal maxrows 1 samplen 2.5
 if (exists('yields_x')) {
   set label 'A: contact yields' at yields_x, yields_y point pt 7 ps 1.2 lc rgb '#000000' \
       left offset 1, -0.4 front

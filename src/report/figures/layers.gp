@@ -7,11 +7,11 @@ of(name, all) = (column('corresponding') == column('sub_impacts') \
                 ? us*column(name) : NaN
 set logscale xy
 set xlabel 'layers'
-set ylabel 'event times, layers - exact (us)'
+set ylabel 'event times, layers − exact (µs)'
 set format y '10^{%L}'
 set xtics (10, 20, 40, 80, 160, 320, 640)
 set xrange [8:800]
-set key top right
+set key above
 plot error*(n/x)**2 with lines lt rgb '#808080' dt 2 title 'falling as 1/layers^2', \
      table using 'layers':(of('max_difference_s', 1)) with points lt 1 pt 7 title 'largest', \
      table using 'layers':(of('max_difference_s', 0)) with points lt 1 pt 6 \

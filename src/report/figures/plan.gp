@@ -15,10 +15,13 @@ stats table using (sequences = added(sequences, strcol('sequence')), \
 set logscale xy
 set format x '10^{%L}'
 set format y '10^{%L}'
-set xlabel 'largest error of an event time before the horizon (us)'
+set xlabel 'largest error of an event time before the horizon (µs)'
 set ylabel 'counted work (evaluations times unknowns)'
-set xrange [0.5*least(1e6*low_error, reference_us):2*most(1e6*high_error, wanted_us)]
-set yrange [0.5*low_work:2*high_work]
+# Whole decades, so that each axis has two labelled tics at least.
+decade_below(x) = 10**floor(log10(x))
+decade_above(x) = 10**ceil(log10(x))
+set xrange [decade_below(0.5*least(1e6*low_error, reference_us)):decade_above(2*most(1e6*high_error, wanted_us))]
+set yrange [decade_below(0.5*low_work):decade_above(2*high_work)]
 set key outside right top Left reverse samplen 2 spacing 1.25
 set arrow 1 from wanted_us, graph 0 to wanted_us, graph 1 nohead dt 2 lc rgb '#404040'
 set label 1 'wanted' at wanted_us, graph 0.02 left offset 0.5,0 tc rgb '#404040'

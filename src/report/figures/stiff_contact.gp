@@ -2,10 +2,10 @@
 table = 'stiff_contact.csv'
 set logscale xy
 set xlabel 'contact stiffness (N/m)'
-set ylabel 'largest stable step (us)'
+set ylabel 'largest stable step (µs)'
 set format x '10^{%L}'
 set format y '%g'
-set key bottom left
+set key above
 plot table using 'stiffness_N_per_m':(us*column('beam_only_s')) with lines lt 7 dt 2 \
        title 'beam alone', \
      table using 'stiffness_N_per_m':(us*column('predicted_s')) with lines lt 1 \

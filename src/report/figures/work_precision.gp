@@ -30,7 +30,7 @@ set bmargin screen 0.14
 set tmargin screen 0.9
 set xrange [decade_below(low_error):edge]
 set yrange [decade_below(low_cost):decade_above(high_cost)]
-set xlabel 'largest error of an event time (us)'
+set xlabel 'largest error of an event time (µs)'
 set format x '10^{%L}'
 set format y '10^{%L}'
 set mxtics 1

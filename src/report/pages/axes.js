@@ -1,9 +1,15 @@
 'use strict';
 // Axes with ticks and labels on a canvas.
 
+// A colour of the style sheet, by its name there.
+const colours = new Map();
 function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
+  if (!colours.has(name)) {
+    colours.set(name, getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim());
+  }
+  return colours.get(name);
 }
+function forgetColours() { colours.clear(); }
 
 // 1, 2 or 5 times a power of ten, nearest above.
 function roundSpacing(raw) {
@@ -46,7 +52,8 @@ function logRange(values) {
 }
 
 class Axes {
-  // options: x and y: {range, label, log}; a range may descend. left, top: margins in pixels.
+  // options: x and y: {range, label, log, ticks}; a range may descend; ticks: those to show, if not
+  // round ones. left, top: margins in pixels.
   constructor(canvas, options) {
     this.canvas = canvas;
     const ratio = window.devicePixelRatio || 1;
@@ -73,8 +80,16 @@ class Axes {
   toY(value) { return this.bottom - Axes.share(this.y, value) * (this.bottom - this.top); }
 
   ticks(axis, pixels, perTick) {
+    if (axis.ticks) return axis.ticks;
     const [from, to] = [Math.min(...axis.range), Math.max(...axis.range)];
     return axis.log ? logTicks(from, to) : linearTicks(from, to, Math.max(2, Math.floor(pixels / perTick)));
+  }
+
+  // Pixels that the vertical axis needs for its labels, a third of the width at most.
+  roomForLabels() {
+    this.draw.font = '12px system-ui, sans-serif';
+    const widths = this.ticks(this.y, this.bottom - this.top, 36).map(({label}) => this.draw.measureText(label).width);
+    return Math.min(Math.max(66, ...widths.map((width) => width + 34)), this.width / 3);
   }
 
   // Grid, ticks and labels; what is drawn afterwards lies above the grid.

@@ -6,6 +6,14 @@ const lineStyles = [
   {colour: 'line4', dash: [9, 3, 2, 3]}, {colour: 'line5', dash: [4, 4]}, {colour: 'line6', dash: [12, 4]},
   {colour: 'soft', dash: [1, 3]}];
 
+// What marks the time shown, above a canvas that stays as it is.
+function overlay(canvas, name) {
+  const mark = document.createElement('div');
+  mark.className = name;
+  canvas.parentElement.append(mark);
+  return mark;
+}
+
 // A zoomable chart over time. rows: [time, value, ...] in the units of the labels.
 class TimeChart {
   constructor(place, {rows, labels, valueLabel, unit, bands = [], view}) {
@@ -123,7 +131,7 @@ function hatching() {
 // Contact force against indentation, with the branches of the contact law in colours.
 class Loop {
   constructor(strike, canvas, view) {
-    Object.assign(this, {strike, canvas, view});
+    Object.assign(this, {strike, canvas, view, dot: overlay(canvas, 'dot')});
     const {times, events} = strike;
     this.pieces = [];
     let next = 0, branch = 'apart', piece = null;
@@ -177,6 +185,7 @@ class Loop {
       x: {range: [low > margin ? low - margin : 0, high + margin], label: 'indentation, mm'},
       y: {range: [0, 1.06 * most], label: 'contact force, N'}});
     this.axes = axes;
+    Object.assign(this.dot.style, {left: `${this.canvas.offsetLeft - 5}px`, top: `${this.canvas.offsetTop - 5}px`});
     axes.frame();
     axes.inside(() => {
       for (const {branch, rows} of visible) {
@@ -185,7 +194,6 @@ class Loop {
       }
     });
     this.drawKey(axes);
-    axes.keep();
     this.drawTime();
   }
 
@@ -198,39 +206,38 @@ class Loop {
   }
 
   drawTime() {
-    const {axes, strike, view} = this;
-    axes.restore();
-    const force = strike.at('force_N', view.time);
-    const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(force);
-    axes.inside((draw) => {
-      draw.fillStyle = colour('text');
-      draw.beginPath();
-      draw.arc(x, y, 5, 0, 2 * Math.PI);
-      draw.fill();
-    });
+    const {axes, strike, view, dot} = this;
+    const x = axes.toX(1e3 * strike.at('indentation_m', view.time)), y = axes.toY(strike.at('force_N', view.time));
+    dot.hidden = !(x >= axes.left && x <= axes.right && y >= axes.top - 1 && y <= axes.bottom + 1);
+    dot.style.transform = `translate(${x}px, ${y}px)`;
   }
 }
 
-// Durations of sub-impacts and of the separations after them, with their errors as bars.
+// Durations of sub-impacts and of the separations after them, above the uncertainty of the time at
+// which each begins: bars from the axis, numerical error and scatter.
 class Timeline {
   constructor(strike, canvas, view, choose) {
-    Object.assign(this, {strike, canvas, view});
+    Object.assign(this, {strike, canvas, view, cursor: overlay(canvas, 'cursor')});
     const hits = strike.sub_impacts;
     this.marks = [];
     hits.forEach((s, i) => {
-      const error = s.start_error === null || s.end_error === null ? null : s.start_error + s.end_error;
-      this.marks.push({kind: 'contact', index: i, time: s.start, value: s.end - s.start, error, decided: s.decided});
+      this.marks.push({kind: 'contact', index: i, time: s.start, value: s.end - s.start,
+                       error: s.start_error, scatter: s.start_scatter, decided: s.decided});
       const after = hits[i + 1];
       if (!after || s.ongoing) return;
-      const gapError = s.end_error === null || after.start_error === null ? null : s.end_error + after.start_error;
-      this.marks.push({kind: 'separation', index: i, time: s.end, value: after.start - s.end, error: gapError,
-                       decided: after.decided});
+      this.marks.push({kind: 'separation', index: i, time: s.end, value: after.start - s.end,
+                       error: s.end_error, scatter: s.end_scatter, decided: after.decided});
     });
+    this.bars = Timeline.barStyles.filter(({name}) => this.marks.some((mark) => mark[name] > 0));
     canvas.addEventListener('click', (event) => {
       const nearest = this.nearest(event.offsetX, event.offsetY);
       if (nearest) choose(nearest.index);
     });
   }
+
+  static barStyles = [
+    {name: 'scatter', words: 'scatter (one standard deviation)', colour: 'scatter', width: 9},
+    {name: 'error', words: 'numerical error', colour: 'text', width: 3}];
 
   nearest(x, y) {
     const {axes, strike} = this;
@@ -246,27 +253,52 @@ class Timeline {
     const range = [(view.from - margin) * unit.per_second, (view.to + margin) * unit.per_second];
     const axes = new Axes(canvas, {
       x: {range, label: `start, ${unit.name}`},
-      y: {range: logRange(this.marks.map(({value}) => 1e6 * value)), label: 'duration, µs', log: true}});
+      y: {range: logRange(this.shownValues()), label: this.bars.length > 0 ? 'duration; uncertainty, µs' : 'duration, µs', log: true},
+      top: this.bars.length > 0 ? 40 : 22});
     this.axes = axes;
+    Object.assign(this.cursor.style, {left: `${canvas.offsetLeft}px`, top: `${canvas.offsetTop + axes.top}px`,
+                                      height: `${axes.bottom - axes.top}px`});
     axes.frame();
     axes.inside((draw) => {
+      this.drawHorizon(axes, draw);
+      for (const bar of this.bars) this.marks.forEach((mark) => this.drawBar(axes, bar, mark));
       for (const mark of this.marks) this.drawMark(axes, draw, mark);
     });
     this.drawKey(axes);
-    axes.keep();
     this.drawTime();
   }
 
-  drawMark(axes, draw, {kind, time, value, error, decided}) {
+  // In µs; of bars, those down to a thousandth of the shortest duration.
+  shownValues() {
+    const values = this.marks.map(({value}) => 1e6 * value).filter((value) => value > 0);
+    const least = Math.min(...values) / 1e3;
+    const bars = this.bars.flatMap(({name}) => this.marks.map((mark) => 1e6 * mark[name]));
+    return [...values, ...bars.filter((value) => value > least)];
+  }
+
+  // Where the strike can no longer be predicted.
+  drawHorizon(axes, draw) {
+    const {horizon, time_unit: unit} = this.strike;
+    if (typeof horizon !== 'number') return;
+    const x = Math.max(axes.toX(horizon * unit.per_second), axes.left);
+    if (x >= axes.right) return;
+    draw.fillStyle = colour('doubt-fill');
+    draw.fillRect(x, axes.top, axes.right - x, axes.bottom - axes.top);
+    axes.line([[x, axes.top], [x, axes.bottom]], {colour: colour('doubt'), width: 1.5, dash: [6, 4]});
+    const toLeft = x > axes.right - 120;
+    axes.text(toLeft ? 'predictable' : 'not predictable', toLeft ? x - 6 : x + 6, axes.top + 9, toLeft ? 'right' : 'left');
+  }
+
+  drawBar(axes, {name, colour: tone, width}, mark) {
+    const value = 1e6 * mark[name];
+    if (!(value > axes.y.range[0])) return;
+    const x = axes.toX(mark.time * this.strike.time_unit.per_second);
+    axes.line([[x, axes.bottom], [x, axes.toY(value)]], {colour: colour(tone), width});
+  }
+
+  drawMark(axes, draw, {kind, time, value, decided}) {
     const x = axes.toX(time * this.strike.time_unit.per_second), y = axes.toY(1e6 * value);
     const name = kind === 'contact' ? 'line1' : 'line2';
-    if (error !== null && error > 0) {
-      const bottom = value > error ? axes.toY(1e6 * (value - error)) : axes.bottom;
-      const top = axes.toY(1e6 * (value + error));
-      axes.line([[x, bottom], [x, top]], {colour: colour(name), width: 1.5});
-      axes.line([[x - 4, top], [x + 4, top]], {width: 1.5});
-      if (value > error) axes.line([[x - 4, bottom], [x + 4, bottom]], {width: 1.5});
-    }
     draw.beginPath();
     if (kind === 'contact') draw.arc(x, y, 4, 0, 2 * Math.PI);
     else draw.rect(x - 3.5, y - 3.5, 7, 7);
@@ -293,13 +325,19 @@ class Timeline {
       draw.stroke();
       axes.text(text, x + 9, y);
     });
+    let x = axes.left + 12;
+    for (const {words: text, colour: tone, width} of [...this.bars].reverse()) {
+      axes.line([[x, 19], [x, 33]], {colour: colour(tone), width});
+      axes.text(text, x + 9, 26);
+      x += 24 + draw.measureText(text).width;
+    }
   }
 
   drawTime() {
-    const {axes, view, strike} = this;
-    axes.restore();
+    const {axes, view, strike, cursor} = this;
     const x = axes.toX(view.time * strike.time_unit.per_second);
-    axes.inside(() => axes.line([[x, axes.top], [x, axes.bottom]], {colour: colour('cursor'), width: 1.5}));
+    cursor.hidden = !(x >= axes.left && x <= axes.right);
+    cursor.style.transform = `translateX(${x}px)`;
   }
 }
 
@@ -333,6 +371,10 @@ function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
 // Light, dark or as the system is. `restyle` draws in the new colours.
 function addThemeButton(restyle) {
   const names = ['auto', 'light', 'dark'];
+  const repaint = () => {
+    forgetColours();
+    restyle();
+  };
   const button = document.getElementById('theme');
   let at = 0;
   button.addEventListener('click', () => {
@@ -340,7 +382,7 @@ function addThemeButton(restyle) {
     if (at === 0) delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = names[at];
     button.textContent = 'Colours: ' + names[at];
-    restyle();
+    repaint();
   });
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', restyle);
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', repaint);
 }

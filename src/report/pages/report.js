@@ -76,6 +76,7 @@ class Page {
     document.addEventListener('keydown', (event) => this.key(event));
     view.onChange((what) => this.later(what));
     new ResizeObserver(() => this.later('size')).observe(document.body);
+    this.watchPanels();
     addThemeButton(() => this.restyle());
     this.drawAll();
   }
@@ -92,6 +93,14 @@ class Page {
         rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel: label,
         unit: strike.time_unit, bands: bandsOf(strike), view: this.view}));
     }
+  }
+
+  // Canvases out of sight are not painted while the picture moves.
+  watchPanels() {
+    const watcher = new IntersectionObserver((entries) => {
+      for (const {target, isIntersecting} of entries) target.classList.toggle('away', !isIntersecting);
+    }, {rootMargin: '200px'});
+    document.querySelectorAll('#strike .panel').forEach((panel) => watcher.observe(panel));
   }
 
   // Drawing waits for the next frame, so that many changes within one are drawn once.
@@ -235,6 +244,7 @@ class Page {
     const {view, player, strike} = this;
     player.changed = () => {
       byId('play').textContent = player.playing ? 'Pause' : 'Play';
+      document.documentElement.classList.toggle('playing', player.playing);
     };
     byId('play').addEventListener('click', () => player.toggle());
     byId('back').addEventListener('click', () => this.step(-1));

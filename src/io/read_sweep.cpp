@@ -1,0 +1,147 @@
+#include "subimpact/io/read_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "io/check_results.h"
+#include "io/csv_reader.h"
+#include "io/run_tables.h"
+#include "subimpact/io/read_results.h"
+
+namespace subimpact {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* runs_name = "runs.csv";
+constexpr const char* sub_impacts_name = "sub_impacts.csv";
+constexpr const char* remedy = "run the sweep again, which takes what it has from its store";
+
+struct SweptSubImpact {
+  long run = 0;
+  SubImpact sub_impact;
+};
+
+// Those of events.csv after the run's number.
+Columns<SweptSubImpact> sub_impact_columns() {
+  Columns<SweptSubImpact> columns = {{"run", &SweptSubImpact::run}};
+  for (const Column<SubImpact>& of_run : events_columns()) {
+    if (!of_run.read) continue;
+    Column<SweptSubImpact> column(of_run.name, [](const SweptSubImpact&) { return 0.0; });
+    column.allowed = of_run.allowed;
+    column.optional = of_run.optional;
+    column.read = [read = of_run.read](std::string_view cell, SweptSubImpact& row) {
+      return read(cell, row.sub_impact);
+    };
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+std::ifstream opened(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw ResultsError(fmt::format("{}: cannot be read; {}", path.string(), remedy));
+  }
+  return file;
+}
+
+// As numbers, if every cell is a number or empty.
+std::optional<std::vector<double>> as_numbers(const std::vector<std::string>& cells) {
+  std::vector<double> numbers;
+  for (const std::string& cell : cells) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (!cell.empty() && !read_cell(cell, value)) return std::nullopt;
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+SweptRuns read_runs(const fs::path& path) {
+  std::ifstream file = opened(path);
+  CsvReader csv(file, path.string(), remedy);
+  const std::size_t n = csv.heading().size();
+  const std::size_t run = csv.find("run"), outcome = csv.find("outcome");
+  if (run == n) csv.refuse_lack_of("run");
+  if (outcome == n) csv.refuse_lack_of("outcome");
+  SweptRuns runs;
+  std::vector<std::vector<std::string>> cells(n);
+  while (csv.next()) {
+    long number = 0;
+    const long least = runs.numbers.empty() ? 0 : runs.numbers.back() + 1;
+    if (!read_cell(csv.cell(run), number) || number < least) {
+      csv.refuse_cell(run, "whole numbers from 0, in ascending order");
+    }
+    if (csv.cell(outcome).empty()) csv.refuse_cell(outcome, "how the run ended");
+    runs.numbers.push_back(number);
+    for (std::size_t k = 0; k < n; ++k) cells[k].emplace_back(csv.cell(k));
+  }
+  if (runs.numbers.empty()) {
+    throw ResultsError(fmt::format("{}: has no run yet; {}", path.string(), remedy));
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k == run) continue;
+    SweptRuns::Column column{csv.heading()[k], k > run && k < outcome, {}, {}};
+    const auto numbers = k == outcome ? std::nullopt : as_numbers(cells[k]);
+    if (!numbers) {
+      column.words = std::move(cells[k]);
+    } else if (std::ranges::any_of(*numbers, [](double x) { return !std::isnan(x); })) {
+      column.numbers = *numbers;
+    } else {
+      continue;
+    }
+    runs.columns.push_back(std::move(column));
+  }
+  return runs;
+}
+
+void read_sub_impacts(const fs::path& path, SweptRuns& runs) {
+  std::map<long, std::size_t> places;
+  for (const long number : runs.numbers) places.emplace(number, places.size());
+  runs.sub_impacts.resize(runs.numbers.size());
+  std::ifstream file = opened(path);
+  CsvReader csv(file, path.string(), remedy);
+  std::optional<long> before;
+  std::optional<RowChecks> checks;
+  for_each_row(csv, sub_impact_columns(), [&](const SweptSubImpact& row) {
+    const auto place = places.find(row.run);
+    if (place == places.end()) csv.refuse_cell(csv.find("run"), "a run of runs.csv");
+    if (row.run != before) {
+      if (!runs.sub_impacts[place->second].empty()) {
+        csv.refuse_cell(csv.find("run"), "rows of one run after each other");
+      }
+      checks.emplace(fmt::format("{}, run {}", path.string(), row.run));
+    }
+    before = row.run;
+    checks->check(row.sub_impact);
+    runs.sub_impacts[place->second].push_back(row.sub_impact);
+  });
+}
+
+}  // namespace
+
+const SweptRuns::Column* SweptRuns::find(std::string_view name) const {
+  const auto found = std::ranges::find(columns, name, &Column::name);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+bool holds_sweep(const fs::path& directory) {
+  std::error_code ignored;
+  return fs::exists(directory / runs_name, ignored) &&
+         !fs::exists(directory / "summary.json", ignored);
+}
+
+SweptRuns read_sweep(const fs::path& directory) {
+  SweptRuns runs = read_runs(directory / runs_name);
+  read_sub_impacts(directory / sub_impacts_name, runs);
+  return runs;
+}
+
+}  // namespace subimpact

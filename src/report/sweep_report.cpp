@@ -1,0 +1,229 @@
+#include "subimpact/report/sweep_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "case/counted.h"
+#include "io/write_file.h"
+#include "report/files.h"
+#include "report/packing.h"
+#include "report/page_parts.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/io/report.h"
+
+namespace subimpact {
+namespace {
+
+constexpr std::size_t most_sub_impacts = 80'000;  // on a page, which stays below 6 MB or so
+
+// How a column of results is shown: a value times `factor`, in `unit`.
+struct Shown {
+  const char* column;
+  const char* label;
+  const char* unit;
+  double factor;
+};
+constexpr Shown shown_results[] = {
+    {"n_sub_impacts", "sub-impacts", "", 1.0},
+    {"n_zones", "zones", "", 1.0},
+    {"n_decided", "sub-impacts decided", "", 1.0},
+    {"all_decided", "all decided (1: yes)", "", 1.0},
+    {"time_s", "time reached", "ms", 1e3},
+    {"wish_met", "wish met (1: yes)", "", 1.0},
+    {"horizon_s", "horizon of the wish", "µs", 1e6},
+    {"first_separation_s", "end of the first contact", "µs", 1e6},
+    {"first_separation_error_s", "error of the end of the first contact", "µs", 1e6},
+    {"first_section_yield_s", "first yield of a section", "µs", 1e6},
+    {"first_contact_yield_s", "first yield of the contact", "µs", 1e6},
+    {"max_force_N", "largest force", "N", 1.0},
+    {"max_indentation_m", "largest indentation", "mm", 1e3},
+    {"residual_indentation_m", "residual indentation", "mm", 1e3},
+    {"impulse_Ns", "impulse", "N s", 1.0},
+    {"striker_velocity_m_per_s", "striker, at the end", "m/s", 1.0},
+    {"beam_mean_velocity_m_per_s", "beam (mean), at the end", "m/s", 1.0},
+    {"restitution", "restitution", "", 1.0},
+    {"striker_energy_share", "part of its energy that the striker keeps", "", 1.0},
+    {"max_energy_error", "largest error of the energy, relative", "", 1.0}};
+
+Shown shown(const SweptRuns::Column& column) {
+  const auto found = std::ranges::find(shown_results, column.name, &Shown::column);
+  if (found != std::end(shown_results)) return *found;
+  const CaseKey* key = column.is_key ? find_case_key(column.name) : nullptr;
+  return {column.name.c_str(), column.name.c_str(), key ? key->unit.c_str() : "", 1.0};
+}
+
+// --- data ----------------------------------------------------------------------------------------
+
+Json words_json(const std::vector<std::string>& words) {
+  std::map<std::string, int> places;
+  Json different = Json::array(), indices = Json::array();
+  for (const std::string& word : words) {
+    const auto [place, is_new] = places.emplace(word, static_cast<int>(places.size()));
+    if (is_new) different.push_back(word);
+    indices.push_back(place->second);
+  }
+  return {{"words", different}, {"indices", indices}};
+}
+
+Json column_json(const SweptRuns::Column& column) {
+  const Shown how = shown(column);
+  Json json = {{"name", column.name},
+               {"label", how.label},
+               {"unit", how.unit},
+               {"factor", how.factor},
+               {"is_key", column.is_key}};
+  const CaseKey* key = column.is_key ? find_case_key(column.name) : nullptr;
+  json["is_flag"] = key && key->type == KeyType::flag;
+  const auto same = [](double x) { return x; };
+  if (!column.words.empty()) {
+    json["values"] = words_json(column.words);
+  } else {
+    json["values"] =
+        column.is_key ? packed<double>(column.numbers, same) : packed<float>(column.numbers, same);
+  }
+  return json;
+}
+
+// The sub-impacts of all runs, one after another, and how many each run has; -1: left out.
+Json sub_impacts_json(const SweptRuns& runs, std::size_t& n_left_out) {
+  std::vector<SubImpact> rows;
+  Json counts = Json::array();
+  for (const std::vector<SubImpact>& of_run : runs.sub_impacts) {
+    const bool fits = rows.size() + of_run.size() <= most_sub_impacts;
+    counts.push_back(fits ? static_cast<int>(of_run.size()) : -1);
+    n_left_out += fits ? 0 : 1;
+    if (fits) rows.insert(rows.end(), of_run.begin(), of_run.end());
+  }
+  const auto or_nan = [](const std::optional<double>& x) {
+    return x.value_or(std::numeric_limits<double>::quiet_NaN());
+  };
+  using S = SubImpact;
+  return {
+      {"counts", counts},
+      {"start", packed<double>(rows, [](const S& s) { return s.start; })},
+      {"end", packed<double>(rows, [&](const S& s) { return or_nan(s.end); })},
+      {"start_error", packed<float>(rows, [&](const S& s) { return or_nan(s.start_error); })},
+      {"end_error", packed<float>(rows, [&](const S& s) { return or_nan(s.end_error); })},
+      {"start_scatter", packed<float>(rows, [&](const S& s) { return or_nan(s.start_scatter); })},
+      {"end_scatter", packed<float>(rows, [&](const S& s) { return or_nan(s.end_scatter); })},
+      {"peak_force", packed<float>(rows, [](const S& s) { return s.peak_force; })},
+      {"impulse", packed<float>(rows, [](const S& s) { return s.impulse; })},
+      {"max_indentation", packed<float>(rows, [](const S& s) { return s.max_indentation; })},
+      {"striker_velocity", packed<float>(rows, [](const S& s) { return s.striker_velocity; })}};
+}
+
+// --- words ---------------------------------------------------------------------------------------
+
+std::map<std::string, std::size_t> outcomes(const SweptRuns& runs) {
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& outcome : runs.find("outcome")->words) ++counts[outcome];
+  return counts;
+}
+
+FieldList headlines(const SweptRuns& runs) {
+  FieldList list;
+  const std::size_t n = runs.numbers.size();
+  if (const SweptRuns::Column* decided = runs.find("all_decided")) {
+    const auto count = [&](double value) {
+      return static_cast<std::size_t>(std::ranges::count(decided->numbers, value));
+    };
+    if (count(1.0) > 0) {
+      list.push_back(headline(true, fmt::format("count and order of the sub-impacts in {} of {}.",
+                                                count(1.0), counted(n, "run"))));
+    }
+    if (count(0.0) > 0) {
+      list.push_back(
+          headline(false, fmt::format("the counts of {}, which the map marks with a cross; a "
+                                      "pattern among them may be that of their errors.",
+                                      counted(count(0.0), "run"))));
+    }
+  } else {
+    list.push_back(headline(false,
+                            "counts, times and order of sub-impacts: the sweep was made without "
+                            "error bars, so that no run states how far they can be trusted."));
+  }
+  for (const auto& [outcome, count] : outcomes(runs)) {
+    if (outcome == "completed") continue;
+    list.push_back(headline(
+        false, fmt::format("{} with the outcome \"{}\".", counted(count, "run"), outcome)));
+  }
+  return list;
+}
+
+std::string range_text(const SweptRuns::Column& column) {
+  if (!column.words.empty()) {
+    const std::set<std::string> different(column.words.begin(), column.words.end());
+    return fmt::format("{} different texts", different.size());
+  }
+  std::set<double> different;
+  for (const double x : column.numbers) {
+    if (!std::isnan(x)) different.insert(x);
+  }
+  const Shown how = shown(column);
+  return fmt::format("{} different, {:.6g} to {:.6g} {}", different.size(),
+                     how.factor * *different.begin(), how.factor * *different.rbegin(), how.unit);
+}
+
+FieldList key_list(const SweptRuns& runs) {
+  FieldList list;
+  for (const SweptRuns::Column& column : runs.columns) {
+    if (!column.is_key) continue;
+    const CaseKey* key = find_case_key(column.name);
+    list.push_back({{{"key", column.name},
+                     {"meaning", key ? key->meaning : ""},
+                     {"values", range_text(column)}},
+                    {}});
+  }
+  return list;
+}
+
+FieldList tiles(const SweptRuns& runs) {
+  FieldList list;
+  const auto tile = [&](const std::string& value, const std::string& label) {
+    list.push_back({{{"value", value}, {"label", label}}, {}});
+  };
+  const std::size_t n = runs.numbers.size();
+  tile(fmt::format("{}", n), noun_after(n, "run"));
+  tile(fmt::format("{}", outcomes(runs)["completed"]), "completed");
+  const SweptRuns::Column* counts = runs.find("n_sub_impacts");
+  if (counts != nullptr && counts->words.empty()) {
+    std::vector<double> known = counts->numbers;
+    std::erase_if(known, [](double x) { return std::isnan(x); });
+    const auto [least, most] = std::ranges::minmax(known);
+    tile(fmt::format("{} to {}", least, most), "sub-impacts per run");
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string sweep_report(const SweptRuns& runs, const std::string& name) {
+  Json columns = Json::array();
+  for (const SweptRuns::Column& column : runs.columns) columns.push_back(column_json(column));
+  std::size_t n_left_out = 0;
+  Json data = {{"numbers", runs.numbers}, {"columns", columns}};
+  data["sub_impacts"] = sub_impacts_json(runs, n_left_out);
+  const std::string note = n_left_out == 0
+                               ? std::string()
+                               : fmt::format(
+                                     "To keep the page small the sub-impacts of {} are left out; "
+                                     "sub_impacts.csv has them.",
+                                     counted(n_left_out, "run"));
+  Fields page{{{"name", name}, {"note", note}, {"data", within_script(data)}},
+              {{"headlines", headlines(runs)}, {"tiles", tiles(runs)}, {"keys", key_list(runs)}}};
+  add_own_scripts(page, {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/sweep.js"});
+  return filled(embedded_file("pages/sweep.html"), page);
+}
+
+void write_sweep_report(const std::filesystem::path& directory, const SweptRuns& runs,
+                        const std::string& name) {
+  write_file(directory / "sweep.html", sweep_report(runs, name));
+}
+
+}  // namespace subimpact
