@@ -117,7 +117,7 @@ void add_sensitivity(CLI::App& program, int& status) {
   options->jobs.add_to(*command);
   command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
   command->footer(
-      "Each key takes four runs, two shifts to either side, at rtol 1e-12 on the mesh of the case; "
+      "Each key takes four runs, two shifts to either side, at rtol 1e-13 on the mesh of the case; "
       "their differences give the derivative, the mismatch of the shifts its error. Rows of "
       "contacts that are about to merge, to split or to vanish are flagged.\n"
       "Examples:\n"

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <mutex>
 
 #include "case/shifted_case.h"
@@ -15,37 +14,19 @@
 #include "study/method_choice.h"
 #include "study/near_miss_match.h"
 #include "study/parallel.h"
+#include "study/stencil.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double tightest = 1e-12;  // rtol
-constexpr double looser = 10.0;     // of the run that shows the error of the base run
-// Stated error over the one that a difference stands for.
-constexpr double safety = 2.0;
+constexpr double tightest = 1e-13;        // rtol
+constexpr double looser = 10.0;           // of the run that shows the error of the base run
 constexpr double unreliable_share = 0.1;  // of the largest derivative of a row
-constexpr double kink_share = 1e-3;       // of the slope
 constexpr double graze_share = 3.0;       // of the change of a margin over the larger shift
+constexpr double bent_share = 0.05;       // of the largest derivative of a row, between the shifts
 
 constexpr std::size_t n_runs_per_key = 2 * sensitivity_shifts.size();
-
-std::optional<double> value_of(const SubImpact& s, EventQuantity quantity) {
-  if (quantity == EventQuantity::start) return s.start;
-  if (!s.end) return std::nullopt;
-  switch (quantity) {
-    case EventQuantity::end:
-      return s.end;
-    case EventQuantity::peak_force:
-      return s.peak_force;
-    case EventQuantity::impulse:
-      return s.impulse;
-    case EventQuantity::max_indentation:
-      return s.max_indentation;
-    default:
-      return s.striker_velocity;
-  }
-}
 
 // --- the runs -----------------------------------------------------------------------------------
 
@@ -125,54 +106,8 @@ std::vector<Case> shifted_cases(const Case& base, const std::vector<const CaseKe
   return cases;
 }
 
-// --- differences
-// ----------------------------------------------------------------------------------
-
-/// One number of a base run and of the four shifted runs of a key.
-struct Stencil {
-  double base = 0.0;
-  std::array<double, sensitivity_shifts.size()> plus{}, minus{};
-
-  double slope(std::size_t i) const { return (plus[i] - minus[i]) / (2.0 * sensitivity_shifts[i]); }
-  // As the first touch, which is where time begins.
-  bool is_constant() const {
-    const auto is_base = [this](double f) { return f == base; };
-    return std::ranges::all_of(plus, is_base) && std::ranges::all_of(minus, is_base);
-  }
-  // Of the values at both shifts, the mean less the value between them.
-  double bend(std::size_t i) const { return 0.5 * (plus[i] - base + (minus[i] - base)); }
-};
-
-constexpr double shift_ratio = sensitivity_shifts[0] / sensitivity_shifts[1];
-
-// The bend at the smaller shift, less what follows for it from the larger one if the number is
-// smooth: the error of one run, times the root of 3/2.
-double noise_of(const Stencil& s) {
-  return std::abs(s.bend(1) - s.bend(0) / (shift_ratio * shift_ratio)) / std::sqrt(1.5);
-}
-
-// `error`: of one run.
-Derivative derivative_of(const Stencil& s, double error) {
-  if (s.is_constant()) return {};
-  const double difference = std::abs(s.slope(0) - s.slope(1));
-  const double rounding = std::numeric_limits<double>::epsilon() * std::abs(s.base);
-  const double noise = error + rounding;
-  const double of_larger = difference + noise / sensitivity_shifts[0];
-  const double of_smaller =
-      difference / (shift_ratio * shift_ratio - 1.0) + noise / sensitivity_shifts[1];
-  const bool larger = of_larger < of_smaller;
-  return {s.slope(larger ? 0 : 1), safety * std::min(of_larger, of_smaller)};
-}
-
-// Whether the slopes to either side differ: by as much over the smaller shift as over the larger
-// one. For smooth numbers it is less by the ratio of the shifts, for the errors of runs more.
-// `error`: of the base run.
-bool has_kink(const Stencil& s, double error) {
-  const double larger = std::abs(s.bend(0)) / sensitivity_shifts[0];
-  const double smaller = std::abs(s.bend(1)) / sensitivity_shifts[1];
-  return smaller > 0.5 * larger && smaller < 2.0 * larger &&
-         smaller > kink_share * std::abs(s.slope(1)) && std::abs(s.bend(1)) > 3.0 * error;
-}
+// --- differences of runs
+// --------------------------------------------------------------------------
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -186,20 +121,22 @@ class Differences {
  public:
   /// `share`: of its differences from the check run, the error of the base run.
   Differences(const Result& base, const Result& check_run, double share,
-              const std::vector<Result>& shifted_runs)
+              const std::vector<Result>& shifted_runs, const std::vector<std::string>& keys)
       : base_(base.sub_impacts),
         check_(counterparts(base_, check_run.sub_impacts)),
         share_(share),
-        n_keys_(shifted_runs.size() / n_runs_per_key) {
+        n_keys_(keys.size()) {
+    for (const std::string& key : keys) of_beam_.push_back(key.starts_with("beam."));
     for (const Result& run : shifted_runs) shifted_.push_back(counterparts(base_, run.sub_impacts));
   }
 
-  /// The error of one run in a number of a sub-impact.
-  double run_error(EventQuantity quantity, std::size_t i) const {
+  /// The error of one run in a number of a sub-impact, as the runs of keys like this one show it:
+  /// numbers of the beam change its matrices, whose rounding adds to the errors.
+  double run_error(EventQuantity quantity, std::size_t i, std::size_t key) const {
     double error = 0.0;
     const std::size_t last = std::min(i + 1, base_.size() - 1);
     for (std::size_t k = i > 0 ? i - 1 : 0; k <= last; ++k) {
-      error = std::max(error, error_of_one(quantity, k));
+      error = std::max(error, error_of_one(quantity, k, key));
     }
     return error;
   }
@@ -239,12 +176,13 @@ class Differences {
     return shifted_[key * n_runs_per_key + 2 * shift + (minus ? 1 : 0)];
   }
 
-  double error_of_one(EventQuantity quantity, std::size_t i) const {
-    std::vector<double> noise;
+  double error_of_one(EventQuantity quantity, std::size_t i, std::size_t like) const {
+    std::vector<double> noises;
     for (std::size_t key = 0; key < n_keys_; ++key) {
-      if (const auto s = stencil(quantity, i, key)) noise.push_back(noise_of(*s));
+      if (of_beam_[key] != of_beam_[like]) continue;
+      if (const auto s = stencil(quantity, i, key)) noises.push_back(noise_of(*s));
     }
-    return std::max(median(std::move(noise)), check_error(quantity, i));
+    return std::max(median(std::move(noises)), check_error(quantity, i));
   }
 
   const std::vector<SubImpact>& base_;
@@ -252,28 +190,34 @@ class Differences {
   double share_;
   std::vector<Counterparts> shifted_;
   std::size_t n_keys_;
+  std::vector<bool> of_beam_;
 };
 
 /// One row of the study and what there is to flag in it.
 SensitivityRow row_of(const Differences& differences, EventQuantity quantity, std::size_t i,
                       double value, const std::vector<std::string>& keys) {
   SensitivityRow row{quantity, i, value, {}, {}};
-  const double error = differences.run_error(quantity, i);
   const auto flag = [&](const std::string& words, const std::string& key) {
     if (row.flag.empty()) row.flag = fmt::format("{} {}", words, key);
   };
   double largest = 0.0;
+  std::vector<double> bends;
   for (std::size_t key = 0; key < keys.size(); ++key) {
     const std::optional<Stencil> s = differences.stencil(quantity, i, key);
+    const double error = differences.run_error(quantity, i, key);
     row.by_key.push_back(s ? std::optional(derivative_of(*s, error)) : std::nullopt);
+    if (!s) bends.push_back(0.0);
     if (!s) flag("merges, splits or vanishes within the shifts of", keys[key]);
     if (s) largest = std::max(largest, std::abs(row.by_key.back()->value));
     if (s && has_kink(*s, differences.check_error(quantity, i))) flag("has a kink in", keys[key]);
+    if (s) bends.push_back(bend_of_slope(*s, error));
   }
   for (std::size_t key = 0; key < keys.size(); ++key) {
     if (differences.follows_new_one(i, key)) {
       flag("a contact appears before it within the shifts of", keys[key]);
     }
+    if (bends[key] > bent_share * largest)
+      flag("is about to merge, split or vanish with", keys[key]);
     const auto& derivative = row.by_key[key];
     if (derivative && derivative->error > unreliable_share * largest) {
       flag("the shifts disagree in", keys[key]);
@@ -400,6 +344,23 @@ std::string_view to_string(EventQuantity quantity) {
   return "unknown";
 }
 
+std::optional<double> value_of(const SubImpact& s, EventQuantity quantity) {
+  if (quantity == EventQuantity::start) return s.start;
+  if (!s.end) return std::nullopt;
+  switch (quantity) {
+    case EventQuantity::end:
+      return s.end;
+    case EventQuantity::peak_force:
+      return s.peak_force;
+    case EventQuantity::impulse:
+      return s.impulse;
+    case EventQuantity::max_indentation:
+      return s.max_indentation;
+    default:
+      return s.striker_velocity;
+  }
+}
+
 const SensitivityRow* Sensitivity::find(EventQuantity quantity, std::size_t sub_impact) const {
   for (const SensitivityRow& row : rows) {
     if (row.quantity == quantity && row.sub_impact == sub_impact) return &row;
@@ -443,7 +404,7 @@ Sensitivity sensitivity(const Case& input, const SensitivityOptions& options) {
   study.interrupted = runner.stopped();
   drop_incomplete(study, shifted_runs);
 
-  const Differences differences(study.base, first[1], check_run.share, shifted_runs);
+  const Differences differences(study.base, first[1], check_run.share, shifted_runs, study.keys);
   for (std::size_t i = 0; i < study.base.sub_impacts.size(); ++i) {
     for (const EventQuantity quantity : event_quantities) {
       const auto value = value_of(study.base.sub_impacts[i], quantity);

@@ -30,7 +30,7 @@ TEST(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
       directory.path);
   EXPECT_EQ(finished.status, 0) << finished.errors;
   for (const char* piece : {"us per 1 %", "striker.", "velocity", "218.94", "sensitivity.csv in s",
-                            "at rtol 1e-12 in place of 1e-08"}) {
+                            "at rtol 1e-13 in place of 1e-08"}) {
     expect_in(finished.output, piece);
   }
   std::istringstream csv(read_file(directory.path / "s" / "sensitivity.csv"));

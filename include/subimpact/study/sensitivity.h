@@ -28,6 +28,10 @@ inline constexpr std::array event_quantities = {
 /// "striker_velocity_m_per_s".
 std::string_view to_string(EventQuantity quantity);
 
+/// The number, in the unit that to_string() names; none of a sub-impact that has not ended, its
+/// start aside.
+std::optional<double> value_of(const SubImpact& sub_impact, EventQuantity quantity);
+
 /// df/d ln p of a number f by a key p, and its estimated error, both in the unit of f.
 struct Derivative {
   double value = 0.0;
@@ -81,7 +85,7 @@ std::vector<std::string> sensitivity_keys(const Case& input);
 /// The relative shifts of the differences.
 inline constexpr std::array sensitivity_shifts = {1e-5, 1e-6};
 
-/// The case of the base run: that of `input`, at rtol 1e-12 or less, without history rows. Where
+/// The case of the base run: that of `input`, at rtol 1e-13 or less, without history rows. Where
 /// events would be interpolated within fixed steps, whose phase makes times jump, the method is
 /// nystrom, or erk for a damped strike.
 Case sensitivity_case(const Case& input);
@@ -91,14 +95,17 @@ Case sensitivity_case(const Case& input);
 /// shifts h of sensitivity_shifts. All have mesh, method and symmetry of the base run.
 ///
 /// With D1 and D2 the differences of the larger and the smaller shift, q their ratio and e the
-/// error of one run, D1 is off by some |D1 - D2| + e/h1 and D2 by |D1 - D2|/(q^2 - 1) + e/h2. The
-/// one with the smaller error is stated. e is the larger of what the base run of ten times the
-/// tolerance shows and of the scatter of the second differences, over the sub-impact and its
-/// neighbours.
+/// error of one run, D1 is off by some |D1 - D2| + e/h1. D2 + (D2 - D1)/(q^2 - 1) is off by e/h2
+/// and by a share of |D1 - D2|/(q^2 - 1) that grows with the curvature of the number, a tenth to
+/// the whole. The one with the smaller error is stated, with twice that error. e is the larger of
+/// what the base run of ten times the tolerance shows and of the scatter of the second differences,
+/// over the sub-impact and its neighbours; it is larger for numbers of the beam, which change
+/// matrices.
 ///
 /// A sub-impact is flagged where a shifted run has it merged, split or lost, where one appears
 /// before it, where a near miss is within its change over the shifts, where the slopes to either
-/// side differ (a kink), or where an error is a tenth of the largest derivative of the row.
+/// side differ (a kink), where D1 and D2 differ by a twentieth of the largest derivative of the row
+/// (about to merge, split or vanish), or where an error is a tenth of it.
 ///
 /// Throws InvalidCase, also for a key that has no derivative. If the base run does not complete, no
 /// shifted run is made, and there are no keys and no rows.
