@@ -57,7 +57,7 @@ class Sensitivity:
 
     @cached_property
     def base(self) -> Result:
-        """The run about which the derivatives are taken, at a tolerance of 1e-12 or less, without
+        """The run about which the derivatives are taken, at a tolerance of 1e-13 or less, without
         history. If its case has [scatter], and the study all keys that scatter, it has standard
         deviations of event times and the horizon up to which they can be predicted."""
         return Result(self._study.base())

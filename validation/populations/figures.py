@@ -1,6 +1,7 @@
 """Figures of the map and of the ensemble, from the directory of their sweeps (the only argument)."""
 
 import sys
+import textwrap
 from pathlib import Path
 
 import matplotlib
@@ -138,15 +139,16 @@ def draw_ensemble(directory):
     whole.legend(loc="upper center")
     save(figure, "contact_probability.png")
     counts = runs.n_sub_impacts.value_counts()
-    return (f"The ensemble: {len(runs)} runs, {(runs.outcome == 'completed').sum()} completed, with "
+    return (f"The ensemble: {len(runs)} of {len(plan)} runs, {(runs.outcome == 'completed').sum()} completed, with "
             f"{runs.n_sub_impacts.min()} to {runs.n_sub_impacts.max()} sub-impacts, most often {counts.idxmax()} "
             f"({counts.max()} runs). By first derivatives {run.n_predictable} leading sub-impacts can be predicted: "
             f"{run.summary['predictability']['reason']}.")
 
 
 def words_on_map(runs):
+    plan = si.Plan.from_file(HERE / "map.toml")
     done = runs[runs.outcome == "completed"]
-    return (f"The map: {len(runs)} cases, {len(done)} completed, with {done.n_sub_impacts.min()} to "
+    return (f"The map: {len(runs)} of {len(plan)} cases, {len(done)} completed, with {done.n_sub_impacts.min()} to "
             f"{done.n_sub_impacts.max()} sub-impacts. In {(done.all_decided == 1).sum()} cases all of them are decided, in "
             f"{(done.wish_met == 1).sum()} every event is within the wish, in {(done.n_decided > 0).sum()} the first "
             f"separation is decided, with an error of {1e6 * done.first_separation_error_s.median():.2g} us in the median.")
@@ -155,6 +157,7 @@ def words_on_map(runs):
 def renew_results(text):
     """Writes a text between the marks of the page."""
     page = HERE / "README.md"
+    text = "\n\n".join(textwrap.fill(paragraph, 120) for paragraph in text.split("\n\n"))
     before, rest = page.read_text(encoding="utf-8").split(BEGIN_MARK)
     after = rest.split(END_MARK)[1]
     page.write_text(f"{before}{BEGIN_MARK}\n{text}\n{END_MARK}{after}", encoding="utf-8")
