@@ -10,6 +10,7 @@
 #include "subimpact/io/case_identity.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/study/companion.h"
 #include "subimpact/study/within.h"
 
 namespace subimpact::python {
@@ -81,7 +82,9 @@ std::string explain(const LoadedCase& loaded) {
   return with_places(loaded, [&] {
     const ChosenModel chosen = first_run(loaded);
     ResolvedRun run = resolve(chosen.input);
-    std::string text = explanation(chosen.input, run.settings(), estimate_cost(run));
+    ResolvedSettings settings = run.settings();
+    settings.memory = memory_with_companion(chosen.input, settings);
+    std::string text = explanation(chosen.input, settings, estimate_cost(run));
     if (!chosen.reason.empty()) {
       text += fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);
     }

@@ -6,8 +6,9 @@ low_error = low_work = 1e300
 high_error = high_work = 0
 least(a, b) = a < b ? a : b
 most(a, b) = a > b ? a : b
+# A run of which no sub-impact was compared has the error 0 and is not drawn.
 stats table using (sequences = added(sequences, strcol('sequence')), \
-                   low_error = least(column('error_s'), low_error), \
+                   low_error = column('error_s') > 0 ? least(column('error_s'), low_error) : low_error, \
                    high_error = most(column('error_s'), high_error), \
                    low_work = least(column('counted_work'), low_work), \
                    high_work = most(column('counted_work'), high_work), 0) nooutput
@@ -18,8 +19,8 @@ set format y '10^{%L}'
 set xlabel 'largest error of an event time before the horizon (µs)'
 set ylabel 'counted work (evaluations times unknowns)'
 # Whole decades, so that each axis has two labelled tics at least.
-decade_below(x) = 10**floor(log10(x))
-decade_above(x) = 10**ceil(log10(x))
+decade_below(x) = 10.0**floor(log10(x))
+decade_above(x) = 10.0**ceil(log10(x))
 set xrange [decade_below(0.5*least(1e6*low_error, reference_us)):decade_above(2*most(1e6*high_error, wanted_us))]
 set yrange [decade_below(0.5*low_work):decade_above(2*high_work)]
 set key outside right top Left reverse samplen 2 spacing 1.25

@@ -41,8 +41,8 @@ do for [name in 'duration_us impulse_mNs'] {
   low = low/2
   high = 3*high
   if (floor(log10(high)) - ceil(log10(low)) < 1) {  # two labelled ticks at least
-    low = 10**floor(log10(low))
-    high = 10**ceil(log10(high))
+    low = 10.0**floor(log10(low))
+    high = 10.0**ceil(log10(high))
   }
   set yrange [low:high]
   set format x (first ? '' : '% h')

@@ -13,8 +13,8 @@ stats $points using (methods = added(methods, strcol('method')), \
                      high_cost = most(column('cost'), high_cost), 0) nooutput
 if (high_error == 0) { low_error = 0.1; high_error = 10 }
 if (high_cost == 0) { low_cost = 0.1; high_cost = 10 }
-decade_below(x) = 10**floor(log10(x))
-decade_above(x) = 10**ceil(log10(1.0001*x))
+decade_below(x) = 10.0**floor(log10(x))
+decade_above(x) = 10.0**ceil(log10(1.0001*x))
 strip = decade_above(high_error)  # to the right of it: runs that broke down
 edge = 50*strip
 
