@@ -271,7 +271,9 @@ def test_two_sweeps_do_not_share_a_directory(population, tmp_path):
 
 def test_ctrl_c_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_path, python):
     process = python("-m", "subimpact.sweep", plan_file, "--out", tmp_path / "out", "--workers", 2)
-    time.sleep(1.0)
+    while process.poll() is None and not any(tmp_path.glob("out/*")):
+        time.sleep(0.01)
+    time.sleep(0.3)
     process.send_signal(signal.SIGINT)
     output = process.communicate(timeout=60)
     assert process.returncode in (0, 130), output
