@@ -213,18 +213,18 @@ SensitivityRow row_of(const Differences& differences, EventQuantity quantity, st
     const double error = differences.run_error(quantity, i, key);
     row.by_key.push_back(s ? std::optional(derivative_of(*s, error, differences.smoothness()))
                            : std::nullopt);
-    if (!s) bends.push_back(0.0);
     if (!s) flag("merges, splits or vanishes within the shifts of", keys[key]);
     if (s) largest = std::max(largest, std::abs(row.by_key.back()->value));
     if (s && has_kink(*s, differences.check_error(quantity, i))) flag("has a kink in", keys[key]);
-    if (s) bends.push_back(bend_of_slope(*s, error));
+    bends.push_back(s ? bend_of_slope(*s, error) : 0.0);
   }
   for (std::size_t key = 0; key < keys.size(); ++key) {
     if (differences.follows_new_one(i, key)) {
       flag("a contact appears before it within the shifts of", keys[key]);
     }
-    if (bends[key] > bent_share * largest)
+    if (bends[key] > bent_share * largest) {
       flag("is about to merge, split or vanish with", keys[key]);
+    }
     const auto& derivative = row.by_key[key];
     if (derivative && derivative->error > unreliable_share * largest) {
       flag("the shifts disagree in", keys[key]);

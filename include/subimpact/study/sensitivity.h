@@ -106,7 +106,7 @@ Case sensitivity_case(const Case& input);
 /// A sub-impact is flagged where a shifted run has it merged, split or lost, where one appears
 /// before it, where a near miss is within its change over the shifts, where the slopes to either
 /// side differ (a kink), where D1 and D2 differ by a twentieth of the largest derivative of the row
-/// (about to merge, split or vanish), or where an error is a tenth of it.
+/// (about to merge, split or vanish), or where an error is a tenth of that derivative.
 ///
 /// Throws InvalidCase, also for a key that has no derivative. If the base run does not complete, no
 /// shifted run is made, and there are no keys and no rows.
