@@ -22,7 +22,7 @@ std::optional<ErrorBars> error_bars_named(const std::optional<std::string>& name
                         "\"; allowed: None (from a companion), \"off\", \"time\", \"all\"");
 }
 
-// The run, and what scatter leaves of it, as the program makes them.
+// A run as the program makes it, with its predictability where the case has a scatter.
 WithinRun run_and_predict(const LoadedCase& loaded, RunRequest request, Overseer& overseer) {
   SensitivityOptions how;
   how.jobs = request.jobs;

@@ -217,7 +217,9 @@ std::string sweep_report(const SweptRuns& runs, const std::string& name) {
                                      counted(n_left_out, "run"));
   Fields page{{{"name", name}, {"note", note}, {"data", within_script(data)}},
               {{"headlines", headlines(runs)}, {"tiles", tiles(runs)}, {"keys", key_list(runs)}}};
-  add_own_scripts(page, {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/sweep.js"});
+  add_own_scripts(page,
+                  {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/swept_runs.js",
+                   "pages/shade.js", "pages/sweep_map.js", "pages/run_panel.js", "pages/sweep.js"});
   return filled(embedded_file("pages/sweep.html"), page);
 }
 

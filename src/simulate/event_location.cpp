@@ -47,16 +47,16 @@ double rounding_of(const EventFunction& function, const StruckBeam& beam, const 
   return of_value + epsilon * t * std::abs(at.rate);
 }
 
-std::optional<Crossing> EventLocator::find_crossing_in(const StepEnds& step) {
-  if (step.event_free) return std::nullopt;
-  const IndentationStep ends = indentation_step(beam_, step);
+std::optional<Crossing> EventLocator::find_crossing_in(const IndentationStep& ends,
+                                                       const State& y1) {
   // A double root needs an indentation that reverses.
   const bool double_roots = double_roots_ && (ends.rate0 > 0.0) != (ends.rate1 > 0.0);
-  const double rounding = double_roots ? beam_.displacement_rounding(step.y1) : 0.0;
+  const double rounding = double_roots ? beam_.displacement_rounding(y1) : 0.0;
   return find_crossing(beam_.contact(), ends, {dealt_with_, double_roots, rounding});
 }
 
-std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, double& t1,
+std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole,
+                                                    const IndentationStep& indentation, double& t1,
                                                     const State*& y1,
                                                     SectionCorrection& correction) {
   const State& y0 = whole.y0;
@@ -65,7 +65,7 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
   y1 = &whole.y1;
   for (int n_cuts = 0; n_cuts < most_cuts; ++n_cuts) {
     std::optional<EventFunction> event;
-    if (events_ == EventHandling::located) event = find_event(whole, t1, y1);
+    if (events_ == EventHandling::located) event = find_event(whole, indentation, t1, y1);
     if (events_ == EventHandling::library && n_cuts == 0) event = event_of_integrator(whole, y1);
     corrector_.correct({t0, t1, y0, *y1, whole.event_free}, correction);
     if (!(correction.valid_until < t1)) {
@@ -81,11 +81,17 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole, doubl
                    "section events cut one step over and over, without an end");
 }
 
-std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, double& t1,
-                                                      const State*& y1) {
+std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, IndentationStep ends,
+                                                      double& t1, const State*& y1) {
+  if (whole.event_free) return std::nullopt;
+  const auto cut = [&] {
+    ends = {
+        ends.t0, t1, ends.lambda0, ends.rate0, beam_.indentation(*y1), beam_.indentation_rate(*y1)};
+  };
+  if (t1 < ends.t1) cut();
   std::optional<EventFunction> event;
   dealt_with_.clear();
-  while (auto crossing = find_crossing_in({whole.t0, t1, whole.y0, *y1, whole.event_free})) {
+  while (auto crossing = find_crossing_in(ends, *y1)) {
     const StepEnds step{whole.t0, t1, whole.y0, *y1};
     dealt_with_.push_back(crossing->function);
     if (crossing->unresolved && !resolve(*crossing, step)) continue;
@@ -93,6 +99,7 @@ std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, dou
     std::swap(end_, trial_);
     y1 = &end_;
     event = crossing->function;
+    cut();
   }
   return event;
 }

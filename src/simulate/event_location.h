@@ -44,16 +44,19 @@ class EventLocator {
 
   /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, by moving the pointer to a
   /// state stored in this object until the next call. Returns the event at the end, if there is
-  /// one. `correction`: that of the step as it then is, not yet added to y1.
-  std::optional<EventFunction> find_end(const StepEnds& whole, double& t1, const State*& y1,
+  /// one. `indentation`: of the whole step. `correction`: that of the step as it then is, not yet
+  /// added to y1.
+  std::optional<EventFunction> find_end(const StepEnds& whole, const IndentationStep& indentation,
+                                        double& t1, const State*& y1,
                                         SectionCorrection& correction);
 
  private:
-  // The earliest event in a step, which is shortened to end there.
-  std::optional<EventFunction> find_event(const StepEnds& whole, double& t1, const State*& y1);
+  // The earliest event in a step, which is shortened to end there. `ends`: of the whole step.
+  std::optional<EventFunction> find_event(const StepEnds& whole, IndentationStep ends, double& t1,
+                                          const State*& y1);
   // The same, of a step that the integrator's own root-finding has shortened.
   std::optional<EventFunction> event_of_integrator(const StepEnds& whole, const State*& y1);
-  std::optional<Crossing> find_crossing_in(const StepEnds& step);
+  std::optional<Crossing> find_crossing_in(const IndentationStep& ends, const State& y1);
   // Whether the double root of a crossing exists; if so, narrows it to the first of the two.
   bool resolve(Crossing& crossing, const StepEnds& step);
   // The instant of a crossing, its state in trial_.

@@ -161,7 +161,8 @@ void EventLoop::locate_events() {
   const StepEnds whole = step_to_end_time();
   double t1 = whole.t1;
   const State* y1 = &whole.y1;
-  const std::optional<EventFunction> event = locator_.find_end(whole, t1, y1, correction_);
+  const std::optional<EventFunction> event =
+      locator_.find_end(whole, indentation_of(whole), t1, y1, correction_);
   show_piece({whole.t0, t1, whole.y0, *y1, whole.event_free});
   const bool is_corrected = !correction_.is_empty();
   if (is_corrected) {

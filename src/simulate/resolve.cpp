@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +9,10 @@
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
 #include "numerics/mass_solver.h"
+#include "simulate/method_settings.h"
 #include "simulate/methods.h"
+#include "simulate/modal_choice.h"
+#include "simulate/run_options.h"
 #include "simulate/run_parts.h"
 #include "system/beam_field.h"
 #include "system/contact_event_functions.h"
@@ -19,231 +21,15 @@
 namespace subimpact {
 namespace {
 
-// Steps that the default step makes at least in the time scale of the shortest contacts, to follow
-// them, and where all of the strike's energy goes through them, to keep it to 1e-4.
-constexpr double default_steps_in_contact = 8.0;
-constexpr double default_steps_to_keep_energy = 48.0;
-// Central differences keep no energy where the length of the step changes: after a step cut short
-// at an event the energy of a mode of angle omega h may be off by (omega h/2)^2. Up to this part of
-// the critical step that is 2 % of the fastest mode at an event.
-constexpr double largest_part_if_located = 0.15;
-
 // Energy errors of adaptive methods are some 1 to 1000 rtol, with Cash and Karp's table, which
 // grows slowly where it should be neutral, 1000. What is tolerated by default, within bounds:
 constexpr double tolerated_energy_per_rtol = 1e4;
 constexpr double least_tolerated_energy = 1e-6;
 constexpr double most_tolerated_energy = 1e-3;
-constexpr double tolerated_momentum = 1e-9;
-
-// How far the section correction of a step may be off, as part of the striker's velocity. At rtol
-// the error is a third of what the integrator may add, root mean square over the steps of the
-// paper's beam. A smaller tolerance cuts steps at section events, some thousand in 8 ms, however
-// small rtol is: at rtol 1e-8 those cost more than they gain, at 1e-12 a share of 1e-8 adds a tenth
-// of the time and takes nine tenths (paper's beam) to 99.9 % (slender beams without rotary inertia)
-// off the errors of events.
-double correction_tolerance(double rtol) {
-  constexpr double cheap_from = 1e-8;
-  constexpr double least = 1e-20;
-  const double ratio = std::min(1.0, rtol / cheap_from);
-  return std::max(least, rtol * ratio * ratio);
-}
 
 // With more natural modes than these a run computes them when it begins: 600 take some ms where
 // they have a closed form, and 0.5 s where they have none.
 constexpr std::size_t most_modes_before_run = 600;
-
-// Measured on 20,001 cells: the program, and per unknown the dirk method, which takes the most.
-constexpr double memory_of_program = 12e6;       // bytes
-constexpr double memory_per_unknown = 4e3;       // bytes
-constexpr double matrices_of_modes = 1.0;        // shapes
-constexpr double matrices_of_dense_modes = 6.0;  // and mass, stiffness, decomposition
-constexpr double matrices_of_flight = 3.0;       // of free flight beside the modes
-
-// Modes of n = 600 unknowns take 0.5 s by dense decomposition, as 600^3/2 entries of right-hand
-// sides do, and some 4 ms in closed form.
-constexpr double work_per_dense_mode = 0.5;
-constexpr double work_per_closed_entry = 2.0;
-
-std::vector<std::string> tables_of(const MethodDescriptor& method) {
-  std::vector<std::string> names;
-  if (!method.tables) return names;
-  for (const CoefficientTable& table : method.tables()) names.push_back(table.name);
-  return names;
-}
-
-std::optional<int> max_order_used(const Options& options) {
-  const std::optional<int>& asked = options.solver.max_order;
-  const MethodDescriptor& method = descriptor_of(options.solver.method);
-  if (!method.order) {
-    if (!asked) return std::nullopt;
-    throw InvalidCase(
-        "solver.max_order",
-        fmt::format("is {}, but {} has no order to choose; leave it out, or use adams or bdf",
-                    *asked, method.name));
-  }
-  const int order = asked.value_or(method.order->usual);
-  if (order < 1 || order > method.order->limit) {
-    throw InvalidCase("solver.max_order", fmt::format("is {}; allowed for {}: from 1 to {}", order,
-                                                      method.name, method.order->limit));
-  }
-  return order;
-}
-
-std::vector<std::string> methods_of_sundials() {
-  std::vector<std::string> names;
-  for (const MethodDescriptor& method : methods()) {
-    if (method.sundials) names.emplace_back(method.name);
-  }
-  return names;
-}
-
-std::vector<std::string> methods_that(bool (*holds)(const MethodDescriptor&)) {
-  std::vector<std::string> names;
-  for (const MethodDescriptor& method : methods()) {
-    if (holds(method)) names.emplace_back(method.name);
-  }
-  return names;
-}
-
-bool takes_any_damping(const MethodDescriptor& method) {
-  return method.damping == MethodDescriptor::Damping::any;
-}
-bool takes_damping_of_modes(const MethodDescriptor& method) {
-  return method.damping != MethodDescriptor::Damping::none;
-}
-bool takes_damping_ratio(const MethodDescriptor& method) {
-  return takes_damping_of_modes(method) && method.modes != MethodDescriptor::Modes::never;
-}
-
-void check_contact_damping(const Problem& problem, const Options& options,
-                           const ResolvedSettings& used) {
-  const double damping = problem.contact_damping;
-  if (damping == 0.0) return;
-  const MethodDescriptor& method = descriptor_of(options.solver.method);
-  const auto refuse = [&](const std::string& why) {
-    throw InvalidCase("contact.damping", fmt::format("is {:g} s/m, but {}", damping, why));
-  };
-  if (std::isfinite(problem.contact_law->yield_threshold({}))) {
-    refuse("the contact law yields; allowed: 0, or a law that never yields");
-  }
-  if (!takes_any_damping(method)) {
-    refuse(
-        fmt::format("{} cannot integrate a contact force that depends on velocities; allowed "
-                    "solver.method: {}; choose one, or leave the damping out",
-                    method.name, fmt::join(methods_that(takes_any_damping), ", ")));
-  }
-  if (used.events != EventHandling::located) {
-    refuse("a damped contact needs located events; leave solver.events out");
-  }
-}
-
-void check_beam_damping(const BeamDamping& damping, const Options& options, bool can_yield) {
-  if (damping.is_none()) return;
-  const MethodDescriptor& method = descriptor_of(options.solver.method);
-  const auto [key, value] = damping.ratio > 0.0 ? std::pair("beam.damping.ratio", damping.ratio)
-                            : damping.mass > 0.0
-                                ? std::pair("beam.damping.mass", damping.mass)
-                                : std::pair("beam.damping.stiffness", damping.stiffness);
-  const auto refuse = [&, key = key, value = value](const std::string& why) {
-    throw InvalidCase(key, fmt::format("is {:g}, but {}", value, why));
-  };
-  if (damping.ratio > 0.0 && can_yield) {
-    refuse(
-        "a beam that yields has no natural modes; set model.section = \"elastic\", or give "
-        "beam.damping.mass and beam.damping.stiffness in its place");
-  }
-  if (damping.ratio > 0.0 && !takes_damping_ratio(method)) {
-    refuse(
-        fmt::format("{} does not integrate a damped beam in its natural modes; allowed "
-                    "solver.method: {}; choose one, or give beam.damping.mass and "
-                    "beam.damping.stiffness in its place",
-                    method.name, fmt::join(methods_that(takes_damping_ratio), ", ")));
-  }
-  if (!takes_damping_of_modes(method)) {
-    refuse(
-        fmt::format("{} cannot integrate forces that depend on velocities; allowed "
-                    "solver.method: {}; choose one, or leave the damping out",
-                    method.name, fmt::join(methods_that(takes_damping_of_modes), ", ")));
-  }
-  if (can_yield && !takes_any_damping(method)) {
-    refuse(
-        fmt::format("{} damps beams that stay elastic only; set model.section = \"elastic\", "
-                    "or choose solver.method {}",
-                    method.name, fmt::join(methods_that(takes_any_damping), ", ")));
-  }
-}
-
-// Section events are found on paths of an undamped beam.
-ReversalHandling reversals_used(const Problem& problem, const Options& options, bool can_yield) {
-  const bool damped = problem.contact_damping > 0.0 || !problem.beam.damping.is_none();
-  if (!damped || !can_yield) return reversals_of(options);
-  if (options.solver.reversals == ReversalHandling::located) {
-    throw InvalidCase("solver.reversals",
-                      "is \"located\", but section events of a damped strike are not located; "
-                      "allowed: \"step-end\"; leave it out");
-  }
-  return ReversalHandling::step_end;
-}
-
-// Settings that the method cannot take.
-void check_method(const Options& options, const ResolvedSettings& used, bool can_yield) {
-  const MethodDescriptor& method = descriptor_of(options.solver.method);
-  if (used.events == EventHandling::library && !method.sundials) {
-    throw InvalidCase(
-        "solver.events",
-        fmt::format("is \"library\", the root-finding of SUNDIALS, which {} does not "
-                    "have; allowed: {}; or use {}",
-                    method.name,
-                    method.needs_located_events ? "\"located\"" : "\"located\", \"interpolated\"",
-                    fmt::join(methods_of_sundials(), ", ")));
-  }
-  if (method.needs_located_events && used.events != EventHandling::located) {
-    throw InvalidCase("solver.events",
-                      fmt::format("is \"interpolated\", but the steps of {} are too long for it; "
-                                  "allowed: \"located\"; leave it out, or use another "
-                                  "solver.method",
-                                  method.name));
-  }
-  if (method.steps == MethodDescriptor::Steps::adaptive_order && options.solver.step) {
-    throw InvalidCase(
-        "solver.step",
-        fmt::format("is {} s, but {} chooses step and order together and has no fixed step; leave "
-                    "it out (solver.max_step bounds the step), or use another method",
-                    *options.solver.step, method.name));
-  }
-  if (!method.needs_adaptive_steps_to_yield || !can_yield) return;
-  const auto refuse = [&](const char* key, const char* what) {
-    throw InvalidCase(key, fmt::format("is {}, which {} cannot do where the beam may yield; leave "
-                                       "it out, set model.section = \"elastic\", or use nystrom",
-                                       what, method.name));
-  };
-  if (options.solver.step) refuse("solver.step", "given: a fixed step");
-  if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
-}
-
-// The given table, or the first one of the method; nothing for a method without tables.
-std::optional<std::string> table_used(const Options& options) {
-  const std::vector<std::string> names = tables_of(descriptor_of(options.solver.method));
-  const std::optional<std::string>& asked = options.solver.table;
-  if (!asked) return names.empty() ? std::nullopt : std::optional(names.front());
-  if (std::find(names.begin(), names.end(), *asked) == names.end()) {
-    throw InvalidCase(
-        "solver.table",
-        fmt::format("is \"{}\", which {} does not have; {}", *asked,
-                    descriptor_of(options.solver.method).name,
-                    names.empty() ? "leave it out: the method has no tables"
-                                  : fmt::format("allowed: {}", fmt::join(names, ", "))));
-  }
-  return asked;
-}
-
-double default_central_step(const ResolvedSettings& used) {
-  // The scheme's energy is off by some (h/T)^2 of what the contact's own motion holds, m_eff/m of
-  // the whole.
-  const double steps = std::max(default_steps_in_contact,
-                                default_steps_to_keep_energy * std::sqrt(used.contact_mass_share));
-  return std::min(default_part_of_critical * used.critical_step, used.contact_time / steps);
-}
 
 // Numbers that are possible one by one may overflow or vanish together.
 void check_scales(const Striker& striker, const StruckBeam& beam) {
@@ -261,74 +47,11 @@ void check_scales(const Striker& striker, const StruckBeam& beam) {
           striker.velocity, energy, scales.position));
 }
 
-void check_central_step(const Options& options, const ResolvedSettings& used) {
-  const double step = *used.step;
-  if (step > used.critical_step && !options.study.beyond_critical) {
-    throw InvalidCase(
-        "solver.step",
-        fmt::format("is {:.6g} us, above the stability limit of central differences for this beam "
-                    "with the contact at its stiffest, {:.6g} us (2/omega); use a smaller step, "
-                    "leave it out for {:.6g} us, or set study.beyond_critical = true to see it "
-                    "fail",
-                    1e6 * step, 1e6 * used.critical_step, 1e6 * default_central_step(used)));
-  }
-  if (used.events == EventHandling::located && used.highest_frequency > 0.0 &&
-      step > largest_part_if_located * used.critical_step) {
-    throw InvalidCase(
-        "solver.events",
-        fmt::format("is \"located\" with central differences of {:.6g} us, which gain energy "
-                    "without bound where steps end at events; allowed: \"interpolated\" (the "
-                    "default), or a solver.step up to {:.6g} us; leave it out",
-                    1e6 * step, 1e6 * largest_part_if_located * used.critical_step));
-  }
-}
-
 double energy_tolerance(const Options& options, const ResolvedSettings& used) {
   if (options.accuracy.energy) return *options.accuracy.energy;
   if (used.step || used.events == EventHandling::interpolated) return most_tolerated_energy;
   return std::clamp(tolerated_energy_per_rtol * options.solver.rtol, least_tolerated_energy,
                     most_tolerated_energy);
-}
-
-// Whether an elastic beam on this mesh is integrated in its natural modes, which a damping ratio
-// needs. Explicit methods see the
-// same motion in either unknowns, but a step in modes needs no mass solve.
-bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& damping) {
-  const MethodDescriptor::Modes modes = descriptor_of(options.solver.method).modes;
-  if (modes != MethodDescriptor::Modes::where_cheaper) {
-    return modes == MethodDescriptor::Modes::always;
-  }
-  return damping.ratio > 0.0 ||
-         (mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded);
-}
-
-// Whether resolve() has left a beam in the unknowns of its mesh that is to run in modes.
-bool modes_are_left_out(const Options& options, const StruckBeam& beam) {
-  return beam.mesh().modal_stiffness().empty() && !beam.sections().can_yield() &&
-         in_modes(options, beam.mesh(), beam.damping());
-}
-
-bool has_modes(const Options& options, const StruckBeam& beam) {
-  return in_modes(options, beam.mesh(), beam.damping()) ||
-         options.stop == StopRule::no_more_contact;
-}
-
-double decomposition_of(const Options& options, const StruckBeam& beam) {
-  if (!has_modes(options, beam)) return 0.0;
-  const BeamMesh& mesh = beam.mesh();
-  const auto n = static_cast<double>(mesh.n_unknowns());
-  return mesh.has_closed_modes() ? work_per_closed_entry * n * n : work_per_dense_mode * n * n * n;
-}
-
-double memory_of(const Options& options, const StruckBeam& beam) {
-  const BeamMesh& mesh = beam.mesh();
-  const auto n = static_cast<double>(mesh.n_unknowns());
-  const bool yields = beam.sections().can_yield();
-  const bool flies = yields && in_modes(options, mesh, beam.damping());
-  const double of_modes = mesh.has_closed_modes() ? matrices_of_modes : matrices_of_dense_modes;
-  const double matrices =
-      (has_modes(options, beam) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
-  return memory_of_program + memory_per_unknown * n + sizeof(double) * matrices * n * n;
 }
 
 SectionField make_sections(const Problem& problem, SectionField::Storage storage) {
@@ -398,10 +121,6 @@ double shape_interval(const Options& options, const BeamMesh& mesh) {
   return 0.0;
 }
 
-std::size_t most_shape_points(const Options& options) {
-  return static_cast<std::size_t>(options.output.shape_points);
-}
-
 ResolvedSettings settings_of(const Problem& problem, const Options& options,
                              const StruckBeam& beam) {
   ResolvedSettings used;
@@ -435,16 +154,11 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   check_method(options, used, beam.sections().can_yield());
   check_contact_damping(problem, options, used);
   check_beam_damping(problem.beam.damping, options, beam.sections().can_yield());
-  if (descriptor_of(options.solver.method).steps == MethodDescriptor::Steps::fixed) {
-    used.step = options.solver.step.value_or(default_central_step(used));
-    check_central_step(options, used);
-  } else {
-    used.step = options.solver.step;
-    if (!used.step) {
-      const SecondOrderOde::Scales scales = beam.scales();
-      used.position_tolerance = options.solver.rtol * scales.position;
-      used.velocity_tolerance = options.solver.rtol * scales.velocity;
-    }
+  used.step = step_used(options, used);
+  if (!used.step) {
+    const SecondOrderOde::Scales scales = beam.scales();
+    used.position_tolerance = options.solver.rtol * scales.position;
+    used.velocity_tolerance = options.solver.rtol * scales.velocity;
   }
   used.energy_tolerance = energy_tolerance(options, used);
   used.shape_interval = shape_interval(options, beam.mesh());
@@ -455,67 +169,6 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.memory = memory_of(options, beam);
   used.decomposition = decomposition_of(options, beam);
   return used;
-}
-
-// The sections nearest to the given positions; in a half model their mirror images stand for those
-// of the other half.
-std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
-                                     const BeamMesh& mesh) {
-  std::vector<std::size_t> sections;
-  const auto& positions = mesh.section_positions();
-  for (const double fraction : fractions) {
-    const double x = length * (mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction);
-    const auto nearest =
-        std::min_element(positions.begin(), positions.end(),
-                         [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
-    sections.push_back(static_cast<std::size_t>(nearest - positions.begin()));
-  }
-  return sections;
-}
-
-FieldOptions field_options(const Problem& problem, const Options& options,
-                           const ResolvedSettings& used) {
-  FieldOptions fields;
-  fields.shape_interval = used.shape_interval;
-  fields.most_points = most_shape_points(options);
-  fields.end_time = options.end_time;
-  fields.length = problem.beam.length;
-  fields.thickness = problem.beam.thickness;
-  fields.struck_at = problem.striker.position * problem.beam.length;
-  if (problem.beam.shears()) {
-    fields.shear_flexibility = problem.beam.bending_stiffness() / problem.beam.shear_stiffness();
-  }
-  fields.yield_curvature = problem.beam.yield_curvature();
-  fields.reactions = options.output.interval > 0.0;
-  for (const double fraction : options.output.points) {
-    fields.points.push_back(fraction * problem.beam.length);
-  }
-  return fields;
-}
-
-RunOptions run_options(const Problem& problem, const Options& options, const ResolvedSettings& used,
-                       const BeamMesh& mesh) {
-  RunOptions run;
-  run.loop.end_time = options.end_time;
-  run.loop.first_touch = problem.striker.first_touch();
-  run.loop.events = used.events;
-  run.loop.double_roots = options.study.pair_detection;
-  if (used.reversals == ReversalHandling::located) {
-    run.loop.correction_tolerance =
-        correction_tolerance(options.solver.rtol) * problem.striker.velocity;
-  }
-  run.loop.largest_indentation = problem.beam.thickness;
-  run.loop.audit_interval = descriptor_of(options.solver.method).audit_interval;
-  run.loop.shortest_contact = M_PI / used.joined_frequency;
-  run.limits = {used.energy_tolerance, tolerated_momentum};
-  run.history_interval = options.output.interval;
-  run.sections = sections_at(options.output.sections, problem.beam.length, mesh);
-  run.fields = field_options(problem, options, used);
-  run.zone_gap = options.output.zone_gap * used.first_period;
-  run.subzone_gap = options.output.subzone_gap * used.first_period;
-  run.fixed_step = used.step;
-  if (options.stop == StopRule::no_more_contact) run.stops_without_contact = problem.beam;
-  return run;
 }
 
 // The rotary inertia of a beam that is much thicker than long outweighs its mass by more than

@@ -607,7 +607,7 @@ class SweepPage(PageTest):
     def centre(self, run):
         """Of the mark of a run on the map, in pixels."""
         return self.js("""
-            const {left, top, width, height} = page.marks.find(({run}) => run === arguments[0]);
+            const {left, top, width, height} = page.map.marks.find(({run}) => run === arguments[0]);
             return [left + width / 2, top + height / 2];""", run)
 
     def pixel(self, x, y):
@@ -640,16 +640,16 @@ class SweepPage(PageTest):
         self.assertEqual(self.js("return document.querySelectorAll('b > *, i').length"), 0)
 
     def test_every_run_has_a_field_in_the_colour_of_its_count(self):
-        self.assertTrue(self.js("return page.isGrid"))
-        self.assertEqual(self.js("return page.marks.length"), 60)
+        self.assertTrue(self.js("return page.map.isGrid"))
+        self.assertEqual(self.js("return page.map.marks.length"), 60)
         for run, (_, _, _, n, _) in enumerate(self.runs):
             x, y = self.centre(run)
-            width = self.js("return page.marks.find(({run}) => run === arguments[0]).width", run)
+            width = self.js("return page.map.marks.find(({run}) => run === arguments[0]).width", run)
             found = self.pixel(x - 0.4 * width, y)
-            expected = self.js("return page.shade.rgb(arguments[0])", n) if run != 7 else None
+            expected = self.js("return page.map.shade.rgb(arguments[0])", n) if run != 7 else None
             if expected:
                 self.assertLess(max(abs(a - b) for a, b in zip(found, expected)), 6, f"run {run}: {found} {expected}")
-        low, high = self.js("return [page.shade.rgb(page.shade.low), page.shade.rgb(page.shade.high)]")
+        low, high = self.js("return [page.map.shade.rgb(page.map.shade.low), page.map.shade.rgb(page.map.shade.high)]")
         self.assertGreater(sum(abs(a - b) for a, b in zip(low, high)), 250)
 
     def test_counts_that_are_not_decided_have_a_cross(self):
@@ -658,7 +658,7 @@ class SweepPage(PageTest):
                 continue
             x, y = self.centre(run)
             colours = {tuple(self.pixel(x + d, y + d)) for d in (-2, 0, 2)}
-            plain = self.js("return page.shade.rgb(arguments[0])", n)
+            plain = self.js("return page.map.shade.rgb(arguments[0])", n)
             has_cross = any(max(abs(a - b) for a, b in zip(c, plain)) > 40 for c in colours)
             self.assertEqual(has_cross, decided < n, f"run {run}: {colours}")
         self.assertIn("the counts of", self.find("ul.headline").text)
@@ -692,15 +692,15 @@ class SweepPage(PageTest):
     def test_the_keyboard_suffices(self):
         self.js("document.getElementById('map').focus()")
         self.frame()
-        self.assertEqual(self.js("return page.chosen"), 0)
+        self.assertEqual(self.js("return page.map.chosen"), 0)
         self.press("right", "right")  # the other method, then the next velocity
-        self.assertEqual(self.js("return page.chosen"), 2)
+        self.assertEqual(self.js("return page.map.chosen"), 2)
         self.press("n")
-        self.assertEqual(self.js("return page.chosen"), 3)
+        self.assertEqual(self.js("return page.map.chosen"), 3)
         self.press("p", "left")
-        self.assertEqual(self.js("return page.chosen"), 1)
+        self.assertEqual(self.js("return page.map.chosen"), 1)
         self.press("up")
-        self.assertEqual(self.runs[self.js("return page.chosen")][0], 0.2)
+        self.assertEqual(self.runs[self.js("return page.map.chosen")][0], 0.2)
         self.press("enter")
         self.assertEqual(self.js("return document.activeElement.id"), "run")
 
@@ -709,14 +709,14 @@ class SweepPage(PageTest):
             const {select} = page.filters[0];
             select.value = '0';
             select.dispatchEvent(new Event('change'));""")
-        self.assertEqual(self.js("return page.visible.length"), 30)
+        self.assertEqual(self.js("return page.map.visible.length"), 30)
 
     def test_any_column_may_be_an_axis_or_a_colour(self):
         for x in ("striker.velocity", "solver.method", "max_force_N"):
             for y in ("max_force_N", "solver.method"):
                 self.choose("x", x)
                 self.choose("y", y if y != "solver.method" else "n_sub_impacts")
-                self.assertEqual(self.js("return page.visible.length"), 59, (x, y))
+                self.assertEqual(self.js("return page.map.visible.length"), 59, (x, y))
         for shade in ("max_force_N", "outcome", "striker.mass"):
             self.choose("shade", shade)
             self.assertGreater(self.js(COPY + """
@@ -727,7 +727,7 @@ class SweepPage(PageTest):
         self.choose("y", "max_force_N")
         for run in (0, 31, 59):
             x, y = self.centre(run)
-            axes = self.js("return [page.axes.toX(arguments[0]), page.axes.toY(arguments[1])]", self.runs[run][1], 1000.5 + run)
+            axes = self.js("return [page.map.axes.toX(arguments[0]), page.map.axes.toY(arguments[1])]", self.runs[run][1], 1000.5 + run)
             self.assertAlmostEqual(x, axes[0], delta=1e-6)
             self.assertAlmostEqual(y, axes[1], delta=1e-2)
 

@@ -1,5 +1,5 @@
-// What scatter leaves of the published strike: standard deviations and horizon by first
-// derivatives, beside an ensemble of runs.
+// The published strike under scatter: standard deviations and horizon by first derivatives, beside
+// an ensemble of runs.
 
 #include <fmt/format.h>
 

@@ -1,0 +1,280 @@
+'use strict';
+// The map of a sweep: a mark per run over two columns, coloured by a third.
+
+// An axis over a column: its range, and the cell of each value between half ways to its neighbours.
+class MapAxis {
+  constructor(column) {
+    this.column = column;
+    this.log = column.isLogarithmic;
+    const at = column.different.filter(Number.isFinite);
+    const forth = this.log ? Math.log : (x) => x, back = this.log ? Math.exp : (x) => x;
+    const u = at.map(forth);
+    const first = u.length > 1 ? 0.5 * (u[1] - u[0]) : 0.5, last = u.length > 1 ? 0.5 * (u[u.length - 1] - u[u.length - 2]) : 0.5;
+    this.edges = new Map(at.map((value, i) => [value, [
+      back(i > 0 ? 0.5 * (u[i - 1] + u[i]) : u[i] - first),
+      back(i + 1 < u.length ? 0.5 * (u[i] + u[i + 1]) : u[i] + last)]]));
+    this.range = u.length > 0 ? [back(u[0] - first), back(u[u.length - 1] + last)] : [0, 1];
+  }
+  // For points, a margin of the whole range on either side.
+  get wideRange() {
+    if (this.column.words || this.column.different.length < 2) return this.range;
+    const at = this.column.different.filter(Number.isFinite);
+    const [low, high] = [at[0], at[at.length - 1]];
+    if (this.log) return [low * (low / high) ** 0.03, high * (high / low) ** 0.03];
+    return [low - 0.04 * (high - low), high + 0.04 * (high - low)];
+  }
+  get options() {
+    const {column} = this;
+    const ticks = column.words ? column.words.map((label, at) => ({at, label})) : undefined;
+    return {label: column.title, log: this.log, ticks};
+  }
+}
+
+// `listener`: choose(run) and open(), called when the reader chooses a run and asks for its numbers.
+class SweepMap {
+  constructor(runs, canvas, listener) {
+    Object.assign(this, {runs, canvas, listener});
+    this.chosen = this.hovered = -1;
+    canvas.addEventListener('mousemove', (event) => this.hover(this.runAt(event.offsetX, event.offsetY), event));
+    canvas.addEventListener('mouseleave', () => this.hover(-1));
+    canvas.addEventListener('click', (event) => {
+      const run = this.runAt(event.offsetX, event.offsetY);
+      if (run < 0) return;
+      listener.choose(run);
+      listener.open();
+    });
+    canvas.addEventListener('keydown', (event) => this.key(event));
+    canvas.addEventListener('focus', () => { if (this.chosen < 0) listener.choose(this.visible[0] ?? -1); });
+  }
+
+  // Columns across, upwards and as colours; `wanted`: columns with the values that runs must have.
+  show(across, upwards, shown, wanted) {
+    this.x = new MapAxis(across);
+    this.y = new MapAxis(upwards);
+    this.shade = new Shade(shown);
+    this.visible = this.runs.numbers.map((_, run) => run).filter((run) =>
+      Number.isFinite(across.values[run]) && Number.isFinite(upwards.values[run])
+      && wanted.every(([column, value]) => column.values[run] === value));
+    this.arrange();
+    this.hovered = -1;
+    this.draw();
+  }
+
+  choose(run) {
+    this.chosen = run;
+    this.drawHighlights();
+  }
+
+  // Runs that share a place; a grid if most places of the grid are taken.
+  arrange() {
+    this.groups = new Map();
+    for (const run of this.visible) {
+      const place = `${this.x.column.values[run]} ${this.y.column.values[run]}`;
+      if (!this.groups.has(place)) this.groups.set(place, []);
+      this.groups.get(place).push(run);
+    }
+    const n = this.x.column.different.length * this.y.column.different.length;
+    this.isGrid = this.x.column.isKey && this.y.column.isKey && this.x.column !== this.y.column && 2 * this.groups.size >= n;
+  }
+
+  // How many runs there are, and what is not to be seen.
+  note(isFiltered) {
+    const n = this.runs.numbers.length;
+    const shared = Math.max(0, ...Array.from(this.groups.values(), (runs) => runs.length));
+    return `${this.visible.length} of ${n} runs`
+      + (this.visible.length < n && !isFiltered ? '; the others have no value on an axis' : '')
+      + (this.isGrid && shared > 1 ? `; up to ${shared} runs share a field, each has a part of it` : '')
+      + '.';
+  }
+
+  // --- drawing -------------------------------------------------------------------------------------
+
+  draw() {
+    const {x, y} = this;
+    const range = (axis) => (this.isGrid ? axis.range : axis.wideRange);
+    const options = {x: {range: range(x), ...x.options}, y: {range: range(y), ...y.options}, top: 26};
+    const axes = this.axes = new Axes(this.canvas, {...options, left: new Axes(this.canvas, options).roomForLabels()});
+    axes.frame();
+    this.marks = [];
+    for (const runs of this.groups.values()) this.isGrid ? this.addCells(runs) : this.addPoints(runs);
+    axes.inside((draw) => this.marks.forEach((mark) => this.drawMark(draw, mark)));
+    this.drawKey();
+    axes.keep();
+    this.drawHighlights();
+    this.shade.draw(byId('scale'));
+  }
+
+  // The field of a place, divided among its runs.
+  addCells(runs) {
+    const {axes, x, y} = this;
+    const [left, right] = x.edges.get(x.column.values[runs[0]]).map((value) => axes.toX(value));
+    const [bottom, top] = y.edges.get(y.column.values[runs[0]]).map((value) => axes.toY(value));
+    const n = Math.ceil(Math.sqrt(runs.length)), rows = Math.ceil(runs.length / n);
+    const width = (right - left) / n, height = (bottom - top) / rows;
+    runs.forEach((run, i) => this.marks.push(
+      {run, left: left + (i % n) * width, top: top + Math.floor(i / n) * height, width, height}));
+  }
+
+  addPoints(runs) {
+    const {axes, x, y} = this;
+    for (const run of runs) {
+      const [px, py] = [axes.toX(x.column.values[run]), axes.toY(y.column.values[run])];
+      this.marks.push({run, left: px - 4.5, top: py - 4.5, width: 9, height: 9, isPoint: true});
+    }
+  }
+
+  static outline(draw, {left, top, width, height, isPoint}, margin = 0) {
+    draw.beginPath();
+    if (isPoint) draw.arc(left + width / 2, top + height / 2, width / 2 + margin, 0, 2 * Math.PI);
+    else draw.rect(left - margin, top - margin, width + 2 * margin, height + 2 * margin);
+  }
+
+  drawMark(draw, mark) {
+    const value = this.shade.column.values[mark.run];
+    const tone = this.shade.of(value);
+    SweepMap.outline(draw, mark);
+    draw.fillStyle = tone ?? colour('grid');
+    draw.fill();
+    if (mark.isPoint) {
+      draw.strokeStyle = colour('text');
+      draw.lineWidth = 0.7;
+      draw.stroke();
+    }
+    if (tone === null) this.drawLack(draw, mark);
+    else if (this.runs.certainty(mark.run) === 'undecided') SweepMap.drawCross(draw, mark, this.shade.contrast(value));
+  }
+
+  // Count and order of the run's sub-impacts are not decided.
+  static drawCross(draw, {left, top, width, height}, tone) {
+    const size = Math.min(5, 0.32 * Math.min(width, height));
+    const x = left + width / 2, y = top + height / 2;
+    draw.strokeStyle = tone;
+    draw.lineWidth = size > 2.5 ? 1.5 : 1;
+    draw.beginPath();
+    draw.moveTo(x - size, y - size);
+    draw.lineTo(x + size, y + size);
+    draw.moveTo(x - size, y + size);
+    draw.lineTo(x + size, y - size);
+    draw.stroke();
+  }
+
+  // No value: the run was refused, or left no result.
+  drawLack(draw, {left, top, width, height}) {
+    draw.strokeStyle = colour('soft');
+    draw.lineWidth = 1;
+    draw.beginPath();
+    draw.moveTo(left + 0.2 * width, top + 0.5 * height);
+    draw.lineTo(left + 0.8 * width, top + 0.5 * height);
+    draw.stroke();
+  }
+
+  drawKey() {
+    const {axes} = this;
+    const {draw} = axes;
+    const box = (left) => ({left, top: 5, width: 14, height: 14});
+    let x = axes.left;
+    const entry = (words, paint) => {
+      paint(box(x));
+      axes.text(words, x + 20, 12);
+      x += 40 + draw.measureText(words).width;
+    };
+    if (this.visible.some((run) => this.runs.certainty(run) === 'undecided')) {
+      entry('count not decided', (mark) => {
+        SweepMap.outline(draw, mark);
+        draw.strokeStyle = colour('soft');
+        draw.stroke();
+        SweepMap.drawCross(draw, mark, colour('text'));
+      });
+    }
+    if (this.visible.some((run) => this.shade.of(this.shade.column.values[run]) === null)) {
+      entry('no value', (mark) => {
+        SweepMap.outline(draw, mark);
+        draw.fillStyle = colour('grid');
+        draw.fill();
+        this.drawLack(draw, mark);
+      });
+    }
+  }
+
+  drawHighlights() {
+    const {axes} = this;
+    axes.restore();
+    const {draw} = axes;
+    const ring = (run, width) => {
+      const mark = this.marks.find((other) => other.run === run);
+      if (!mark) return;
+      for (const [margin, tone] of [[width, 'paper'], [0.5 * width, 'text']]) {
+        SweepMap.outline(draw, mark, margin);
+        draw.strokeStyle = colour(tone);
+        draw.lineWidth = width;
+        draw.stroke();
+      }
+    };
+    if (this.hovered >= 0) ring(this.hovered, 1.5);
+    if (this.chosen >= 0) ring(this.chosen, 2.5);
+  }
+
+  // --- pointing and keys ---------------------------------------------------------------------------
+
+  runAt(x, y) {
+    const inside = this.marks.find(({left, top, width, height, isPoint}) =>
+      !isPoint && x >= left && x < left + width && y >= top && y < top + height);
+    if (inside) return inside.run;
+    let best = -1, least = 15;
+    for (const {run, left, top, width, height, isPoint} of this.marks) {
+      if (!isPoint) continue;
+      const far = Math.hypot(left + width / 2 - x, top + height / 2 - y);
+      if (far < least) [best, least] = [run, far];
+    }
+    return best;
+  }
+
+  hover(run, event) {
+    const tip = byId('tip');
+    this.canvas.style.cursor = run >= 0 ? 'pointer' : '';
+    tip.hidden = run < 0;
+    if (event && run >= 0) {
+      tip.textContent = this.runs.words(run, this.shade.column);
+      const {clientWidth: width} = this.canvas;
+      const right = event.offsetX > 0.55 * width;
+      Object.assign(tip.style, {top: `${event.offsetY + 16}px`, left: right ? 'auto' : `${event.offsetX + 12}px`,
+                                right: right ? `${width - event.offsetX + 12}px` : 'auto'});
+    }
+    if (run === this.hovered) return;
+    this.hovered = run;
+    this.drawHighlights();
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const actions = {
+      ArrowLeft: () => this.chooseTowards(-1, 0), ArrowRight: () => this.chooseTowards(1, 0),
+      ArrowUp: () => this.chooseTowards(0, -1), ArrowDown: () => this.chooseTowards(0, 1),
+      n: () => this.chooseBeside(1), p: () => this.chooseBeside(-1), Enter: () => this.listener.open()};
+    const action = actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  // The nearest run in a direction, which counts more than the way across.
+  chooseTowards(dx, dy) {
+    const centre = ({left, top, width, height}) => [left + width / 2, top + height / 2];
+    const here = this.marks.find(({run}) => run === this.chosen);
+    if (!here) {
+      this.listener.choose(this.visible[0] ?? -1);
+      return;
+    }
+    const [x, y] = centre(here);
+    let best = -1, least = Infinity;
+    for (const mark of this.marks) {
+      const [ox, oy] = centre(mark);
+      const along = (ox - x) * dx + (oy - y) * dy, across = Math.abs((ox - x) * dy) + Math.abs((oy - y) * dx);
+      const far = along + 3 * across;
+      if (along > 0.5 && along >= across && far < least) [best, least] = [mark.run, far];
+    }
+    this.listener.choose(best);
+  }
+
+  chooseBeside(sense) { this.listener.choose(Math.min(Math.max(this.chosen + sense, 0), this.runs.numbers.length - 1)); }
+}
