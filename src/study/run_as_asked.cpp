@@ -54,7 +54,8 @@ WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest req
   const std::optional<OpenChoices> open = choices_left(input, given, request.error_bars);
   WithinRun run = open ? simulate_as_chosen(input, *open, request)
                        : WithinRun{input, simulate_as_given(input, request)};
-  if (request.error_bars != ErrorBars::off) {
+  const bool is_interrupted = run.result.outcome.kind == OutcomeKind::stopped;
+  if (request.error_bars != ErrorBars::off && !is_interrupted) {
     run.result.neglected_shear = neglected_shear(run.input, run.result);
   }
   return run;

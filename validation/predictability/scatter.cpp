@@ -21,7 +21,12 @@ constexpr double ms = 1e3;
 constexpr std::size_t n_runs = 2000;
 constexpr double share_that_ends = 0.05;  // of runs in which a contact changes
 
+const char* name_of(SectionKind section) {
+  return section == SectionKind::elastic ? "elastic" : "yielding";
+}
+
 struct Study {
+  SectionKind section;
   double scatter;
   Sensitivity sensitivity;
   Result result;  // with predictability
@@ -35,7 +40,7 @@ Scatter all_by(double deviation) {
 }
 
 Study study_of(SectionKind section, double deviation, Jobs jobs) {
-  Study study{deviation, {}, {}, {}};
+  Study study{section, deviation, {}, {}, {}};
   const Scatter scatter = all_by(deviation);
   SensitivityOptions options;
   for (const auto& [key, unused] : scatter) options.keys.push_back(key);
@@ -128,22 +133,31 @@ std::string contact_table(const Study& study, double end) {
   return text;
 }
 
-std::string panel(const Study& study, const std::string& name, const char* title) {
+// Blue: the share of runs in contact. Black, above: the contacts of the strike as given.
+std::string panel(const Study& study, const std::string& name) {
   const Predictability& p = *study.result.predictability;
-  std::string text = fmt::format("unset object\nunset arrow\nunset label\n");
+  const auto& contacts = study.result.sub_impacts;
+  std::string text = "unset object\nunset arrow\nunset label\n";
   int number = 0;
-  for (const SubImpact& s : study.result.sub_impacts) {
+  for (const SubImpact& s : contacts) {
     text += fmt::format(
-        "set object {} rectangle from first {:.6g}, graph 1.02 to first {:.6g}, graph 1.1 "
+        "set object {} rectangle from first {:.6g}, graph 1.03 to first {:.6g}, graph 1.11 noclip "
         "fillcolor rgb '#404040' fillstyle solid noborder\n",
         ++number, ms * s.start, ms * study.result.end_of(s));
   }
   text += fmt::format(
-      "set arrow 1 from first {0:.6g}, graph 0 to first {0:.6g}, graph 1.12 nohead lt 2 lw 2\n"
-      "set title '{1}' offset 0,0.6\n"
-      "set label 1 'predictable up to here' at first {0:.6g}, graph 0.9 left offset 0.6,0 tc lt 2\n"
-      "plot ${2} using 1:2 with filledcurves y1=0 lc rgb '#56B4E9' notitle\n",
-      ms * p.horizon, title, name);
+      "set arrow 1 from first {0:.6g}, graph 0 to first {0:.6g}, graph 1.14 nohead lt 2 lw 3 "
+      "front\n"
+      "set title '{6} sections; velocity, thickness and yield stress known to {1:g} %' offset "
+      "0,0.8\n"
+      "set label 1 'grey, above: contacts of the strike as given' at graph 0.26, graph 0.85\n"
+      "set label 2 'blue: share of {2} runs that are in contact' at graph 0.26, graph 0.71\n"
+      "set label 3 'orange: predictable one by one up to here, {3} of {4} contacts' at graph 0.26, "
+      "graph 0.57 tc lt 2\n"
+      "plot ${5} using 1:2 with filledcurves y1=0 lc rgb '#56B4E9' notitle\n",
+      ms * p.horizon, 100.0 * study.scatter, study.ensemble.runs.size(),
+      p.first_unpredictable.value_or(contacts.size()), contacts.size(), name,
+      name_of(study.section));
   return text;
 }
 
@@ -154,17 +168,14 @@ void draw(const std::vector<Study>& studies) {
   for (std::size_t i = 0; i < studies.size(); ++i) {
     const std::string name = fmt::format("contact{}", i);
     script += fmt::format("${} << EOD\n{}EOD\n", name, contact_table(studies[i], end));
-    panels += panel(studies[i], name,
-                    fmt::format("velocity, thickness and yield stress known to {:g} %",
-                                100.0 * studies[i].scatter)
-                        .c_str());
+    panels += panel(studies[i], name);
   }
   script += fmt::format(
       "set xrange [0:{:g}]\nset yrange [0:100]\nset ylabel 'in contact, % of runs'\n"
-      "set xlabel 'time, ms'\nset multiplot layout {},1 spacing 0.1,0.14\n{}unset multiplot\n",
+      "set xlabel 'time, ms'\nset multiplot layout {},1 spacing 0.1,0.07\n{}unset multiplot\n",
       ms * end, studies.size(), panels);
   const std::filesystem::path directory = SUBIMPACT_PREDICTABILITY;
-  draw_figure(directory, "scatter", script, {1100, 620});
+  draw_figure(directory, "scatter", script, {1100, 1150});
   std::filesystem::remove(directory / "scatter.gp");  // this source is the script
   std::filesystem::remove(directory / "scatter.png");
 }
@@ -179,8 +190,7 @@ bool check_scatter(Jobs jobs) {
       Study study = study_of(section, deviation, jobs);
       const Judged judged = judge(study);
       const Predictability& p = *study.result.predictability;
-      fmt::print("\n### {} section, {:g} %\n\n",
-                 section == SectionKind::elastic ? "elastic" : "exact", 100.0 * deviation);
+      fmt::print("\n### {} sections, {:g} %\n\n", name_of(section), 100.0 * deviation);
       fmt::print(
           "{} runs, {} failed. Every run has the first {} sub-impacts as they are; by derivatives "
           "their standard deviations are off by {:.1f} % at most. Number {} is the first that "
@@ -198,7 +208,7 @@ bool check_scatter(Jobs jobs) {
       print_events(study);
       std::fflush(stdout);
       all = all && judged.largest_off < 0.1 && judged.horizon <= judged.first_ending;
-      if (section == SectionKind::exact) drawn.push_back(std::move(study));
+      drawn.push_back(std::move(study));
     }
   }
   draw(drawn);
