@@ -17,7 +17,8 @@ void add_explain(CLI::App& program, int& status) {
   command->footer(
       "Examples:\n"
       "  subimpact explain case.toml\n"
-      "  subimpact explain case.toml --method central-difference --set model.segments=1001");
+      "  subimpact explain case.toml --method central-difference --set model.segments=1001\n"
+      "Exit status: 0 done; 2 bad command line or case file.");
   command->callback([options, &status] {
     const LoadedCase loaded = options->load();
     with_places(loaded, [&] {

@@ -70,7 +70,8 @@ void add_plan(CLI::App& program, int& status) {
                       "Without it nothing is written");
   options->jobs.add_to(*command);
   command->footer(
-      "The reference is what run --within makes of the case for a fifth of the error. Sequences of "
+      "The reference is the run that run --within chooses for a fifth of the wanted error. "
+      "Sequences of "
       "meshes and methods are judged by it; a mesh is admitted only if all finer ones of its "
       "sequence are within the error too.\n"
       "Examples:\n"

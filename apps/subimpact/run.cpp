@@ -173,9 +173,9 @@ void add_run(CLI::App& program, int& status) {
   options->input.add_to(*command);
   command->add_option(
       "--out", options->directory,
-      "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv and "
-      "summary.json; made "
-      "if missing. Default: the case file's name without its ending, and -results, "
+      "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv, "
+      "summary.json, manifest.json and, where asked for, sections.csv and points.csv; made if "
+      "missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
   add_time_option(*command, "--within", options->within,
                   "Wished bound on the error of every event time, with its unit: 1us. The program "
@@ -202,7 +202,8 @@ void add_run(CLI::App& program, int& status) {
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "
       "validity; "
-      "3 the solver failed, or results could not be written to DIR; 128 and the signal's number: "
+      "3 a check or the solver failed, or results could not be written to DIR; 128 and the "
+      "signal's number: "
       "stopped (130 by Ctrl-C). Once the run has begun, what was computed is written in every "
       "case: "
       "also after Ctrl-C, SIGTERM or SIGHUP; if DIR cannot be written any more (a full disk), to a "

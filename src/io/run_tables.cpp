@@ -165,7 +165,10 @@ Columns<SubImpact> events_columns(const Result& result) {
 const Columns<Transition>& transitions_columns() {
   static const Columns<Transition> columns = {
       {"time_s", "instant of the event", &Transition::time},
-      {"kind", "what happens: contact_begins, contact_yields, ...", &Transition::kind},
+      {"kind",
+       "contact_begins, contact_yields, contact_unloads, contact_ends, or section_reverses (not by "
+       "central-difference)",
+       &Transition::kind},
       {"section", "index of the section, from 0; empty for events of the contact",
        &Transition::section},
       {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value}};
