@@ -11,10 +11,30 @@
 
 namespace subimpact::app {
 
+namespace {
+
+// An empty value would count as none.
+std::string not_empty(const std::string& text) {
+  return text.empty() ? "is empty; give a value, or leave the option out" : std::string();
+}
+
+}  // namespace
+
+CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
+                                  const std::string& meaning) {
+  return command.add_option("--out", directory, meaning)->check(not_empty);
+}
+
 void CaseOptions::add_to(CLI::App& command) {
+  add_case_to(command);
+  command
+      .add_option("--method", method,
+                  "Time integration method, instead of solver.method; see `subimpact methods`")
+      ->check(not_empty);
+}
+
+void CaseOptions::add_case_to(CLI::App& command) {
   command.add_option("CASE", file, "Case file (TOML); `subimpact keys` lists its keys")->required();
-  command.add_option("--method", method,
-                     "Time integration method, instead of solver.method; see `subimpact methods`");
   command
       .add_option(
           "--set", settings,

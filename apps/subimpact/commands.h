@@ -10,7 +10,7 @@
 
 namespace subimpact::app {
 
-/// What the program tells its caller.
+/// Exit statuses of the program; signals have their own.
 enum ExitStatus : int {
   done = 0,
   refused = 2,  ///< bad command line or case, or a scene the model does not hold for
@@ -24,11 +24,17 @@ struct CaseOptions {
   std::vector<std::string> settings;
 
   void add_to(CLI::App& command);
+  /// Without --method, for commands that run methods of their own choice.
+  void add_case_to(CLI::App& command);
   /// Throws CaseFileError.
   LoadedCase load() const;
   /// The case file's name without its ending, and this ending, in the current directory.
   std::string directory_with(const std::string& ending) const;
 };
+
+/// The option --out.
+CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
+                                  const std::string& meaning);
 
 /// What `body` returns. An InvalidCase becomes a CaseFileError with the place of its key.
 template <class Body>
@@ -40,12 +46,12 @@ auto with_places(const LoadedCase& loaded, Body body) {
   }
 }
 
-/// Says on stderr which of the keys given have no effect.
+/// Prints on stderr which of the keys given have no effect.
 void print_notes(const LoadedCase& loaded);
 /// Prints warnings on stderr, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
 
-/// Says on stderr what the figures of a run leave out, and how a run ended that did not complete.
+/// Prints on stderr what the figures of a run leave out, and how a run ended that did not complete.
 void print_figure_notes(const FinishedRun& run);
 
 /// A check of an option that is a time in seconds.

@@ -11,6 +11,7 @@
 #include "interrupt.h"
 #include "print.h"
 #include "status_line.h"
+#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/compare.h"
@@ -27,13 +28,16 @@ struct CompareOptions {
 };
 
 int run_theories(const CompareOptions& options) {
+  const auto with_theory = [&](const std::string& theory) {
+    CaseOptions changed = options.input;
+    changed.settings.push_back(fmt::format("beam.theory=\"{}\"", theory));
+    return changed.load();
+  };
+  const LoadedCase loaded = with_theory(options.theories.front());
   std::vector<Case> cases;
-  for (const std::string& theory : options.theories) {
-    CaseOptions with_theory = options.input;
-    with_theory.settings.push_back(fmt::format("beam.theory=\"{}\"", theory));
-    cases.push_back(with_theory.load().value);
-  }
-  const LoadedCase loaded = options.input.load();
+  for (const std::string& theory : options.theories) cases.push_back(with_theory(theory).value);
+  print_notes(loaded);
+  print_warnings(doubtful_units(loaded.value));
   InterruptListener listener;
   StatusLine status;
   const auto runs = with_places(loaded, [&] {
@@ -63,6 +67,8 @@ int run_comparison(const CompareOptions& options) {
   }
   const LoadedCase loaded = options.input.load();
   check_method_names(options.methods);
+  print_notes(loaded);
+  print_warnings(doubtful_units(loaded.value));
   std::optional<OutputDirectory> directory;
   if (!options.directory.empty()) directory.emplace(options.directory, "compare");
   InterruptListener listener;
@@ -117,9 +123,11 @@ void add_compare(CLI::App& program, int& status) {
                    "with their errors, and how much later they come than by the first")
       ->delimiter(',')
       ->excludes("--methods");
-  command->add_option("--out", options->directory,
-                      "Directory for comparison.csv and matches.csv; made if missing. Without it "
-                      "nothing is written");
+  add_directory_option(*command, options->directory,
+                       "Directory for comparison.csv and matches.csv; made if missing. Without it "
+                       "nothing is written")
+      ->excludes("--theories");
+  command->get_option("--method")->excludes("--methods");
   command->footer(
       "Every method runs at the case's solver.rtol, fixed-step methods at their default step or "
       "solver.step. They are compared with nystrom at rtol 1e-11, whose own error is stated; "
@@ -131,7 +139,7 @@ void add_compare(CLI::App& program, int& status) {
       "  subimpact compare case.toml --methods erk,erk+library,erk+interpolated\n"
       "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed; "
-      "130 stopped by Ctrl-C, with the methods that had ended.");
+      "128 and the signal's number: stopped (130 by Ctrl-C), with the methods that had ended.");
   command->callback([options, &status] { status = run_comparison(*options); });
 }
 

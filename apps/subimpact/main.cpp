@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -8,6 +10,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,9 +39,14 @@ std::vector<std::string> command_names(const CLI::App& program) {
   return names;
 }
 
-// CLI11 would only say that a command is missing.
+// CLI11's own message is that a command is missing.
 std::optional<std::string> unknown_command(const CLI::App& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return std::nullopt;
+  if (argc < 2) return std::nullopt;
+  if (argv[1][0] == '-') {
+    if (program.get_option_no_throw(argv[1]) != nullptr) return std::nullopt;
+    return fmt::format("unknown option \"{}\"; a command comes first; see subimpact --help",
+                       argv[1]);
+  }
   const std::vector<std::string> names = command_names(program);
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;
   const std::string near = subimpact::nearest_name(argv[1], names);
@@ -66,6 +74,16 @@ int checked_output(int status) {
       "elsewhere\n",
       cause != 0 ? std::strerror(cause) : "only a part could be written");
   return status == app::done ? app::failed : status;
+}
+
+// A file of the program that took the number of a closed standard stream would receive what is
+// printed. The stream gets a place that refuses it in its stead: printing then fails as it should.
+bool occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    const int refusing = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", refusing) != stream) return false;
+  }
+  return true;
 }
 
 int run_command_line(int argc, char** argv) {
@@ -124,6 +142,11 @@ int run_command_line(int argc, char** argv) {
   } catch (const OutputError& error) {
     app::print_error("subimpact: {}\n", error.what());
     return app::refused;
+  } catch (const std::bad_alloc&) {
+    app::print_error(
+        "subimpact: the memory does not suffice; `subimpact explain` shows what a case takes: use "
+        "a coarser mesh, or raise the limit of memory\n");
+    return app::failed;
   } catch (const std::exception& error) {
     app::print_error("subimpact: {}\n", error.what());
     return app::failed;
@@ -134,6 +157,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (!occupy_closed_streams()) return subimpact::app::failed;
   try {
     return run_command_line(argc, argv);
   } catch (...) {  // while a message was made

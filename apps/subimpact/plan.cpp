@@ -40,6 +40,10 @@ int run_plan(const PlanCommand& command) {
     how.progress = std::ref(progress);
     return plan(loaded.value, *seconds_of(command.error), how);
   });
+  if (result.interrupted && result.points.empty()) {
+    print_error("subimpact: interrupted before a mesh was tried; nothing is written\n");
+    return listener.exit_status();
+  }
   print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
         plan_reference_table(result), plan_table(result));
   if (directory) {
@@ -60,14 +64,14 @@ void add_plan(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand(
       "plan", "Find the cheapest mesh, method and setting for a wanted total error");
   auto options = std::make_shared<PlanCommand>();
-  options->input.add_to(*command);
+  options->input.add_case_to(*command);
   add_time_option(*command, "--within,--error", options->error,
                   "Wanted bound on the error of every event time, from mesh, layers and time "
                   "together, with its unit: 1us")
       ->required();
-  command->add_option("--out", options->directory,
-                      "Directory for reference.csv, plan.csv and a chart; made if missing. "
-                      "Without it nothing is written");
+  add_directory_option(*command, options->directory,
+                       "Directory for reference.csv, plan.csv and a chart; made if missing. "
+                       "Without it nothing is written");
   options->jobs.add_to(*command);
   command->footer(
       "The reference is the run that run --within chooses for a fifth of the wanted error. "
@@ -77,7 +81,8 @@ void add_plan(CLI::App& program, int& status) {
       "Examples:\n"
       "  subimpact plan case.toml --within 1us\n"
       "  subimpact plan case.toml --within 0.05us --set model.section=elastic --out out/plan\n"
-      "Exit status: 0 done; 2 bad command line or case file; 130 stopped by Ctrl-C.");
+      "Exit status: 0 done; 2 bad command line or case file; 128 and the signal's number: stopped "
+      "(130 by Ctrl-C).");
   command->callback([options, &status] { status = run_plan(*options); });
 }
 

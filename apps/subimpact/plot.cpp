@@ -49,8 +49,8 @@ void add_plot(CLI::App& program, int& status) {
       program.add_subcommand("plot", "Draw the figures of a finished run (SVG, PNG and PDF)");
   auto options = std::make_shared<PlotOptions>();
   command->add_option("DIR", options->run, "Output directory of `subimpact run`")->required();
-  command->add_option("--out", options->directory,
-                      "Directory for the figures; made if missing. Default: DIR");
+  add_directory_option(*command, options->directory,
+                       "Directory for the figures; made if missing. Default: DIR");
   command->add_option("--scripts", options->scripts,
                       "Directory of gnuplot scripts to draw with; those it lacks are put there "
                       "first, to be changed");

@@ -93,8 +93,8 @@ void add_report(CLI::App& program, int& status) {
           "Output directory of `subimpact run`, or of subimpact-sweep; several of runs: they "
           "are compared")
       ->required();
-  command->add_option(
-      "--out", options->directory,
+  add_directory_option(
+      *command, options->directory,
       "Directory for report.html and its figures, comparison.html or sweep.html; made if "
       "missing. Default: DIR; needed with several");
   command->add_option("--dygraphs", options->dygraphs,

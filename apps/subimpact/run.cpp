@@ -171,8 +171,8 @@ void add_run(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand("run", "Simulate a case");
   auto options = std::make_shared<RunOptions>();
   options->input.add_to(*command);
-  command->add_option(
-      "--out", options->directory,
+  add_directory_option(
+      *command, options->directory,
       "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv, "
       "summary.json, manifest.json and, where asked for, sections.csv and points.csv; made if "
       "missing. Default: the case file's name without its ending, and -results, "

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -79,6 +80,13 @@ int run_sensitivity(const SensitivityCommand& command) {
     print_error("subimpact: interrupted before the runs of a key had ended; nothing is written\n");
     return listener.exit_status();
   }
+  const bool only_first_touch =
+      std::ranges::all_of(study.rows, [](const SensitivityRow& row) { return row.value == 0.0; });
+  if (!study.interrupted && only_first_touch) {
+    print_warnings(
+        {"no number of a sub-impact can be derived before time.end: the first contact "
+         "lasts to the end; use a later time.end"});
+  }
   if (directory) {
     write_sensitivity(directory->staging(), study);
     directory->commit();
@@ -108,8 +116,8 @@ void add_sensitivity(CLI::App& program, int& status) {
                    "Keys to derive by, separated by commas. Default: all numbers of beam, striker "
                    "and contact that take effect")
       ->delimiter(',');
-  command->add_option(
-      "--out", options->directory,
+  add_directory_option(
+      *command, options->directory,
       "Directory for sensitivity.csv: derivatives, by the logarithm of each key, of "
       "start, end, peak force, impulse, indentation and striker velocity of every "
       "sub-impact, with their errors; made if missing. Without it nothing is "
@@ -125,7 +133,8 @@ void add_sensitivity(CLI::App& program, int& status) {
       "  subimpact sensitivity case.toml --by striker.velocity,beam.thickness --out out/by-two\n"
       "  subimpact sensitivity case.toml --method nystrom --set time.end=2e-3\n"
       "Exit status: 0 done; 2 bad command line or case file, or a key without a derivative; 3 a "
-      "run failed; 130 stopped by Ctrl-C, with the keys whose runs had ended.");
+      "run failed; 128 and the signal's number: stopped (130 by Ctrl-C), with the keys whose runs "
+      "had ended.");
   command->callback([options, &status] { status = run_sensitivity(*options); });
 }
 

@@ -174,7 +174,7 @@ void add_stability(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand(
       "stability", "Find where each method fails, and how; as tables, CSV and figures");
   auto options = std::make_shared<StabilityCommand>();
-  options->input.add_to(*command);
+  options->input.add_case_to(*command);
   command
       ->add_option("--methods", options->methods,
                    "Only these methods, separated by commas; one without a table stands for all "
@@ -189,9 +189,9 @@ void add_stability(CLI::App& program, int& status) {
           "layers "
           "(against the exact section)")
       ->delimiter(',');
-  command->add_option("--out", options->directory,
-                      "Directory for CSV and figures; made if missing. Default: the case file's "
-                      "name without its ending, and -stability, in the current directory");
+  add_directory_option(*command, options->directory,
+                       "Directory for CSV and figures; made if missing. Default: the case file's "
+                       "name without its ending, and -stability, in the current directory");
   command
       ->add_option("--run-seconds", options->run_seconds,
                    "Runs of the map that take longer are left out")

@@ -140,7 +140,7 @@ void add_work_precision(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand(
       "work-precision", "Chart cost against error for every method, and recommend settings");
   auto options = std::make_shared<WorkPrecisionCommand>();
-  options->input.add_to(*command);
+  options->input.add_case_to(*command);
   command
       ->add_option("--methods", options->methods,
                    "Methods to sweep, separated by commas; a method's table after a colon, "
@@ -152,9 +152,9 @@ void add_work_precision(CLI::App& program, int& status) {
                    "Section laws, separated by commas, each in a panel of its own. Default: the "
                    "case's")
       ->delimiter(',');
-  command->add_option("--out", options->directory,
-                      "Directory for CSV and figures; made if missing. Default: the case file's "
-                      "name without its ending, and -work-precision, in the current directory");
+  add_directory_option(*command, options->directory,
+                       "Directory for CSV and figures; made if missing. Default: the case file's "
+                       "name without its ending, and -work-precision, in the current directory");
   command
       ->add_option("--point-seconds", options->point_seconds,
                    "A setting that would take longer is reported as not run")

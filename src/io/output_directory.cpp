@@ -26,9 +26,10 @@ namespace fs = std::filesystem;
   throw OutputError(fmt::format("{}: {}; choose another with --out", path.string(), cause));
 }
 
-// Waits until a file, or the names in a directory, are on the disk.
-void synchronise(const fs::path& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+// Waits until a file, or the names in a directory, are on the disk. A link is followed for the
+// directory that the user has named alone.
+void synchronise(const fs::path& path, int follow = O_NOFOLLOW) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | follow);
   const bool failed = descriptor < 0 || (fsync(descriptor) != 0 && errno != EINVAL);
   const int cause = errno;
   if (descriptor >= 0) close(descriptor);
@@ -130,6 +131,12 @@ OutputDirectory::~OutputDirectory() {
 void OutputDirectory::open(const fs::path& directory) {
   std::error_code error;
   const fs::file_type kind_of_file = fs::status(directory, error).type();
+  if (kind_of_file == fs::file_type::none) {
+    refuse(directory, fmt::format("this output directory cannot be made ({})", error.message()));
+  }
+  if (kind_of_file == fs::file_type::not_found && fs::is_symlink(directory, error)) {
+    refuse(directory, "this output directory cannot be made (a symbolic link to nothing)");
+  }
   if (kind_of_file != fs::file_type::not_found && kind_of_file != fs::file_type::directory) {
     refuse(directory, "this output directory cannot be made (a file has that name)");
   }
@@ -180,7 +187,7 @@ void OutputDirectory::commit() {
   is_committed_ = true;
   const fs::path sealed = std::exchange(staging_, fs::path());
   try {
-    synchronise(path_);
+    synchronise(path_, O_DIRECTORY);
     settle();
     begin_staging();
   } catch (const std::exception& failure) {

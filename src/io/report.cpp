@@ -45,6 +45,11 @@ std::string zone_text(const std::vector<ZoneSummary>& zones,
 std::string valid_times_text(const Result& result, double largest_error,
                              const std::optional<std::size_t>& first_unresolved,
                              const std::string& reason) {
+  const bool no_time = largest_error == 0.0;  // but that of the first touch, which is exact
+  if (!first_unresolved && no_time) {
+    return "no event time up to " + duration_text(result.outcome.time) +
+           " but the first touch, which is exact";
+  }
   if (!first_unresolved) {
     return fmt::format("all times to {} up to {}", error_text(largest_error),
                        duration_text(result.outcome.time));
@@ -211,7 +216,10 @@ std::string wish_words(const WishOutcome& wish, const Result& result) {
   std::string text = fmt::format("event times within {}: ", duration_text(wish.wished));
   if (wish.met) {
     text += "met " + range;
-    if (is_known) text += fmt::format(" ({} reached)", error_text(wish.reached));
+    if (is_known) {
+      text += wish.reached > 0.0 ? fmt::format(" ({} reached)", error_text(wish.reached))
+                                 : std::string(" (there is no event time but the first touch)");
+    }
   } else {
     text += is_known ? fmt::format("not met; {} reached {}", error_text(wish.reached), range)
                      : std::string("not met; the error reached is not known");
@@ -222,13 +230,16 @@ std::string wish_words(const WishOutcome& wish, const Result& result) {
 }
 
 std::string neglected_shear_words(const NeglectedShear& shear) {
+  const bool is_small = shear.with && std::abs(*shear.with - shear.without) < 5e-3 * shear.without;
   const std::string change =
-      shear.with ? fmt::format("moves the end of the first contact from {:.3g} to {:.3g} us",
-                               us * shear.without, us * *shear.with)
-                 : fmt::format(
-                       "moves the end of the first contact from {:.3g} us to beyond three "
-                       "times that",
-                       us * shear.without);
+      is_small ? fmt::format("moves the end of the first contact, at {:.3g} us, by less than 0.5 %",
+                             us * shear.without)
+      : shear.with ? fmt::format("moves the end of the first contact from {:.3g} to {:.3g} us",
+                                 us * shear.without, us * *shear.with)
+                   : fmt::format(
+                         "moves the end of the first contact from {:.3g} us to beyond three "
+                         "times that",
+                         us * shear.without);
   return fmt::format("shear, which on a coarse mesh {}; beam.theory = \"timoshenko\" has it",
                      change);
 }
@@ -309,7 +320,7 @@ std::string run_summary(const Case& input, const Result& result) {
        fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
   const FinalErrors errors = final_errors(input, result);
   line("maxima", maxima_text(result, errors));
-  if (!result.envelope.empty()) {
+  if (!result.envelope.empty() && result.used.section != "rigid") {
     line("bending", bending_text(result));
     if (!result.plastic_zones.empty()) line("permanent set", permanent_set_text(result));
   }

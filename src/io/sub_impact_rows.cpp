@@ -59,13 +59,16 @@ struct Sums {
 
 Numbers numbers_of(const SubImpact& s, double end_or_last, Sums& sums) {
   const double start_error = s.start_error.value_or(unknown);
-  const double end_error = s.end ? s.end_error.value_or(unknown) : start_error;
+  // A contact that is still open has no end whose error could stand for those of its values.
+  const double end_error = s.end ? s.end_error.value_or(unknown) : unknown;
   const double length = end_or_last - s.start;
   const double relative = length > 0.0 ? (start_error + end_error) / length : unknown;
-  const double indentation_error =
-      sums.residual_error + relative * std::abs(s.max_indentation - sums.residual);
-  sums.velocity_error += relative * std::abs(s.striker_velocity - sums.velocity);
-  sums.residual_error += relative * std::abs(s.residual_indentation - sums.residual);
+  const auto error_of = [&](double value, double before = 0.0) {
+    return value == before ? 0.0 : relative * std::abs(value - before);
+  };
+  const double indentation_error = sums.residual_error + error_of(s.max_indentation, sums.residual);
+  sums.velocity_error += error_of(s.striker_velocity, sums.velocity);
+  sums.residual_error += error_of(s.residual_indentation, sums.residual);
   sums.velocity = s.striker_velocity;
   sums.residual = s.residual_indentation;
   Numbers numbers(n_quantities);
@@ -73,8 +76,8 @@ Numbers numbers_of(const SubImpact& s, double end_or_last, Sums& sums) {
   numbers[end] = {scaled(s.end, us), end_error * us};
   numbers[duration] = {s.end ? std::optional(length * us) : std::nullopt,
                        (start_error + end_error) * us};
-  numbers[peak] = {s.peak_force, relative * std::abs(s.peak_force)};
-  numbers[impulse] = {s.impulse, relative * std::abs(s.impulse)};
+  numbers[peak] = {s.peak_force, error_of(s.peak_force)};
+  numbers[impulse] = {s.impulse, error_of(s.impulse)};
   numbers[indentation] = {s.max_indentation * mm, indentation_error * mm};
   numbers[residual] = {s.residual_indentation * mm, sums.residual_error * mm};
   numbers[velocity] = {s.striker_velocity, sums.velocity_error};
@@ -93,8 +96,8 @@ std::string exact_text(double value, int decimals) {
 // Formats the numbers of one quantity, row after row.
 class Formatter {
  public:
-  /// `undecided_decimals`: most decimals of rows that are not decided.
-  Formatter(const QuantityFormat& format, bool has_errors, int undecided_decimals)
+  /// `undecided_decimals`: most decimals of rows that are not decided, where an error is known.
+  Formatter(const QuantityFormat& format, bool has_errors, std::optional<int> undecided_decimals)
       : format_(format), has_errors_(has_errors), decimals_(undecided_decimals) {}
 
   Cell cell(const Number& number, bool is_decided) {
@@ -102,33 +105,39 @@ class Formatter {
     if (!has_errors_) return {with_decimals(*number.value, format_.decimals), {}};
     const std::optional<Rounding> rounding = rounding_of(number.error, format_.most_decimals);
     const char* doubt = format_.shows_error ? "?" : "";
-    if (!is_decided || !rounding) {
-      if (rounding) decimals_ = std::min(decimals_, rounding->decimals);
-      return {with_decimals(*number.value, decimals_), doubt};
+    if (is_decided && !rounding) return {with_two_digits(*number.value), doubt};
+    if (!is_decided) {
+      if (rounding && number.error > 0.0) allow_decimals(rounding->decimals);
+      return {decimals_ ? with_decimals(*number.value, *decimals_) : with_two_digits(*number.value),
+              doubt};
     }
     if (number.error == 0.0) return {exact_text(*number.value, rounding->decimals), {}};
-    decimals_ = std::min(decimals_, rounding->decimals);
+    allow_decimals(rounding->decimals);
     return {with_decimals(*number.value, rounding->decimals),
             format_.shows_error ? rounding->error : std::string()};
   }
 
  private:
+  void allow_decimals(int decimals) {
+    decimals_ = std::min(decimals_.value_or(format_.decimals), decimals);
+  }
+
   const QuantityFormat& format_;
   bool has_errors_;
-  int decimals_;  // at most, of rows that are not decided
+  std::optional<int> decimals_;  // of rows that are not decided; none while no error is known
 };
 
-// The decimals that the largest error of a time leaves.
-int decimals_of_times(const std::vector<Numbers>& rows) {
+// The decimals that the largest error of a time leaves; none if no error is known.
+std::optional<int> decimals_of_times(const std::vector<Numbers>& rows) {
   double largest = 0.0;
   for (const Numbers& row : rows) {
     for (const Quantity q : {start, end}) {
       if (std::isfinite(row[q].error)) largest = std::max(largest, row[q].error);
     }
   }
-  const int decimals = formats[start].decimals;
-  const std::optional<Rounding> rounding = rounding_of(largest, decimals);
-  return rounding ? rounding->decimals : decimals;
+  if (largest == 0.0) return std::nullopt;
+  const std::optional<Rounding> rounding = rounding_of(largest, formats[start].decimals);
+  return rounding ? std::optional(rounding->decimals) : std::nullopt;
 }
 
 // Puts the decimal points of a column under each other, and words to the right; each text then has
@@ -198,10 +207,10 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
   const std::size_t number_width = numbers.empty() ? 0 : numbers.back().size();
   for (std::string& number : numbers) number = fmt::format("{:>{}}", number, number_width);
   add_column(numbers, number_width);
-  const int time_decimals = decimals_of_times(rows);
+  const std::optional<int> time_decimals = decimals_of_times(rows);
   for (std::size_t q = 0; q < n_quantities; ++q) {
     Formatter formatter(formats[q], result.error_estimate.has_value(),
-                        formats[q].is_time ? time_decimals : formats[q].decimals);
+                        formats[q].is_time ? time_decimals : std::nullopt);
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < all.size(); ++i) {
       cells.push_back(formatter.cell(rows[i][q], i < n_decided));

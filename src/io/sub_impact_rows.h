@@ -19,7 +19,8 @@ namespace subimpact {
 ///     dF = r F,  dP = r P,  dv_i = dv_(i-1) + r_i |v_i - v_(i-1)|,
 ///     dlambda_i = drho_(i-1) + r_i |lambda_i - rho_(i-1)|,  rho the residual indentation.
 ///
-/// A rule, not an estimate; docs/files.md has the measured shares.
+/// A rule, not an estimate; docs/files.md has the measured shares. Of a contact that lasts to the
+/// end of the run these errors are not known: its values have two digits.
 /// Sub-impacts that are not decided have a question mark in place of an error; their times have no
 /// digit that the largest known error forbids.
 struct SubImpactRows {

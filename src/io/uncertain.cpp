@@ -52,6 +52,7 @@ std::optional<Rounding> rounding_of(double error, int most_decimals) {
 
 std::string with_two_digits(double value) {
   const double size = std::abs(value);
+  if (size > 0.0 && size < 1e-6) return fmt::format("{:.1e}", value);
   return with_decimals(value, size > 0.0 && std::isfinite(size)
                                   ? 1 - static_cast<int>(std::floor(std::log10(size)))
                                   : 0);

@@ -22,7 +22,7 @@ std::optional<Rounding> rounding_of(double error, int most_decimals);
 std::string with_decimals(double value, int decimals);
 
 /// A number of which no error is known, with two significant digits: 8800 for 8796.3, 5.8 for
-/// 5.7933.
+/// 5.7933, 1.2e-09.
 std::string with_two_digits(double value);
 
 /// An error of times in words: "0.3 us", "0.012 us", "2 ms"; rounded as above.

@@ -138,9 +138,11 @@ void check_beam_damping(const BeamDamping& damping, const Options& options, bool
   if (damping.ratio > 0.0 && !takes_damping_ratio(method)) {
     refuse(
         fmt::format("{} does not integrate a damped beam in its natural modes; allowed "
-                    "solver.method: {}; choose one, or give beam.damping.mass and "
-                    "beam.damping.stiffness in its place",
-                    method.name, fmt::join(methods_that(takes_damping_ratio), ", ")));
+                    "solver.method: {}; choose one{}",
+                    method.name, fmt::join(methods_that(takes_damping_ratio), ", "),
+                    takes_damping_of_modes(method)
+                        ? ", or give beam.damping.mass and beam.damping.stiffness in its place"
+                        : ""));
   }
   if (!takes_damping_of_modes(method)) {
     refuse(

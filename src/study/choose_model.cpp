@@ -58,7 +58,9 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
     solver.method = cells ? Method::central_difference : Method::nystrom;
   }
   if (open.method) solver.method = method_for_damping(input, solver.method);
-  chosen.reason = yields
+  const bool fixed = !open.method && !open.mesh;
+  chosen.reason = fixed ? "the case fixes mesh and method"
+                  : yields
                       ? "sections yield, so that kinks, not the order of a method, bound the error"
                       : "the beam bends elastically, so that natural modes are exact in time";
   return chosen;

@@ -51,8 +51,10 @@ void doubt_open_contact(Result& result, const Case& input) {
   if (result.sub_impacts.empty() || result.sub_impacts.back().end || !mesh_order(input)) return;
   ErrorEstimate& estimate = *result.error_estimate;
   const int needed = parts_that_resolve(input, result.used.contact_time);
-  if (estimate.first_unresolved || mesh_count(input) >= needed) return;
-  estimate.first_unresolved = result.sub_impacts.size() - 1;
+  const std::size_t last = result.sub_impacts.size() - 1;
+  const bool is_in_doubt = estimate.first_unresolved && *estimate.first_unresolved <= last;
+  if (is_in_doubt || mesh_count(input) >= needed) return;
+  estimate.first_unresolved = last;
   estimate.reason = fmt::format(
       "it lasts to the end, and {} parts of the mesh do not resolve the bending waves of contacts "
       "as short as {:.2g} us, as {} would",

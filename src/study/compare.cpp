@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "case/counted.h"
 #include "study/leading_words.h"
@@ -14,6 +15,20 @@ namespace subimpact {
 namespace {
 
 constexpr double reference_tolerance = 1e-11;
+
+// Nothing can be compared with a reference that failed.
+void require_completed(const Result& reference) {
+  const Outcome& outcome = reference.outcome;
+  if (outcome.completed() || outcome.kind == OutcomeKind::stopped) return;
+  throw std::runtime_error(fmt::format(
+      "the reference of the comparison (nystrom at rtol {:.0e}) ended {} at {:.6g} us: {}",
+      reference_tolerance, to_string(outcome.kind), 1e6 * outcome.time, outcome.message));
+}
+
+// Of a number that may be 0 in both runs.
+double relative_difference(double here, double there, double unit) {
+  return here == there ? 0.0 : std::abs(here - there) / unit;
+}
 
 std::string remark_on(const ComparedRun& run, const Result& reference) {
   const std::size_t here = run.result.sub_impacts.size();
@@ -42,9 +57,11 @@ void set_beside(ComparedRun& run, const Result& reference) {
           std::max(run.max_end_difference, std::abs(*here[i].end - *there[i].end));
     }
     run.max_peak_difference =
-        std::max(run.max_peak_difference, std::abs(here[i].peak_force / there[i].peak_force - 1.0));
-    run.max_impulse_difference = std::max(
-        run.max_impulse_difference, std::abs(here[i].impulse - there[i].impulse) / largest_impulse);
+        std::max(run.max_peak_difference,
+                 relative_difference(here[i].peak_force, there[i].peak_force, there[i].peak_force));
+    run.max_impulse_difference =
+        std::max(run.max_impulse_difference,
+                 relative_difference(here[i].impulse, there[i].impulse, largest_impulse));
   }
   run.remark = remark_on(run, reference);
 }
@@ -73,6 +90,7 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
   };
   if (announce) announce("reference");
   comparison.reference = simulate_with_error_bars(comparison.reference_input, watched);
+  require_completed(comparison.reference);
   for (ComparedRun& run : runs) {
     if (announce) announce(run.name);
     if (!watched(0.0)) break;  // runs of few steps do not look

@@ -23,7 +23,8 @@ constexpr double us = 1e6;  // per second
 constexpr double um = 1e6;  // per metre
 constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-// The larger of the differences of start and end; an end is missing where contact lasts to the end.
+// The larger of the differences of start and end; both ends are missing where contact lasts to the
+// end.
 double difference(const SubImpact& here, const SubImpact& there) {
   const double start = std::abs(here.start - there.start);
   return here.end && there.end ? std::max(start, std::abs(*here.end - *there.end)) : start;
@@ -87,6 +88,7 @@ std::optional<Doubt> doubt_by_times(const std::vector<SubImpact>& all, const Err
     std::string reason = unresolved_reason(all, i, part.errors[i], share);
     if (!reason.empty()) return Doubt{i, std::move(reason)};
   }
+  if (!part.open_contact.empty()) return Doubt{n, part.open_contact};
   if (n < all.size() || n < part.n_refined) {
     return Doubt{n,
                  fmt::format("the run compared with has {} in all, this run {}; from here on they "
@@ -166,6 +168,14 @@ void add_leading(const std::vector<double>& errors, std::vector<double>& total) 
   for (std::size_t i = 0; i < total.size(); ++i) total[i] += errors[i];
 }
 
+// Of a contact that only one of two runs ends.
+std::string open_contact_reason(std::size_t i, const std::optional<double>& here,
+                                const std::optional<double>& there) {
+  return fmt::format("sub-impact {} ends at {:.6g} us in {} and lasts to the end in {}", i + 1,
+                     us * (here ? *here : *there), here ? "this run" : "the run compared with",
+                     here ? "the run compared with" : "this run");
+}
+
 // Nothing for a part that stands for several.
 std::optional<double>* member_of(SubImpact& s, const std::string& part) {
   if (part == "mesh") return &s.error_mesh;
@@ -179,9 +189,14 @@ ErrorPart compare_events(const Result& result, const Result& refined_run, std::s
                          std::string description, double factor) {
   const std::vector<SubImpact>& here = result.sub_impacts;
   const std::vector<SubImpact>& there = refined_run.sub_impacts;
-  ErrorPart part{std::move(name), std::move(description), {}, {}, there.size(), {}};
+  ErrorPart part{std::move(name), std::move(description), {}, {}, there.size(), {}, {}};
   if (!refined_run.outcome.completed()) part.failure = refined_run.outcome.message;
-  const std::size_t n = n_leading_matches(match_sub_impacts(here, there));
+  std::size_t n = n_leading_matches(match_sub_impacts(here, there));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (here[i].end.has_value() == there[i].end.has_value()) continue;
+    part.open_contact = open_contact_reason(i, here[i].end, there[i].end);
+    n = i;
+  }
   std::vector<double> differences(n);
   for (std::size_t i = 0; i < n; ++i) differences[i] = difference(here[i], there[i]);
   for (std::size_t i = 0; i < n; ++i) {

@@ -16,11 +16,12 @@ struct ErrorPart {
   std::vector<double> gap_errors;
   std::size_t n_refined = 0;  ///< sub-impacts the refined run has
   std::string failure;        ///< why the refined run did not complete; empty: it did
+  std::string open_contact;   ///< why the next sub-impact is unknown where only one run ends it
 };
 
 /// The error of each leading sub-impact that both runs have: `factor` times the largest difference
 /// of starts and ends over it and its neighbours, so that a difference that happens to pass through
-/// zero is not taken for accuracy.
+/// zero is not taken for accuracy. A contact that ends in one of the runs alone is not of both.
 ///
 /// The error of the gap at each near miss: `factor` times the difference of the two runs' margins.
 /// Where the other run has no such near miss, it is `factor` times the difference of the nearest

@@ -313,6 +313,16 @@ TEST(StandardOutput, ThatCannotBeWrittenEndsEveryCommandWithStatus3) {
   EXPECT_EQ(shell("subimpact keys >&- 2> errors", directory.path), 3);
 }
 
+TEST(ClosedStreams, AreNotTakenByTheFilesOfARun) {
+  const TemporaryDirectory directory;
+  directory.write("case.toml", read_file(SUBIMPACT_PAPER_CASE));
+  const std::string run =
+      "subimpact run case.toml --set time.end=1e-5 --set model.segments=21 --out ";
+  EXPECT_EQ(shell(run + "out <&- >&- 2>&-", directory.path), 3);
+  EXPECT_EQ(shell("subimpact report out > words 2> errors", directory.path), 0)
+      << read_file(directory.path / "errors");
+}
+
 TEST(AReaderOfStandardOutput, MayLeaveEarly) {
   const TemporaryDirectory directory;
   EXPECT_EQ(shell("subimpact keys 2> errors | head -c 1 > first", directory.path), 0);

@@ -370,6 +370,24 @@ TEST(RunWithin, DoesNotGoWithErrorBarsOfAnotherKind) {
   expect_in(finished.errors, "--error-bars=off");
 }
 
+// The values of a contact that is still open have no error, and a mesh that the contact outlasts
+// is doubted.
+TEST(Run, ThatEndsWithinTheFirstContactStatesNoErrorOfItsValues) {
+  const TemporaryDirectory directory;
+  const Finished run = run_program(
+      {"run", SUBIMPACT_PAPER_CASE, "--set", "time.end=3.71e-5", "--set", "output.interval=0"},
+      directory.path);
+  ASSERT_EQ(run.status, 0) << run.errors;
+  expect_in(run.output, "no event time up to 37.1 us but the first touch, which is exact");
+  expect_in(run.output, "force 8800 N (error not known)");
+  const Finished coarse =
+      run_program({"run", SUBIMPACT_PAPER_CASE, "--set", "time.end=3.71e-5", "--set",
+                   "output.interval=0", "--set", "model.segments=21", "--out", "coarse"},
+                  directory.path);
+  expect_in(coarse.output, "no sub-impact is decided");
+  expect_in(coarse.output, "1?        0 +- ?       30 +- ?");
+}
+
 TEST(Run, OfACaseThatFixesNothingHasErrorBarsAndItsOwnMesh) {
   const TemporaryDirectory directory;
   directory.write("open.toml", open_case());

@@ -65,6 +65,26 @@ TEST(AnOutputDirectory, IsRefusedWhereAFileHasItsName) {
   expect_in(refusal_of(directory.path / "file" / "below", "run"), "cannot be made");
 }
 
+TEST(AnOutputDirectory, ThatCannotBeMadeIsRefusedWithTheCause) {
+  const TemporaryDirectory directory;
+  expect_in(refusal_of(directory.path / std::string(300, 'x'), "run"), "File name too long");
+  fs::create_symlink("nothing", directory.path / "link");
+  expect_in(refusal_of(directory.path / "link", "run"), "a symbolic link to nothing");
+}
+
+TEST(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory.path / "real");
+  fs::create_directory_symlink("real", directory.path / "link");
+  for (const char* content : {"1", "2"}) {
+    OutputDirectory files(directory.path / "link", "run");
+    write_file(files.staging() / "events.csv", content);
+    files.commit();
+    EXPECT_TRUE(files.notes().empty());
+    EXPECT_EQ(read_file(directory.path / "real" / "events.csv"), content);
+  }
+}
+
 TEST(AnOutputDirectory, HasOneWriterAtATime) {
   const TemporaryDirectory directory;
   {

@@ -82,6 +82,12 @@ TEST(Rounding, NeverStatesLessThanTheErrorNorMoreThanHalfAsMuchAgain) {
   }
 }
 
+TEST(WithTwoDigits, HasNoRowOfZeros) {
+  EXPECT_EQ(with_two_digits(8796.3), "8800");
+  EXPECT_EQ(with_two_digits(-5.7933e-4), "-0.00058");
+  EXPECT_EQ(with_two_digits(1.93e-33), "1.9e-33");
+}
+
 TEST(WithDecimals, HasNoNegativeZero) {
   EXPECT_EQ(with_decimals(-0.001, 2), "0.00");
   EXPECT_EQ(with_decimals(-0.006, 2), "-0.01");

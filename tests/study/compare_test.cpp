@@ -69,6 +69,20 @@ TEST(AnInterruptedComparison, HasTheMethodsThatHadEnded) {
   EXPECT_TRUE(none.runs.empty());
 }
 
+TEST(AComparison, WithAReferenceThatFailedIsNotMade) {
+  Case input = elastic_case(0.1e-3);
+  input.scene.beam.yield_stress = 150.0;  // MPa were meant
+  input.model.section = SectionKind::exact;
+  input.model.segments = 21;
+  try {
+    compare(input, {"erk"});
+    ADD_FAILURE() << "was made";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("the reference of the comparison"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(AnUnknownMethodOrTable, IsRefusedBeforeAnythingRuns) {
   EXPECT_THROW(compare(elastic_case(1e-5), {"erk", "leapfrog"}), InvalidCase);
   EXPECT_THROW(compare(elastic_case(1e-5), {"erk:dprkn8"}), InvalidCase);

@@ -154,6 +154,20 @@ TEST(ADifferenceInCount, EndsWhatIsDecidedAlsoWhereTheOtherRunHasOneMoreAtTheEnd
   EXPECT_EQ(first_unresolved(other, run, 1.0), 2u);
 }
 
+TEST(AContact, ThatOnlyOneOfTwoRunsEndsIsNotDecided) {
+  const Result run = two_contacts({});
+  Result other = run;
+  other.sub_impacts.back().end.reset();
+  EXPECT_EQ(first_unresolved(run, other, 1.0), 1u);
+  EXPECT_EQ(first_unresolved(other, run, 1.0), 1u);
+  EXPECT_EQ(first_unresolved(other, other, 1.0), std::nullopt);
+  Result judged = run;
+  set_error_bars(judged, {compare_events(run, other, "mesh", "", 1.0)});
+  EXPECT_EQ(
+      judged.error_estimate->reason,
+      "sub-impact 2 ends at 300 us in this run and lasts to the end in the run compared with");
+}
+
 TEST(TheErrorsOfTwoParts, AddUpAtANearMiss) {
   const auto with_margin = [](double margin) {
     return two_contacts({{50 * us, margin, NearMissKind::opening}});

@@ -53,6 +53,7 @@ inline Result sample_result_with_errors(std::size_t n_decided) {
   result.sub_impacts[0].start_error = 0.0;
   result.sub_impacts[0].end_error = 0.0163e-6;
   result.sub_impacts[1].start_error = result.sub_impacts[1].end_error = 0.26e-6;
+  result.sub_impacts[2].start_error = 0.26e-6;  // still open
   ErrorEstimate estimate;
   estimate.refined_run = "the same, finer";
   if (n_decided < result.sub_impacts.size()) estimate.first_unresolved = n_decided;
