@@ -39,7 +39,7 @@ void CaseOptions::add_case_to(CLI::App& command) {
       .add_option(
           "--set", settings,
           "table.key=value, instead of the value in the case file; table.key=default: as if the "
-          "file did not have the key; may be repeated")
+          "file did not have the key (but for a title); may be repeated: the last one holds")
       ->allow_extra_args(false);
 }
 

@@ -134,12 +134,17 @@ class Doubts {
     }
   }
 
+  void longer_than_run(const char* key, const std::optional<double>& time) {
+    const double end = case_.end_time;
+    if (!time || *time <= end) return;
+    add(given(key, *time, "s") + ", longer than the whole run" +
+        proposal(*time, {{"ms", 1e-3}, {"us", 1e-6}}, {0.0, 1e-2 * end}));
+  }
+
   void times() {
     const double end = case_.end_time;
-    if (const auto& step = case_.solver.step; step && *step > end) {
-      add(given("solver.step", *step, "s") + ", longer than the whole run" +
-          proposal(*step, {{"ms", 1e-3}, {"us", 1e-6}}, {0.0, 1e-2 * end}));
-    }
+    longer_than_run("solver.step", case_.solver.step);
+    longer_than_run("accuracy.event_times", case_.accuracy.event_times);
     if (case_.stop != StopRule::end_time) return;  // its end time is only a limit
     if (end <= long_run) return;
     const double period = 2.0 * M_PI / flexural_frequencies(beam_, 1).front();

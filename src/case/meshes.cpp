@@ -92,12 +92,14 @@ void check_elements(const Case& input) {
                                   "elements",
                                   at, input.model.elements));
   }
+  const auto& ends = input.scene.beam.ends;
+  const bool has_free_end = ends[0] == EndSupport::free || ends[1] == EndSupport::free;
   throw InvalidCase(
       "striker.position",
       fmt::format("is {}, closer to an end than half an element; allowed with {} elements: from "
-                  "{:.6g} to {:.6g}, or a free end itself; move the strike inwards or use more "
-                  "elements",
-                  at, input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements));
+                  "{:.6g} to {:.6g}{}; move the strike inwards or use more elements",
+                  at, input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements,
+                  has_free_end ? ", or a free end itself" : ""));
 }
 
 void check_has_no_points(const Case& input) {

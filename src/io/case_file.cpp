@@ -54,6 +54,18 @@ std::string full_name(const std::string& table, const std::string& leaf) {
   return table.empty() ? leaf : table + "." + leaf;
 }
 
+// The keys of all tables with that name, those that a case must have first.
+std::vector<std::string> keys_called(const std::string& leaf) {
+  std::vector<std::string> names;
+  for (const bool required : {true, false}) {
+    for (const CaseKey& key : case_keys()) {
+      const bool is_scatter = key.name.starts_with("scatter.");
+      if (!is_scatter && key.leaf() == leaf && key.required == required) names.push_back(key.name);
+    }
+  }
+  return names;
+}
+
 // For a key that is not known in `table`: the slip meant, else the table in which the name is
 // known.
 std::string suggestion(const std::string& table, const std::string& leaf) {
@@ -63,10 +75,10 @@ std::string suggestion(const std::string& table, const std::string& leaf) {
     const bool is_within = !table.empty() && key.name.starts_with(table + ".");
     if (is_within && key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
   }
-  for (const CaseKey& key : case_keys()) {
-    if (key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
-  }
-  return "; correct or remove it";
+  if (is_table(full_name(table, leaf))) return "; it is a table";
+  const std::vector<std::string> elsewhere = keys_called(leaf);
+  if (elsewhere.empty() || table.starts_with("scatter")) return "; correct or remove it";
+  return fmt::format("; did you mean \"{}\"?", fmt::join(elsewhere, "\" or \""));
 }
 
 std::string unknown_key(const std::string& table, const std::string& leaf) {

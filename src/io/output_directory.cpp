@@ -123,7 +123,7 @@ OutputDirectory::OutputDirectory(const fs::path& directory, std::string kind, st
 OutputDirectory::~OutputDirectory() {
   std::error_code ignored;
   if (!staging_.empty()) fs::remove_all(staging_, ignored);
-  if (!is_relocated() || is_committed_) return;
+  if (!is_new_ || is_committed_) return;
   lock_.reset();
   fs::remove(path_, ignored);  // if empty
 }
@@ -140,7 +140,7 @@ void OutputDirectory::open(const fs::path& directory) {
   if (kind_of_file != fs::file_type::not_found && kind_of_file != fs::file_type::directory) {
     refuse(directory, "this output directory cannot be made (a file has that name)");
   }
-  fs::create_directories(directory, error);
+  is_new_ = fs::create_directories(directory, error);
   if (error) {
     refuse(directory, fmt::format("this output directory cannot be made ({})", error.message()));
   }
@@ -272,6 +272,7 @@ void OutputDirectory::relocate(const std::string& cause) {
       throw std::system_error(errno, std::generic_category(), place);
     }
     path_ = place;
+    is_new_ = true;
     lock_ = std::make_unique<DirectoryLock>(path_);
     begin_staging();
     for (const std::string& name : files_in(left)) fs::copy_file(left / name, staging_ / name);

@@ -319,6 +319,10 @@ TEST(BadOverride, IsNamedAsTheCommandLineGaveIt) {
                 {"--set striker.mas=1: ", "unknown key", "did you mean \"striker.mass\"?"});
   expect_all_in(refusal_of(small_case_text(), {parse_override("striler.mass=1")}),
                 {"--set striler.mass=1: ", "unknown table [striler]", "did you mean [striker]?"});
+  expect_all_in(refusal_of(small_case_text(), {parse_override("mass=1")}),
+                {"did you mean \"striker.mass\" or \"beam.damping.mass\"?"});
+  expect_all_in(refusal_of(small_case_text(), {parse_override("beam.damping=1")}),
+                {"unknown key \"beam.damping\"", "it is a table"});
   expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=")}),
                 {"--set time.end=: ", "time.end is ''", "above 0 (s)"});
 }

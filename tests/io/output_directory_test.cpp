@@ -58,6 +58,15 @@ TEST(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
   EXPECT_TRUE(fs::is_empty(directory.path));
 }
 
+TEST(AnOutputDirectory, ThatWasMadeAndNotCommittedIsRemoved) {
+  const TemporaryDirectory directory;
+  {
+    const OutputDirectory files(directory.path / "new", "run");
+    write_file(files.staging() / "events.csv", "1");
+  }
+  EXPECT_TRUE(fs::is_empty(directory.path));
+}
+
 TEST(AnOutputDirectory, IsRefusedWhereAFileHasItsName) {
   const TemporaryDirectory directory;
   std::ofstream(directory.path / "file") << "x";

@@ -76,6 +76,7 @@ class OutputDirectory {
   std::string kind_, identity_, commit_;
   std::unique_ptr<DirectoryLock> lock_;
   std::string relocation_;  // its cause
+  bool is_new_ = false;     // made here: removed again if nothing is put into it
   bool is_committed_ = false;
   std::vector<std::string> notes_;
 };
