@@ -92,7 +92,6 @@ void check_elements(const Case& input) {
                                   "elements",
                                   at, input.model.elements));
   }
-  const auto& ends = input.scene.beam.ends;
   const bool has_free_end = ends[0] == EndSupport::free || ends[1] == EndSupport::free;
   throw InvalidCase(
       "striker.position",
