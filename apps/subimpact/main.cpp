@@ -100,8 +100,7 @@ int run_command_line(int argc, char** argv) {
       "  subimpact compare case.toml --methods central-difference,erk,exponential\n"
       "  subimpact run --help\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a check, the solver, a figure or "
-      "the "
-      "writing failed; 128 and the signal's number: stopped (130 by Ctrl-C).");
+      "the writing failed; 128 and the signal's number: stopped (130 by Ctrl-C).");
   program.set_version_flag("--version", version_text,
                            "Print the versions of program and libraries");
   program.require_subcommand(1);

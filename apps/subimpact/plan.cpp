@@ -75,9 +75,8 @@ void add_plan(CLI::App& program, int& status) {
   options->jobs.add_to(*command);
   command->footer(
       "The reference is the run that run --within chooses for a fifth of the wanted error. "
-      "Sequences of "
-      "meshes and methods are judged by it; a mesh is admitted only if all finer ones of its "
-      "sequence are within the error too.\n"
+      "Sequences of meshes and methods are judged by it; a mesh is admitted only if all finer ones "
+      "of its sequence are within the error too.\n"
       "Examples:\n"
       "  subimpact plan case.toml --within 1us\n"
       "  subimpact plan case.toml --within 0.05us --set model.section=elastic --out out/plan\n"

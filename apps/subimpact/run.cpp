@@ -203,10 +203,9 @@ void add_run(CLI::App& program, int& status) {
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "
       "validity; "
       "3 a check or the solver failed, or results could not be written to DIR; 128 and the "
-      "signal's number: "
-      "stopped (130 by Ctrl-C). Once the run has begun, what was computed is written in every "
-      "case: "
-      "also after Ctrl-C, SIGTERM or SIGHUP; if DIR cannot be written any more (a full disk), to a "
+      "signal's number: stopped (130 by Ctrl-C). Once the run has begun, what was computed is "
+      "written in every case: also after Ctrl-C, SIGTERM or SIGHUP; if DIR cannot be written any "
+      "more (a full disk), to a "
       "new directory for temporary files; if that fails too, the table is printed. Only kill -9 "
       "and "
       "a second Ctrl-C leave nothing new; DIR then holds the older results.");

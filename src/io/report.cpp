@@ -41,12 +41,16 @@ std::string zone_text(const std::vector<ZoneSummary>& zones,
   return fmt::to_string(text);
 }
 
+// Whether the only event time is that of the first touch, which is exact.
+bool has_first_touch_alone(const Result& result) {
+  return result.sub_impacts.size() == 1 && !result.sub_impacts.front().end;
+}
+
 // "times to 0.3 us up to sub-impact 9 (0.84 ms); from there undecided: <reason>".
 std::string valid_times_text(const Result& result, double largest_error,
                              const std::optional<std::size_t>& first_unresolved,
                              const std::string& reason) {
-  const bool no_time = largest_error == 0.0;  // but that of the first touch, which is exact
-  if (!first_unresolved && no_time) {
+  if (!first_unresolved && has_first_touch_alone(result)) {
     return "no event time up to " + duration_text(result.outcome.time) +
            " but the first touch, which is exact";
   }
@@ -217,8 +221,9 @@ std::string wish_words(const WishOutcome& wish, const Result& result) {
   if (wish.met) {
     text += "met " + range;
     if (is_known) {
-      text += wish.reached > 0.0 ? fmt::format(" ({} reached)", error_text(wish.reached))
-                                 : std::string(" (there is no event time but the first touch)");
+      text += has_first_touch_alone(result)
+                  ? std::string(" (there is no event time but the first touch)")
+                  : fmt::format(" ({} reached)", error_text(wish.reached));
     }
   } else {
     text += is_known ? fmt::format("not met; {} reached {}", error_text(wish.reached), range)

@@ -42,7 +42,7 @@ List headlines(const Result& result) {
   const std::size_t n = result.sub_impacts.size();
   if (const std::optional<std::size_t> n_decided = result.n_decided()) {
     const std::string within =
-        n > 0 && result.error_estimate->largest_error > 0.0
+        result.error_estimate->largest_error > 0.0
             ? ", each start and end within " + error_text(result.error_estimate->largest_error)
             : "";
     if (*n_decided == n) {
