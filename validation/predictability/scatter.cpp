@@ -176,8 +176,9 @@ void draw(const std::vector<Study>& studies) {
       ms * end, studies.size(), panels);
   const std::filesystem::path directory = SUBIMPACT_PREDICTABILITY;
   draw_figure(directory, "scatter", script, {1100, 1150});
-  std::filesystem::remove(directory / "scatter.gp");  // this source is the script
-  std::filesystem::remove(directory / "scatter.png");
+  for (const char* other : {"scatter.gp", "scatter.png", "scatter.pdf"}) {
+    std::filesystem::remove(directory / other);
+  }
 }
 
 }  // namespace
