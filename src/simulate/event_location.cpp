@@ -69,8 +69,11 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole,
     if (events_ == EventHandling::library && n_cuts == 0) event = event_of_integrator(whole, y1);
     corrector_.correct({t0, t1, y0, *y1, whole.event_free}, correction);
     if (!(correction.valid_until < t1)) {
-      const bool moves = event && !correction.is_empty();
-      if (moves && !relocate(*event, {t0, t1, y0, *y1}, whole.t1, t1, correction)) return {};
+      if (correction.is_empty()) return event;
+      if (!event) event = event_of_correction(indentation, t1, *y1, correction);
+      if (!event) return std::nullopt;
+      if (!relocate(*event, {t0, t1, y0, *y1}, whole.t1, t1, correction)) return std::nullopt;
+      y1 = &end_;
       return event;
     }
     t1 = correction.valid_until;
@@ -102,6 +105,19 @@ std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, Ind
     cut();
   }
   return event;
+}
+
+std::optional<EventFunction> EventLocator::event_of_correction(
+    IndentationStep ends, double t1, const State& y1, const SectionCorrection& correction) {
+  if (events_ != EventHandling::located) return std::nullopt;
+  trial_ = y1;
+  correction.add_to(trial_);
+  ends.t1 = t1;
+  ends.lambda1 = beam_.indentation(trial_);
+  ends.rate1 = beam_.indentation_rate(trial_);
+  const std::optional<Crossing> crossing = find_crossing_in(ends, trial_);
+  if (!crossing || !(beam_.evaluate(crossing->function, trial_).value > 0.0)) return std::nullopt;
+  return crossing->function;
 }
 
 std::optional<EventFunction> EventLocator::event_of_integrator(const StepEnds& whole,

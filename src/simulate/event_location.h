@@ -56,6 +56,10 @@ class EventLocator {
                                           const State*& y1);
   // The same, of a step that the integrator's own root-finding has shortened.
   std::optional<EventFunction> event_of_integrator(const StepEnds& whole, const State*& y1);
+  // An event of a step to (t1, y1) that has none before its correction is added, by which the end
+  // passes the event function. `ends`: of the whole step.
+  std::optional<EventFunction> event_of_correction(IndentationStep ends, double t1, const State& y1,
+                                                   const SectionCorrection& correction);
   std::optional<Crossing> find_crossing_in(const IndentationStep& ends, const State& y1);
   // Whether the double root of a crossing exists; if so, narrows it to the first of the two.
   bool resolve(Crossing& crossing, const StepEnds& step);

@@ -147,6 +147,22 @@ TEST(SectionEvents, AreCorrectedFarMoreTightlyThanTheMethodAtTightTolerances) {
   EXPECT_LT(off, 5e-13);
 }
 
+// At both velocities the contact begins at 5682.34 us in a step whose end lies before it by 0.01 nm
+// until sections are corrected, and behind it afterwards. An event that was not looked for again
+// ended the run as inaccurate.
+TEST(SectionEvents, ThatMoveTheEndOfAStepPastAnEventLeaveItLocated) {
+  Case input = paper_case(SectionKind::exact, 5.7e-3);
+  input.model.segments = 501;
+  input.solver.method = Method::exponential;
+  input.solver.rtol = 1e-8;
+  for (const double velocity : {15.982326781361104, 15.982295069666772}) {
+    input.scene.striker.velocity = velocity;
+    const Result result = simulate(input);
+    EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+    EXPECT_GT(result.sub_impacts.back().start, 5.682e-3);
+  }
+}
+
 TEST(SectionEvents, NotCorrectedBringAnyMethodDownToSecondOrder) {
   errors("steps per us, histories advanced at step ends", only_at_ends)
       .expect_overall_order_within(1.0, 2.6);
