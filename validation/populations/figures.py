@@ -105,7 +105,7 @@ def linear_prediction(plan, times):
         for name, sign in (("start", 1), ("end", -1)):
             deviation = max(row[f"{name}_scatter_s"], 1e-12)
             probability += sign * ndtr((times - row[f"{name}_s"]) / deviation)
-    return np.where(times <= last, probability, np.nan), run
+    return np.where(times <= last, np.clip(probability, 0.0, 1.0), np.nan), run
 
 
 def zone_limits(run):
