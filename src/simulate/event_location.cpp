@@ -159,6 +159,11 @@ double EventLocator::locate(const Crossing& crossing, const StepEnds& step) {
   double lower = crossing.t_lower;
   double upper = crossing.t_upper;
   double guess = crossing.guess;
+  // The cubic of a step that blew up has no extremum that is a number.
+  if (!(lower <= upper)) {
+    lower = step.t0;
+    upper = step.t1;
+  }
   // Where the cubic has its lowest point the function may already have risen again.
   if (lower > step.t0 && value_at(lower).value > 0.0) {
     upper = lower;
