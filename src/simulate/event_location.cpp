@@ -86,6 +86,7 @@ std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole,
 
 std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, IndentationStep ends,
                                                       double& t1, const State*& y1) {
+  dealt_with_.clear();
   if (whole.event_free) return std::nullopt;
   const auto cut = [&] {
     ends = {
@@ -93,7 +94,6 @@ std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, Ind
   };
   if (t1 < ends.t1) cut();
   std::optional<EventFunction> event;
-  dealt_with_.clear();
   while (auto crossing = find_crossing_in(ends, *y1)) {
     const StepEnds step{whole.t0, t1, whole.y0, *y1};
     dealt_with_.push_back(crossing->function);
