@@ -30,15 +30,6 @@ RootOptions to_rounding(double time) {
 
 }  // namespace
 
-IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step) {
-  return {step.t0,
-          step.t1,
-          beam.indentation(step.y0),
-          beam.indentation_rate(step.y0),
-          beam.indentation(step.y1),
-          beam.indentation_rate(step.y1)};
-}
-
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at) {
   const double of_value = function.kind == EventKind::contact_unloads || function.by_rate

@@ -11,9 +11,6 @@
 
 namespace subimpact {
 
-/// The indentation at both ends of a step.
-IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step);
-
 /// Bound of the rounding error of an event function at a state y, time t (s), at which it vanishes:
 /// m, or m/s for contact_unloads.
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,

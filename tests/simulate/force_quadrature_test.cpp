@@ -11,6 +11,15 @@
 namespace subimpact {
 namespace {
 
+IndentationStep indentation_step(const StruckBeam& beam, const StepEnds& step) {
+  return {step.t0,
+          step.t1,
+          beam.indentation(step.y0),
+          beam.indentation_rate(step.y0),
+          beam.indentation(step.y1),
+          beam.indentation_rate(step.y1)};
+}
+
 TEST(TheForceIntegral, OfAStepWithoutLengthIsZero) {
   StruckBeam beam = TwoBodies{}.make();
   const auto integrator = Way{}.make(beam);
