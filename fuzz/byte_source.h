@@ -14,10 +14,13 @@ class ByteSource {
 
   bool at_end() const { return at_ >= bytes_.size(); }
   std::size_t byte() { return at_end() ? 0 : bytes_[at_++]; }
-  std::size_t below(std::size_t n) { return (256 * byte() + byte()) % n; }
+  std::size_t below(std::size_t n) {
+    const std::size_t high = byte();
+    return (256 * high + byte()) % n;
+  }
   template <class List>
   const auto& one_of(const List& list) {
-    return std::begin(list)[below(std::size(list))];
+    return *std::next(std::begin(list), static_cast<std::ptrdiff_t>(below(std::size(list))));
   }
 
  private:

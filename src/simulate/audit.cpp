@@ -19,8 +19,7 @@ double larger(double largest, double error) { return error <= largest ? largest 
 }  // namespace
 
 Audit::Audit(const StruckBeam& beam, const State& initial, AuditLimits limits)
-    : beam_(beam),
-      accounts_(beam),
+    : accounts_(beam),
       limits_(limits),
       initial_energy_(accounts_.energies(initial).total()),
       initial_momentum_(accounts_.momentum(initial)),

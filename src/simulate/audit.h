@@ -76,7 +76,6 @@ class Audit {
  private:
   static constexpr double share_of_losses = 1e-5;
 
-  const StruckBeam& beam_;
   Accounts accounts_;
   AuditLimits limits_;
   double initial_energy_;
