@@ -11,93 +11,15 @@
 #include <string_view>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "case/meshes.h"
-#include "case/other_names.h"
+#include "io/decimal_comma.h"
 #include "io/toml_depth.h"
 #include "io/toml_value.h"
+#include "io/unknown_name.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
-
-bool is_table(const std::string& name) {
-  return std::any_of(case_keys().begin(), case_keys().end(), [&](const CaseKey& key) {
-    return !name.empty() && (key.table() == name || key.name.starts_with(name + "."));
-  });
-}
-
-std::vector<std::string> table_names() {
-  std::vector<std::string> names;
-  for (const CaseKey& key : case_keys()) {
-    const bool is_scatter = key.name.starts_with("scatter.");
-    const std::string table = is_scatter ? "scatter" : key.table();
-    if (!table.empty() && (names.empty() || names.back() != table)) names.push_back(table);
-  }
-  return names;
-}
-
-std::vector<std::string> leaves_of(const std::string& table) {
-  std::vector<std::string> names;
-  for (const CaseKey& key : case_keys()) {
-    if (key.table() == table) names.push_back(key.leaf());
-  }
-  if (!names.empty() || table.empty()) return names;
-  for (const CaseKey& key : case_keys()) {  // of tables within it
-    if (key.name.starts_with(table + ".")) names.push_back(key.name.substr(table.size() + 1));
-  }
-  return names;
-}
-
-std::string full_name(const std::string& table, const std::string& leaf) {
-  return table.empty() ? leaf : table + "." + leaf;
-}
-
-// The keys of all tables with that name, those that a case must have first.
-std::vector<std::string> keys_called(const std::string& leaf) {
-  std::vector<std::string> names;
-  for (const bool required : {true, false}) {
-    for (const CaseKey& key : case_keys()) {
-      const bool is_scatter = key.name.starts_with("scatter.");
-      if (!is_scatter && key.leaf() == leaf && key.required == required) names.push_back(key.name);
-    }
-  }
-  return names;
-}
-
-// For a key that is not known in `table`: the slip meant, else the table in which the name is
-// known.
-std::string suggestion(const std::string& table, const std::string& leaf) {
-  const std::string near = nearest_name(leaf, leaves_of(table));
-  if (!near.empty()) return fmt::format("; did you mean \"{}\"?", full_name(table, near));
-  for (const CaseKey& key : case_keys()) {
-    const bool is_within = !table.empty() && key.name.starts_with(table + ".");
-    if (is_within && key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
-  }
-  if (is_table(full_name(table, leaf))) return "; it is a table";
-  const std::vector<std::string> elsewhere = keys_called(leaf);
-  if (elsewhere.empty() || table.starts_with("scatter")) return "; correct or remove it";
-  return fmt::format("; did you mean \"{}\"?", fmt::join(elsewhere, "\" or \""));
-}
-
-std::string unknown_key(const std::string& table, const std::string& leaf) {
-  if (const char* name = moved_to(full_name(table, leaf))) {
-    const CaseKey& key = *find_case_key(name);
-    return fmt::format("unknown key \"{}\"; it has moved to \"{}\": the {}; write {} under [{}]",
-                       full_name(table, leaf), name, key.meaning, key.leaf(), key.table());
-  }
-  const std::string where = table.empty() ? "outside all tables" : "in [" + table + "]";
-  return fmt::format("unknown key \"{}\"; allowed {}: {}{}", full_name(table, leaf), where,
-                     fmt::join(leaves_of(table), ", "), suggestion(table, leaf));
-}
-
-std::string unknown_table(const std::string& name) {
-  const std::string near = nearest_name(name, table_names());
-  return fmt::format("unknown table [{}]; allowed: [{}]; {}", name,
-                     fmt::join(table_names(), "], ["),
-                     near.empty() ? "correct or remove it" : "did you mean [" + near + "]?");
-}
 
 constexpr std::size_t largest_case = 1'000'000;  // bytes
 constexpr std::size_t most_problems = 100;       // reported at once
@@ -148,7 +70,7 @@ void Reader::read(const toml::table& root) {
     const std::string where = place(key.source().begin);
     if (const CaseKey* known = find_case_key(name)) {
       read_value(*known, node, where);
-    } else if (is_table(name)) {
+    } else if (is_case_table(name)) {
       tables_[name] = where;
       if (const toml::table* table = node.as_table()) {
         read_table(name, *table);
@@ -171,11 +93,11 @@ void Reader::read_table(const std::string& table, const toml::table& content) {
     if (is_full()) return;
     const std::string leaf(key.str());
     const std::string where = place(key.source().begin);
-    const std::string name = full_name(table, leaf);
+    const std::string name = full_key_name(table, leaf);
     const toml::table* inner = node.as_table();
     if (const CaseKey* known = find_case_key(name)) {
       read_value(*known, node, where);
-    } else if (inner != nullptr && is_table(name)) {
+    } else if (inner != nullptr && is_case_table(name)) {
       read_table(name, *inner);  // [beam.damping]
     } else {
       complain(where, unknown_key(table, leaf));
@@ -222,7 +144,7 @@ void Reader::apply(const Override& setting) {
   if (key == nullptr) {
     const auto dot = setting.key.rfind('.');
     const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
-    if (!table.empty() && !is_table(table)) {
+    if (!table.empty() && !is_case_table(table)) {
       complain(setting.origin, unknown_table(table));
     } else {
       complain(setting.origin, unknown_key(table, setting.key.substr(dot + 1)));
@@ -381,53 +303,11 @@ Override parse_override(const std::string& setting) {
 
 namespace {
 
-// The text after leading digits; nothing if it begins with none.
-std::optional<std::string_view> after_digits(std::string_view text) {
-  const std::size_t n = std::min(text.find_first_not_of("0123456789"), text.size());
-  if (n == 0) return std::nullopt;
-  return text.substr(n);
-}
-
-std::string_view after_any_of(std::string_view characters, std::string_view text) {
-  const bool is_there = !text.empty() && characters.find(text.front()) != std::string_view::npos;
-  return text.substr(is_there ? 1 : 0);
-}
-
-// "0,201" of the text "0,201 # kg"; empty for a text that does not begin so.
-std::string_view leading_decimal_comma(std::string_view text) {
-  const auto fraction = after_digits(after_any_of("+-", text));
-  if (!fraction || !fraction->starts_with(',')) return {};
-  auto rest = after_digits(fraction->substr(1));
-  if (!rest) return {};
-  if (rest->starts_with('e') || rest->starts_with('E')) {
-    rest = after_digits(after_any_of("+-", rest->substr(1))).value_or(*rest);
-  }
-  return text.substr(0, text.size() - rest->size());
-}
-
-// The number with a decimal comma in a line such as "mass = 0,201"; empty if there is none. Lists
-// are left alone: in [0,5] there are two numbers.
-std::string decimal_comma_in(std::string_view line) {
-  for (std::size_t at = line.find('='); at < line.size(); at = line.find('=', at + 1)) {
-    const std::size_t start = std::min(line.find_first_not_of(" \t", at + 1), line.size());
-    const std::string_view number = leading_decimal_comma(line.substr(start));
-    if (!number.empty()) return std::string(number);
-  }
-  return {};
-}
-
-std::string_view line_of(std::string_view text, std::size_t number) {
-  for (std::size_t i = 1; i < number && !text.empty(); ++i) {
-    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-  }
-  return text.substr(0, text.find('\n'));
-}
-
 std::string malformed(const std::string& text, const std::string& name,
                       const toml::parse_error& error) {
   const toml::source_position at = error.source().begin;
   const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
-  const std::string number = decimal_comma_in(line_of(text, at.line));
+  const std::string number = decimal_comma_in(text, at.line);
   if (!number.empty()) {
     return fmt::format("{}{} has a decimal comma{}", place, number, decimal_comma_hint(number));
   }
@@ -473,41 +353,6 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
 LoadedCase read_case_file(const std::filesystem::path& path,
                           const std::vector<Override>& overrides) {
   return read_case_text(read_text(path), path.string(), overrides);
-}
-
-namespace {
-
-// A text as TOML writes it on one line; JSON escapes the same way, but for DEL.
-std::string toml_text(const std::string& text) {
-  std::string result;
-  for (const char c :
-       nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-    result += c == '\x7f' ? std::string("\\u007f") : std::string(1, c);
-  }
-  return result;
-}
-
-bool is_empty_list(const KeyValue& value) {
-  const auto* numbers = std::get_if<std::vector<double>>(&value);
-  return numbers != nullptr && numbers->empty();
-}
-
-}  // namespace
-
-std::string case_file_text(const Case& input) {
-  std::string text, table;
-  for (const CaseKey& key : case_keys()) {
-    const std::optional<KeyValue> value = key.get(input);
-    if (!value || is_empty_list(*value)) continue;
-    if (key.table() != table) {
-      table = key.table();
-      text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
-    }
-    const auto* words = std::get_if<std::string>(&*value);
-    text += fmt::format("{} = {}{}\n", key.leaf(), words ? toml_text(*words) : to_text(*value),
-                        key.unit.empty() ? "" : "  # " + key.unit);
-  }
-  return text;
 }
 
 }  // namespace subimpact

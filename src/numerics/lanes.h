@@ -76,6 +76,14 @@ void assign_by_lines(double* result, std::size_t n, Value value) {
   for (; i < n; ++i) result[i] = value(one);
 }
 
+/// The square root of each; of one number too, so that a formula serves for both.
+inline Lanes sqrt_of(const Lanes& x) {
+  Lanes result;
+  for (std::size_t i = 0; i < n_lanes; ++i) result[i] = std::sqrt(x[i]);
+  return result;
+}
+inline double sqrt_of(double x) { return std::sqrt(x); }
+
 inline double sum(const Lanes& values) {
   using Half = double __attribute__((vector_size(n_lanes * sizeof(double) / 2)));
   Half halves[2];

@@ -13,6 +13,7 @@ skipped = 77  # for ctest
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
 except ImportError:
     webdriver = None
 

@@ -6,9 +6,12 @@ curve, and the curve's highest and lowest points within a pixel of the largest a
 """
 
 import math
+import pathlib
 import re
 import shutil
+import subprocess
 import sys
+import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -356,9 +359,6 @@ STUDIES = {
 
 class LogarithmicAxes(unittest.TestCase):
     def test_of_studies_have_two_labelled_ticks_at_least(self):
-        import pathlib
-        import subprocess
-        import tempfile
         sources = pathlib.Path(__file__).parents[2] / "src" / "report" / "figures"
         for name, (tables, settings) in STUDIES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as place:

@@ -403,6 +403,19 @@ TEST(CostEstimate, OfAnAdaptiveMethodIsRightWithinAFactorOfThree) {
   EXPECT_GT(cost->right_hand_sides, counted / 3.0);
 }
 
+TEST(CostEstimate, IncludesTheStabilityLimitOfStrongDamping) {
+  Case input = paper_case();
+  input.end_time = 5e-5;
+  input.output.interval = 0.0;
+  input.scene.beam.damping.stiffness = 1e-5;
+  ResolvedRun run = resolve(input);
+  const auto cost = estimate_cost(run);
+  ASSERT_TRUE(cost);
+  const double counted = static_cast<double>(simulate(input).work.right_hand_sides);
+  EXPECT_LT(cost->right_hand_sides, 3.0 * counted);
+  EXPECT_GT(cost->right_hand_sides, counted / 3.0);
+}
+
 TEST(Listings, NameEveryKeyMethodAndTable) {
   const std::string keys = fmt::format("\n{}", key_listing());
   for (const CaseKey& key : case_keys()) expect_in(keys, fmt::format("\n{} ", key.leaf()));

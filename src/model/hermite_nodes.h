@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "model/element_grading.h"
+#include "subimpact/model/scene.h"
+
+namespace subimpact {
+
+/// Where the nodes of a mesh of cubic Hermite elements lie, and which unknowns they have: node by
+/// node the displacement w and the slope, but what supports hold (w at a pinned end, both at a
+/// clamped one, the slope in the middle of a half model). At a hinge: slope before, w, slope after.
+///
+/// There is a node at the strike; to its left and right the numbers of elements share n as the
+/// strike shares the length. Elements are equal on either side, or graded towards the strike.
+class HermiteNodes {
+ public:
+  struct Options {
+    ElementGrading grading;
+    bool hinges = false;  ///< one at the strike, and one at each clamped end
+  };
+
+  static constexpr std::size_t fewest_elements = 4;
+  /// In place of the index of an unknown that a support holds.
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// Indices of a node's unknowns. The slopes are one but at a hinge.
+  struct Node {
+    std::size_t displacement, slope_before, slope_after;
+  };
+
+  /// `position` is the struck point as a fraction of the length, `n_elements` counts those of the
+  /// whole beam, of which a `half` has one half. Throws std::invalid_argument for fewer than 4
+  /// elements, a strike on a support, a half of an odd number of elements, of unlike ends or struck
+  /// off mid-span.
+  HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool half,
+               const Options& options);
+
+  const Options& options() const { return options_; }
+  bool is_half() const { return half_; }
+  const std::array<EndSupport, 2>& ends() const { return ends_; }
+  std::size_t n_elements_whole() const { return half_ ? 2 * n_elements() : n_elements(); }
+  std::size_t n_elements() const { return lengths_.size(); }  ///< of the part modelled
+  std::size_t n_unknowns() const { return n_unknowns_; }
+  std::span<const double> lengths() const { return lengths_; }  ///< of the elements, m
+  std::span<const Node> all() const { return nodes_; }
+  const Node& operator[](std::size_t node) const { return nodes_[node]; }
+  const Node& struck() const { return nodes_[struck_]; }
+  bool is_hinge(std::size_t node) const;
+  /// Of displacement and slope at the left node, then at the right one.
+  std::array<std::size_t, 4> unknowns_of(std::size_t element) const;
+  /// The element that contains x (m), and where in it, from 0 to 1.
+  std::pair<std::size_t, double> element_at(double x) const;
+
+ private:
+  void place(double left_length, double right_length, std::size_t n_elements);
+  std::vector<double> lengths_of_side(std::size_t count, double length, double within) const;
+  void number_unknowns();
+
+  Options options_;
+  bool half_;
+  std::array<EndSupport, 2> ends_;
+  std::size_t struck_ = 0;
+  std::vector<double> lengths_;
+  std::vector<Node> nodes_;
+  std::size_t n_unknowns_ = 0;
+};
+
+}  // namespace subimpact

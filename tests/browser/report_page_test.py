@@ -1,0 +1,337 @@
+"""The page of a run as a reader meets it: report_page_test.py PROGRAM CASE [CLASS]..."""
+
+import re
+import time
+
+import browser
+from page_test_case import COPY, COUNT, CONTRAST, NAMELESS, PageTestCase, main
+
+
+class ReportPage(PageTestCase):
+    """The published strike."""
+
+    @classmethod
+    def make(cls):
+        directory = cls.program.run("strike")
+        cls.program("report", "strike")
+        return directory / "report.html"
+
+    def test_nothing_is_fetched_and_it_paints_within_a_second(self):
+        self.assertEqual(self.js("return performance.getEntriesByType('resource').map((e) => e.name)"), [])
+        paint = self.js("return performance.getEntriesByType('paint').map((e) => e.startTime)")
+        size = self.page.stat().st_size
+        print(f"first paint after {paint[0]:.0f} ms; {size / 1e6:.2f} MB")
+        self.assertLess(paint[0], 1000)
+        self.assertLess(size, 5e6)
+
+    def test_every_panel_is_drawn(self):
+        self.js("page.view.setTime(page.view.end)")
+        self.frame()
+        self.assertGreater(self.js(COUNT, self.find("#shape"), "plastic"), 30)
+        self.js("page.view.setTime(page.strike.sub_impacts[0].end / 2)")
+        self.frame()
+        for selector, tones in {"#shape": ["beam", "striker"], "#moment": ["line1", "band"],
+                                "#loop": ["line1", "line2"], "#timeline": ["line1", "line2"],
+                                "#envelope": ["line1", "line2"], "#envelope-moment": ["line1", "line2", "band"],
+                                "#set": ["line1", "band"]}.items():
+            for tone in tones:
+                count = self.js(COUNT, self.find(selector), tone)
+                self.assertGreater(count, 60, f"{tone} in {selector}")
+        for chart, lines in {"#chart-force": 1, "#chart-displacement": 3, "#chart-energy": 5}.items():
+            canvas = self.js("return document.querySelector(arguments[0] + ' .plot canvas')", chart)
+            for line in range(1, lines + 1):
+                self.assertGreater(self.js(COUNT, canvas, f"line{line}"), 100, f"line {line} in {chart}")
+
+    def test_dragging_across_a_chart_zooms_all_of_them(self):
+        before = self.view()
+        self.drag(self.find("#chart-force .plot"), 0.3, 0.6)
+        after = self.view()
+        self.assertLess(after["to"] - after["from"], 0.5 * (before["to"] - before["from"]))
+        self.assert_windows_are(after["from"], after["to"])
+        self.js("document.getElementById('all').click()")
+        self.frame()
+        self.assert_windows_are(0, before["end"])
+
+    def test_a_click_on_a_sub_impact_brings_all_panels_there(self):
+        third = self.program.table("strike", "events.csv")[2]
+        start, end = float(third["start_s"]), float(third["end_s"])
+        self.js("document.querySelectorAll('[data-hit]')[2].querySelector('button').click()")
+        self.frame()
+        view = self.view()
+        self.assertAlmostEqual(view["time"], start, delta=1e-15)
+        self.assertLess(view["from"], start)
+        self.assertGreater(view["to"], end)
+        self.assertLess(view["to"] - view["from"], 2 * (end - start))
+        self.assert_windows_are(view["from"], view["to"])
+        self.assertIn("in sub-impact 3", self.find("#readout").text)
+        self.assertIn("chosen", self.js("return document.querySelectorAll('[data-hit]')[2].className"))
+        low, high = self.js("return page.loop.axes.x.range")
+        self.assertLess(high, 1.1e3 * float(third["max_indentation_m"]))
+        self.assertLess(self.js("return page.timeline.axes.x.range[1]"), 1.2e6 * end)
+
+    def test_it_plays_pauses_and_steps_to_events(self):
+        speed = self.js("return page.player.speed")
+        self.js("document.getElementById('play').click()")
+        time.sleep(0.5)
+        first = self.js("return [page.view.time, performance.now(), page.player.frames]")
+        time.sleep(1.5)
+        second = self.js("return [page.view.time, performance.now(), page.player.frames]")
+        self.js("document.getElementById('play').click()")
+        seconds = (second[1] - first[1]) / 1e3
+        print(f"{(second[2] - first[2]) / seconds:.1f} frames per second")
+        self.assertAlmostEqual((second[0] - first[0]) / (speed * seconds), 1.0, delta=0.2)
+        paused = self.view()["time"]
+        self.frame()
+        self.assertEqual(self.view()["time"], paused)
+        cost = self.js("""
+            let least = Infinity;
+            for (let i = 0; i < 60; ++i) {
+              page.view.time = page.view.end * i / 60;
+              const start = performance.now();
+              page.drawTime();
+              least = Math.min(least, performance.now() - start);
+            }
+            return least;""")
+        print(f"{cost:.2f} ms of script per frame; 50 frames per second leave 20")
+
+    def test_events_are_those_of_the_table_in_their_order(self):
+        expected = [float(row["time_s"]) for row in self.program.table("strike", "transitions.csv")
+                    if row["kind"].startswith("contact_")]
+        self.js("page.view.setTime(0)")
+        found = [0.0]
+        for _ in range(6):
+            self.press("right")
+            found.append(self.view()["time"])
+        later = sorted({t for t in expected if t > 0})
+        self.assertEqual(found[1:], later[:6])
+        self.press("left")
+        self.assertEqual(self.view()["time"], later[4])
+        self.assertIn("event: ", self.find("#readout").text)
+
+    def test_the_keyboard_suffices(self):
+        end = self.view()["end"]
+        self.press("end")
+        self.assertEqual(self.view()["time"], end)
+        self.press("home")
+        self.assertEqual(self.view()["time"], 0)
+        self.press("space")
+        self.assertTrue(self.js("return page.player.playing"))
+        self.press("space")
+        self.assertFalse(self.js("return page.player.playing"))
+        self.press("n", "n")
+        self.assertEqual(self.js("return page.chosen"), 1)
+        self.press("p")
+        self.assertEqual(self.js("return page.chosen"), 0)
+        self.press("0")
+        self.assert_windows_are(0, end)
+        self.press("+")
+        self.assertLess(self.view()["to"], 0.6 * end)
+        self.press("escape")
+        self.assert_windows_are(0, end)
+        speed = self.js("return page.player.speed")
+        self.press("]")
+        self.assertGreater(self.js("return page.player.speed"), speed)
+
+    def test_values_are_those_of_the_history(self):
+        rows = self.program.table("strike", "history.csv")
+        data = self.js("return Object.fromEntries(Object.entries(page.strike.history)"
+                       ".map(([name, values]) => [name, Array.from(values)]))")
+        self.assertEqual(data["time_s"], [float(row["time_s"]) for row in rows])
+        for name, values in data.items():
+            expected = [float(row[name]) for row in rows]
+            extent = max(expected) - min(expected)
+            error = max(abs(a - b) for a, b in zip(values, expected))
+            self.assertLessEqual(error, 1e-6 * extent, name)
+        shown = self.js("return page.charts[0].chart.getValue(1234, 1)")
+        self.assertAlmostEqual(shown, float(rows[1234]["force_N"]), delta=1e-2)
+
+    def test_the_moving_shape_at_every_event_is_that_of_the_table(self):
+        shapes = {}
+        for row in self.program.table("strike", "shapes.csv"):
+            shapes.setdefault(float(row["time_s"]), []).append(row)
+        largest = {name: max(abs(float(row[name])) for rows in shapes.values() for row in rows)
+                   for name in ("displacement_m", "moment_Nm", "plastic_curvature_per_m")}
+        events = self.js("return page.strike.events.map((event) => event.time)")
+        self.assertGreater(len(events), 50)
+        for event in events:
+            rows = shapes[event]
+            shape = self.js("""
+                const shape = page.strike.shapeAt(arguments[0]);
+                return [shape.displacement, shape.moment, shape.plasticCurvature].map((f) => Array.from(f))""", event)
+            for name, values in zip(largest, shape):
+                error = max(abs(a - float(row[name])) for a, row in zip(values, rows))
+                self.assertLessEqual(error, 1e-6 * largest[name], f"{name} at {event}")
+
+    def test_colours_have_contrast_in_light_and_dark(self):
+        backgrounds = set()
+        for theme in ("light", "dark"):
+            self.js("document.getElementById('theme').click()")
+            self.frame()
+            self.assertEqual(self.js("return document.documentElement.dataset.theme"), theme)
+            for text in ("text", "soft"):
+                self.assertGreaterEqual(self.js(CONTRAST, text, "paper"), 4.5, f"{text} in {theme}")
+            for line in ("line1", "line2", "line3", "line4", "line5", "line6", "beam" if theme == "dark" else "plastic"):
+                self.assertGreaterEqual(self.js(CONTRAST, line, "paper"), 3.0, f"{line} in {theme}")
+            self.assertGreaterEqual(self.js(CONTRAST, "text", "doubt-fill"), 4.5, theme)
+            self.assertGreater(self.js(COUNT, self.find("#moment"), "line1"), 60, theme)
+            backgrounds.add(self.js("return getComputedStyle(document.body).backgroundColor"))
+        self.assertEqual(len(backgrounds), 2)
+
+    def test_it_fits_narrow_and_wide_windows(self):
+        for width in (500, 800, 1900):
+            self.assert_fits(width)
+
+    def test_everything_has_a_name(self):
+        self.assertEqual(self.js(NAMELESS), [])
+        self.assertEqual(self.js("return document.documentElement.lang"), "en")
+
+    def test_it_prints_as_a_still_report(self):
+        self.assertEqual(self.js("return getComputedStyle(document.getElementById('stills')).display"), "none")
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            self.assertEqual(self.js("return getComputedStyle(document.getElementById('stills')).display"), "block")
+            self.assertEqual(self.js("return getComputedStyle(document.getElementById('strike')).display"), "none")
+            self.assertGreaterEqual(self.js("return document.querySelectorAll('figure.still svg').length"), 7)
+        finally:
+            self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+    def test_the_case_to_copy_repeats_the_run(self):
+        (self.program.directory / "copied.toml").write_text(self.js("return document.getElementById('toml').textContent"),
+                                                            encoding="utf-8")
+        self.program("run", "copied.toml", "--out", "again", "--quiet")
+        for name in ("events.csv", "history.csv"):
+            self.assertEqual((self.program.directory / "again" / name).read_text(),
+                             (self.program.directory / "strike" / name).read_text(), name)
+
+
+class LongReport(PageTestCase):
+    """20,000 rows and 400 shapes; elastic, so that energies follow from moments."""
+
+    @classmethod
+    def make(cls):
+        directory = cls.program.run("long", "output.interval=4e-7", "output.shapes=2e-5", "output.shape_points=301",
+                                    "model.section=elastic")
+        cls.program("report", "long")
+        return directory / "report.html"
+
+    def test_it_stays_small_and_paints_soon(self):
+        self.assertGreaterEqual(self.js("return page.strike.times.length"), 20000)
+        self.assertGreaterEqual(self.js("return page.strike.shapes.times.length"), 400)
+        size = self.page.stat().st_size
+        paint = self.js("return performance.getEntriesByType('paint')[0].startTime")
+        print(f"{size / 1e6:.2f} MB, first paint after {paint:.0f} ms")
+        self.assertLess(size, 5e6)
+        self.assertLess(paint, 1000)
+
+    def test_elastic_energy_is_the_integral_of_the_moments(self):
+        bending_stiffness = 71.96e9 * 0.0163 * 0.0075**3 / 12
+        most = max(float(row["U_e_J"]) for row in self.program.table("long", "history.csv"))
+        pairs = self.js("""
+            const strike = page.strike;
+            return Array.from(strike.shapes.times).filter((t) => t > 0).map((time) => {
+              const {moment} = strike.shapeAt(time);
+              return [strike.mean(moment.map((m) => m * m)) * strike.length / (2 * arguments[0]), strike.at('U_e_J', time)];
+            });""", bending_stiffness)
+        worst = max(abs(integral - energy) for integral, energy in pairs)
+        print(f"largest difference of energies: {worst / most:.1e} of the largest")
+        self.assertLess(worst, 5e-3 * most)
+
+
+class PageWithoutCharts(PageTestCase):
+    @classmethod
+    def make(cls):
+        directory = cls.program.run("plain", "time.end=3e-4", "model.segments=51")
+        cls.errors = cls.program("report", "plain", "--dygraphs", "/nowhere").stderr
+        return directory / "report.html"
+
+    def test_it_shows_the_still_figures_and_how_to_get_charts(self):
+        self.assertIn("libjs-dygraphs", self.errors)
+        self.assertIn("apt-get install libjs-dygraphs", self.find("body").text)
+        self.assertFalse(self.find("#charts").is_displayed())
+        self.assertTrue(self.find("#stills").is_displayed())
+        self.assertGreater(self.js(COUNT, self.find("#loop"), "line1"), 60)
+        self.assertGreater(self.js(COUNT, self.find("#shape"), "beam"), 60)
+
+
+class OtherRuns(PageTestCase):
+    """Runs that lack something."""
+
+    RUNS = {"no rows": ["output.interval=0"], "rigid": ["model.mesh=rigid"], "open": ["time.end=1e-5"],
+            "no shapes": ["output.shapes=0"], "clamped": ['beam.ends=["clamped","pinned"]', "striker.position=0.3"],
+            "elastic": ["beam.yield_stress=inf", "model.section=elastic", "contact.law=linear",
+                        "contact.stiffness=1e7"]}
+
+    @classmethod
+    def make(cls):
+        for name, settings in cls.RUNS.items():
+            end = [] if name == "open" else ["time.end=3e-4"]
+            cls.program.run(name, "model.segments=51", *end, *settings)
+            cls.program("report", name)
+        return cls.program.directory / "open" / "report.html"
+
+    def test_pages_of_all_of_them_start_and_draw(self):
+        for name in self.RUNS:
+            with self.subTest(name):
+                browser.open_page(self.driver, self.program.directory / name / "report.html")
+                self.js("page.step(1); page.choose(0); page.showAll()")
+                self.frame()
+                self.assertGreater(self.js(COUNT, self.find("#timeline"), "line1"), 10)
+                self.assertEqual(self.find("#motion").is_displayed(), name not in ("no shapes", "no rows"))
+                self.assertEqual(self.find("#charts").is_displayed(), name != "no rows")
+                problems = [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+                self.assertEqual(problems, [])
+
+
+class ScatterPage(PageTestCase):
+    """A strike on a beam whose thickness is known to 0.3 %."""
+
+    @classmethod
+    def make(cls):
+        directory = cls.program.run("scatter", "scatter.beam.thickness=0.003", "time.end=1.8e-3", "model.segments=51",
+                                    "model.section=exact")
+        cls.program("report", "scatter")
+        return directory / "report.html"
+
+    def test_bars_of_the_timeline_are_those_of_the_table(self):
+        rows = self.program.table("scatter", "events.csv")
+        marks = self.js("return page.timeline.marks.filter(({kind}) => kind === 'contact')")
+        self.assertEqual(len(marks), len(rows))
+        for mark, row in zip(marks, rows):
+            for name in ("error", "scatter"):
+                text = row[f"start_{name}_s"]
+                self.assertEqual(mark[name], float(text) if text else None)
+        self.assertGreater(self.js(COUNT, self.find("#timeline"), "scatter"), 30)
+        self.assertGreater(self.js(COUNT, self.find("#timeline"), "text"), 30)
+
+    def test_a_bar_ends_at_its_value(self):
+        mark = self.js("return page.timeline.marks.find(({scatter}) => scatter > 0)")
+        self.js("page.view.setTime(0)")
+        self.frame()
+        top = self.js(COPY + """
+            const {timeline} = page, mark = arguments[0], {axes, canvas} = timeline;
+            const x = Math.round(axes.toX(mark.time * timeline.strike.time_unit.per_second)) + 3;
+            const data = copied(canvas).getImageData(x, 0, 1, canvas.height).data;
+            const text = getComputedStyle(document.documentElement).getPropertyValue('--scatter').trim();
+            const wanted = [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16));
+            let y = 0;
+            while (y < axes.bottom && wanted.some((value, k) => Math.abs(data[4 * y + k] - value) > 3)) ++y;
+            return [y, axes.toY(1e6 * mark.scatter)];""", mark)
+        self.assertAlmostEqual(*top, delta=1.5)
+
+    def test_the_part_beyond_the_horizon_is_marked(self):
+        horizon = self.js("return page.strike.horizon")
+        self.assertGreater(horizon, 0)
+        self.assertLess(horizon, 1.8e-3)
+        self.assertGreater(self.js(COUNT, self.find("#timeline"), "doubt"), 20)
+        self.assertIn("; beyond: ", self.find("p.sub:nth-of-type(2)").text)
+
+    def test_it_states_what_bending_theory_leaves_out_as_the_run_does(self):
+        printed = self.program("run", self.program.case, "--out", "again", "--set", "time.end=3e-4").stdout
+        line = next(line for line in printed.splitlines() if line.lstrip().startswith("left out"))
+        self.program("report", "again")
+        browser.open_page(self.driver, self.program.directory / "again" / "report.html")
+        self.assertIn("Left out: " + re.sub(r"\bus\b", "µs", line.split("left out")[1].strip()), self.find("body").text)
+
+
+if __name__ == "__main__":
+    main()
