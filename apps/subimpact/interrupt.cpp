@@ -6,7 +6,9 @@
 namespace subimpact::app {
 namespace {
 
-constexpr std::array listened_to = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+// Those by which users, batch systems and limits of the shell end programs.
+constexpr std::array listened_to = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,  SIGXCPU,
+                                    SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM};
 
 volatile std::sig_atomic_t first_signal = 0;
 volatile std::sig_atomic_t is_held_back = 0;

@@ -20,6 +20,7 @@ void bind_results(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_sensitivities(py::module_& module);
 void bind_populations(py::module_& module);
+void bind_directories(py::module_& module);
 
 /// The key of this name. Throws InvalidCase for a name that is none.
 const CaseKey& key_of(const std::string& name);

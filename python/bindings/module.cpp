@@ -41,4 +41,5 @@ PYBIND11_MODULE(_core, module) {
   bind_runs(module);
   bind_sensitivities(module);
   bind_populations(module);
+  bind_directories(module);
 }

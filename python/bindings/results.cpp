@@ -103,6 +103,8 @@ void bind_results(py::module_& module) {
           [](const Finished& run) { return summarise_zones(run.result.sub_impacts).size(); })
       .def_property_readonly("n_decided",
                              [](const Finished& run) { return run.result.n_decided(); })
+      .def_property_readonly("all_decided",
+                             [](const Finished& run) { return run.result.all_decided(); })
       .def_property_readonly("wish_met",
                              [](const Finished& run) {
                                return run.result.wish ? std::optional(run.result.wish->met)

@@ -6,7 +6,16 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from ._errors import CaseError
+
+#: Parts of a key, and tables or lists in each other.
+DEEPEST = 32
+
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
+_STRINGS_AND_COMMENTS = re.compile(
+    r'''"""(?:\\.|[^\\])*?(?:"""|\Z)|'{3}.*?(?:'{3}|\Z)|"(?:\\[^\n]|[^"\\\n])*"?|'[^'\n]*'?|\#[^\n]*''',
+    re.DOTALL,
+)
 
 
 def text_of(value: Any) -> str:
@@ -33,8 +42,27 @@ def dotted(key: str) -> str:
     return ".".join(part if _BARE.match(part) else quoted(part) for part in key.split("."))
 
 
+def is_too_deep(text: str) -> bool:
+    """Whether a text of TOML has deeper keys or more open brackets than DEEPEST. Parsers take
+    dotted keys in quadratic time, and brackets by recursion."""
+    bare = _STRINGS_AND_COMMENTS.sub("x", text)
+    if any(part.count(".") > DEEPEST for part in re.split(r"[=,\n\[\]{}]", bare)):
+        return True
+    depth = 0
+    for bracket in re.findall(r"[\[\]{}]", bare):
+        depth = depth + 1 if bracket in "[{" else max(0, depth - 1)
+        if depth > DEEPEST:
+            return True
+    return False
+
+
 def flat(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """The values of nested tables by keys with dots; a later one of the same key counts."""
+    if prefix.count(".") > DEEPEST:
+        raise CaseError(
+            f"tables are nested deeper than {DEEPEST}, in {prefix[:40]}...; allowed: tables of keys, such "
+            'as {"beam": {"length": 1}}; is one of them part of itself?'
+        )
     values: dict[str, Any] = {}
     for name, value in tables.items():
         if isinstance(value, Mapping):

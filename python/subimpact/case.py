@@ -11,6 +11,7 @@ from typing import Any
 
 from . import _core
 from ._errors import CaseError
+from ._text import MOST_BYTES, is_unicode, printable, read_at_most
 from ._toml import dotted, flat, text_of
 
 
@@ -34,6 +35,42 @@ _KEYS = {key["name"]: Key(**key) for key in _core.keys()}
 def keys() -> dict[str, Key]:
     """All keys of a case by their names, as `subimpact keys` lists them."""
     return dict(_KEYS)
+
+
+def _check_name(key: object) -> None:
+    if not isinstance(key, str) or not is_unicode(key):
+        raise CaseError(f"unknown key {key!r}; subimpact.keys() lists those there are")
+
+
+def checked(key: str, value: object) -> Any:
+    """A value as its key takes it. Raises CaseError."""
+    _check_name(key)
+    try:
+        return _core.checked(key, value)
+    except (OverflowError, RuntimeError):  # numbers beyond any double; lone surrogates
+        raise CaseError(f"{key} is {value!r}; allowed: {_KEYS[key].allowed}", key) from None
+
+
+def _text_of_file(path: str | os.PathLike[str], name: str) -> str:
+    try:
+        content = read_at_most(path)
+    except IsADirectoryError:
+        raise CaseError(
+            f"{name}: is a directory; give the case file itself, such as {name.rstrip('/')}/case.toml"
+        ) from None
+    except OSError as error:
+        raise CaseError(
+            f"{name}: cannot be read ({error.strerror}); give the path of a case file (TOML)"
+        ) from None
+    if len(content) > MOST_BYTES:
+        raise CaseError(
+            f"{name}: is larger than {MOST_BYTES} bytes; allowed: a case file (TOML), which has some "
+            "1000; give the path of one"
+        )
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        raise CaseError(f"{name}: is no UTF-8 text; allowed: a case file (TOML)") from None
 
 
 class Case:
@@ -62,7 +99,7 @@ class Case:
         lines = []
         for key, value in values.items():
             if key in _KEYS:
-                value = _core.checked(key, value)
+                value = checked(key, value)
             elif not isinstance(value, (bool, int, float, str)):
                 value = str(value)
             lines.append(f"{dotted(key)} = {text_of(value)}\n")
@@ -84,16 +121,14 @@ class Case:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Case:
-        """The case of a TOML file."""
-        try:
-            text = Path(path).read_text(encoding="utf-8", errors="surrogateescape")
-            text.encode("utf-8")
-        except UnicodeEncodeError:
-            raise CaseError(f"{os.fspath(path)}: is no UTF-8 text; allowed: a case file (TOML)") from None
-        return cls.from_text(text, os.fspath(path))
+        """The case of a TOML file, of at most 1,000,000 bytes."""
+        name = printable(os.fsdecode(path))
+        return cls.from_text(_text_of_file(path, name), name)
 
     def _load(self) -> _core.LoadedCase:
         if self._loaded is None:
+            if not is_unicode(self._text):
+                raise CaseError(f"{self._name}: is no UTF-8 text; allowed: TOML without lone surrogates")
             settings = [
                 (key, "default" if value is None else text_of(value), f'case["{key}"]')
                 for key, value in self._settings.items()
@@ -104,10 +139,11 @@ class Case:
     def __getitem__(self, key: str) -> Any:
         if self._settings.get(key) is not None:
             return self._settings[key]
+        _check_name(key)
         return self._load().value(key)
 
     def __setitem__(self, key: str, value: Any) -> None:
-        self._settings[key] = _core.checked(key, value)
+        self._settings[key] = checked(key, value)
         self._loaded = None
 
     def __delitem__(self, key: str) -> None:

@@ -8,6 +8,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from . import _core
+from ._checks import check_jobs, check_progress
+from ._errors import OutputError
+from ._text import path_text
 from .case import Case, as_case
 from .result import Result
 
@@ -78,7 +81,7 @@ class Sensitivity:
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes sensitivity.csv. Raises OutputError."""
-        self._study.write(os.fspath(directory))
+        self._study.write(path_text(directory, OutputError))
 
     def __repr__(self) -> str:
         return f"<Sensitivity of {self.base!r} by {', '.join(self.keys) or 'no key'}>"
@@ -103,7 +106,7 @@ def sensitivity(
     there are none, KeyboardInterrupt is raised. A base run that fails leaves no derivatives: see
     `base`. Raises CaseError for a case that cannot be run, and for a key without a derivative.
     """
-    if jobs < 1:
-        raise ValueError(f"jobs is {jobs}; allowed: 1 or more")
+    check_jobs(jobs)
+    check_progress(progress)
     keys = [by] if isinstance(by, str) else list(by)
     return Sensitivity(_core.sensitivity(as_case(case)._load(), keys, jobs, progress))

@@ -8,6 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._errors import OutputError, ResultsError
+from ._text import path_text
 
 if TYPE_CHECKING:
     import numpy as np
@@ -121,6 +123,11 @@ class Result:
         return self._finished.n_decided
 
     @property
+    def all_decided(self) -> bool:
+        """Whether it is certain that there are these sub-impacts and no others."""
+        return self._finished.all_decided
+
+    @property
     def n_predictable(self) -> int | None:
         """How many leading sub-impacts can be predicted in spite of the case's [scatter]; None
         without scatter. `summary["predictability"]` has the reason and the horizon."""
@@ -132,7 +139,7 @@ class Result:
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes the files that `subimpact run` writes. Raises OutputError."""
-        self._finished.write(os.fspath(directory))
+        self._finished.write(path_text(directory, OutputError))
 
     def report(self) -> str:
         """The summary and the table of sub-impacts, as `subimpact run` prints them."""
@@ -158,4 +165,4 @@ class Result:
 
 def read_results(directory: str | os.PathLike[str]) -> Result:
     """A finished run, read back from its files. Raises ResultsError."""
-    return Result(_core.read_results(os.fspath(directory)))
+    return Result(_core.read_results(path_text(directory, ResultsError)))

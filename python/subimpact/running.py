@@ -7,6 +7,9 @@ from collections.abc import Callable
 from typing import Literal
 
 from . import _core
+from ._checks import check_jobs, check_progress, check_timeout
+from ._errors import OutputError
+from ._text import path_text
 from .case import Case, as_case
 from .result import Result
 
@@ -46,9 +49,11 @@ def run(
     case = as_case(case)
     if within is not None:
         case = case.changed({"accuracy.event_times": within})
-    if jobs < 1:
-        raise ValueError(f"jobs is {jobs}; allowed: 1 or more")
+    check_jobs(jobs)
+    check_progress(progress)
+    check_timeout(timeout)
+    directory = None if out is None else path_text(out, OutputError)
     result = Result(_core.run(case._load(), error_bars, jobs, progress, timeout))
-    if out is not None:
-        result.write(out)
+    if directory is not None:
+        result.write(directory)
     return result

@@ -44,11 +44,17 @@ void check_points(const Case& input) {
       "it out, or set beam.ends = [\"free\", \"free\"]");
 }
 
+bool is_struck_between_cells(const Case& input) {
+  const double cells = input.model.segments;
+  const double at = input.scene.striker.position;
+  return at * cells >= 0.5 && (1.0 - at) * cells >= 0.5;
+}
+
 void check_cells(const Case& input) {
   if (input.model.spacing == CellSpacing::points) return check_points(input);
   const double cells = input.model.segments;
   const double at = input.scene.striker.position;
-  if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
+  if (!is_struck_between_cells(input)) {
     throw InvalidCase(
         "striker.position",
         fmt::format(
@@ -289,6 +295,12 @@ void check_mesh(const Case& input) {
                                   fmt::join(suitable, ", ")));
   }
   mesh.check(input);
+}
+
+MeshKind default_mesh(const Case& input) {
+  const bool has_points = input.model.spacing == CellSpacing::points;
+  if (has_points || is_struck_between_cells(input)) return MeshKind::cells;
+  return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
 }
 
 bool mesh_uses(const Case& input, const char* key) {

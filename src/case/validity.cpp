@@ -19,10 +19,13 @@ constexpr double mm = 1e3;
 class Limits {
  public:
   Limits(const Case& input, const Result& result)
-      : beam_(input.scene.beam), scene_(input.scene), result_(result) {
+      : beam_(input.scene.beam),
+        scene_(input.scene),
+        is_rigid_(input.model.mesh == MeshKind::rigid),
+        result_(result) {
+    rotation();
     if (input.model.mesh != MeshKind::rigid) {
       thickness();
-      rotation();
       stretching();
     }
     indentation();
@@ -52,8 +55,8 @@ class Limits {
 
   void rotation() {
     if (!(result_.largest_rotation > largest_rotation)) return;
-    add("sections turn by up to {:.2g} rad: the model is for small rotations (below {} rad)",
-        result_.largest_rotation, largest_rotation);
+    add("{} by up to {:.2g} rad: the model is for small rotations (below {} rad)",
+        is_rigid_ ? "the beam turns" : "sections turn", result_.largest_rotation, largest_rotation);
   }
 
   void stretching() {
@@ -88,6 +91,7 @@ class Limits {
 
   const Beam& beam_;
   const Scene& scene_;
+  bool is_rigid_;
   const Result& result_;
   std::vector<std::string> sentences_;
 };

@@ -218,6 +218,7 @@ void Reader::choose_mesh(Case& read) {
     read.model.mesh = chosen->kind;
     return;
   }
+  read.model.mesh = default_mesh(read);
 }
 
 GivenKeys Reader::given_keys() const {

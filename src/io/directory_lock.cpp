@@ -41,10 +41,13 @@ bool is_open_as(int descriptor, const std::filesystem::path& file) {
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
     : file_(directory / ".subimpact-lock") {
+  const auto message = [&](const std::string& cause, const char* remedy) {
+    return fmt::format("{}: {}; {} choose another directory with --out", directory.string(), cause,
+                       remedy);
+  };
   const auto fail = [&](const std::string& cause, const char* remedy) {
     if (descriptor_ >= 0) close(descriptor_);
-    throw OutputError(fmt::format("{}: {}; {} choose another directory with --out",
-                                  directory.string(), cause, remedy));
+    throw OutputError(message(cause, remedy));
   };
   for (;;) {
     descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -55,8 +58,10 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory)
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       if (errno == EINTR) continue;
       if (errno == EWOULDBLOCK) {
-        fail(fmt::format("{} is writing into this directory", holder_of(descriptor_)),
-             "wait until it has ended, or");
+        const std::string holder = holder_of(descriptor_);
+        close(descriptor_);
+        throw DirectoryInUse(
+            message(holder + " is writing into this directory", "wait until it has ended, or"));
       }
       fail(fmt::format("this directory cannot be locked against other writers ({})",
                        std::strerror(errno)),

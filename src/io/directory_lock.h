@@ -8,8 +8,8 @@ namespace subimpact {
 /// its end. The lock ends with the process, however the process ends.
 class DirectoryLock {
  public:
-  /// Throws OutputError if another process holds the lock, naming the process and its host, or if
-  /// the lock file cannot be made.
+  /// Throws DirectoryInUse if another process holds the lock, naming the process and its host;
+  /// OutputError if the lock file cannot be made.
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;

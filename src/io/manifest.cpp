@@ -23,6 +23,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int manifest_layout = 1;
+const std::string staging_prefix = ".subimpact-";
+constexpr std::size_t n_identity = 32;  // digits
+constexpr const char* hexadecimal = "0123456789abcdef";
 
 Json seals_to_json(const std::map<std::string, Seal>& seals) {
   Json json = Json::object();
@@ -75,7 +78,13 @@ std::optional<Seal> seal_of(const fs::path& path) {
 }
 
 fs::path staging_of(const fs::path& directory, const std::string& commit) {
-  return directory / (".subimpact-" + commit);
+  return directory / (staging_prefix + commit);
+}
+
+bool is_staging(const std::string& name) {
+  const std::size_t n_prefix = staging_prefix.size();
+  return name.size() == n_prefix + n_identity && name.starts_with(staging_prefix) &&
+         name.find_first_not_of(hexadecimal, n_prefix) == std::string::npos;
 }
 
 std::optional<Manifest> read_manifest(const fs::path& directory) {
@@ -93,7 +102,7 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
     manifest.commit = json.at("commit").get<std::string>();
     manifest.files = seals_from(json.at("files"));
     manifest.replaced = seals_from(json.at("replaced"));
-    if (manifest.commit.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    if (manifest.commit.find_first_not_of(hexadecimal) != std::string::npos) {
       throw ResultsError("\"commit\" is not a hexadecimal number");
     }
     return manifest;

@@ -78,8 +78,8 @@ bool is_sealed(const fs::path& file, const std::string& name,
 // The place that a staged file will have.
 fs::path place_of(const fs::path& path) {
   const fs::path directory = path.parent_path();
-  const bool is_staged = directory.filename().string().starts_with(".subimpact-");
-  return is_staged ? directory.parent_path() / path.filename() : path;
+  return is_staging(directory.filename().string()) ? directory.parent_path() / path.filename()
+                                                   : path;
 }
 
 }  // namespace
@@ -229,8 +229,10 @@ void OutputDirectory::settle() {
     }
   }
   for (const auto& entry : fs::directory_iterator(path_)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(".subimpact-") && name != ".subimpact-lock") fs::remove_all(entry.path());
+    const bool is_directory = entry.symlink_status().type() == fs::file_type::directory;
+    if (is_directory && is_staging(entry.path().filename().string())) {
+      fs::remove_all(entry.path());
+    }
   }
 }
 
@@ -275,8 +277,10 @@ void OutputDirectory::relocate(const std::string& cause) {
     is_new_ = true;
     lock_ = std::make_unique<DirectoryLock>(path_);
     begin_staging();
-    for (const std::string& name : files_in(left)) fs::copy_file(left / name, staging_ / name);
-    fs::remove_all(left, ignored);
+    if (fs::exists(left, ignored)) {  // else somebody has removed or renamed the directory
+      for (const std::string& name : files_in(left)) fs::copy_file(left / name, staging_ / name);
+      fs::remove_all(left, ignored);
+    }
   } catch (const std::exception& failure) {
     fs::remove_all(left, ignored);
     give_up(failure.what());

@@ -81,7 +81,9 @@ std::string setting_to_try(const Case& input, const Result& result) {
     const std::string setting = setting_against(part.name, input, result);
     if (!setting.empty()) return "; try " + setting;
   }
-  return {};
+  // Only the length of the contacts shows that the mesh is too coarse.
+  const std::string finer = setting_against("mesh", input, result);
+  return finer.empty() ? finer : "; try " + finer;
 }
 
 std::string first_failure_text(const Outcome& outcome) {
@@ -204,7 +206,9 @@ std::string error_words(const Case& input, const Result& result) {
 std::string decided_words(const Result& result) {
   const std::optional<std::size_t> n = result.n_decided();
   if (!n) return {};
-  return *n == result.sub_impacts.size() ? ", all decided" : fmt::format(", {} decided", *n);
+  if (result.all_decided()) return ", all decided";
+  return fmt::format(", {} decided{}", *n,
+                     *n == result.sub_impacts.size() ? ", which may not be all" : "");
 }
 
 std::string wish_words(const WishOutcome& wish, const Result& result) {

@@ -20,12 +20,17 @@ namespace fs = std::filesystem;
                   path.string(), cause));
 }
 
-std::ifstream open_file(const fs::path& path) {
+// A pipe or a device may never end.
+void check_is_regular(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    refuse_to_read(path, "it is no regular file");  // a pipe or a device may never end
+    refuse_to_read(path, "it is no regular file");
   }
+}
+
+std::ifstream open_file(const fs::path& path) {
+  check_is_regular(path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse_to_read(path, std::strerror(errno));
@@ -61,7 +66,10 @@ std::ifstream SealedFiles::open(const std::string& name) const {
   }
   // A file that is not yet in its place waits under the name of its commit.
   for (const fs::path& place : {path, staging_of(directory_, manifest_->commit) / name, path}) {
+    check_is_regular(place);
+    errno = 0;
     std::ifstream file(place, std::ios::binary);
+    if (!file && errno == EACCES) refuse_to_read(place, std::strerror(errno));
     if (file && seal_of(file) == listed->second) return file;
   }
   const std::optional<Manifest> now = read_manifest(directory_);

@@ -38,7 +38,8 @@ void mark_clauses(FigureScript& figure, const std::string& text) {
 std::string undecided_mark(const Result& result) {
   const std::size_t n = result.sub_impacts.size();
   const std::size_t n_decided = result.n_decided().value_or(n);
-  if (n_decided == n) return {};
+  if (!result.error_estimate || result.all_decided()) return {};
+  if (n_decided == n) return "there may be another sub-impact after the last";
   if (n_decided == 0) return "no sub-impact is decided";
   return n_decided + 1 == n ? fmt::format("sub-impact {} is not decided", n)
                             : fmt::format("sub-impacts {} to {} are not decided", n_decided + 1, n);

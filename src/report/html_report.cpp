@@ -45,7 +45,7 @@ List headlines(const Result& result) {
         result.error_estimate->largest_error > 0.0
             ? ", each start and end within " + error_text(result.error_estimate->largest_error)
             : "";
-    if (*n_decided == n) {
+    if (result.all_decided()) {
       line(true, fmt::format("count and order of all {}{}.", counted(n, "sub-impact"), within));
     } else if (*n_decided > 0) {
       const std::string first = *n_decided == 1 ? "sub-impact" : counted(*n_decided, "sub-impact");

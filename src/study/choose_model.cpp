@@ -48,9 +48,10 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
   const bool central = !open.method && solver.method == Method::central_difference;
   const bool shears = input.scene.beam.shears();
   if (open.mesh && !own_mesh) {
-    model.mesh = yields || central ? MeshKind::cells
-                 : shears          ? MeshKind::spectral
-                                   : MeshKind::hermite;
+    const bool prefers_cells = yields || central;
+    model.mesh = prefers_cells ? default_mesh(input)
+                 : shears      ? MeshKind::spectral
+                               : MeshKind::hermite;
   }
   if (open.method && !yields) solver.method = Method::exponential;
   if (open.method && yields) {

@@ -11,7 +11,7 @@
 #include "simulate/methods.h"
 #include "study/error_part.h"
 #include "study/free_end_error.h"
-#include "study/refinement.h"
+#include "study/mesh_resolution.h"
 #include "study/run_beside.h"
 #include "subimpact/study/mesh_error_bars.h"
 
@@ -43,22 +43,6 @@ double error_factor(const Companion& companion, bool yielded) {
                         : order > 2 ? safety_of_high_order
                                     : safety;
   return factor / (std::pow(companion.ratio, order) - 1.0);
-}
-
-// A contact that lasts to the end has no event time that would show an error. On a mesh that does
-// not resolve the waves of short contacts, two runs may both have missed that it opens.
-void doubt_open_contact(Result& result, const Case& input) {
-  if (result.sub_impacts.empty() || result.sub_impacts.back().end || !mesh_order(input)) return;
-  ErrorEstimate& estimate = *result.error_estimate;
-  const int needed = parts_that_resolve(input, result.used.contact_time);
-  const std::size_t last = result.sub_impacts.size() - 1;
-  const bool is_in_doubt = estimate.first_unresolved && *estimate.first_unresolved <= last;
-  if (is_in_doubt || mesh_count(input) >= needed) return;
-  estimate.first_unresolved = last;
-  estimate.reason = fmt::format(
-      "it lasts to the end, and {} parts of the mesh do not resolve the bending waves of contacts "
-      "as short as {:.2g} us, as {} would",
-      mesh_count(input), 1e6 * result.used.contact_time, needed);
 }
 
 // Twice the step, or the largest that is stable.
@@ -120,7 +104,7 @@ void add_companion_errors(Result& result, const Case& input, const Companion& co
                                   error_factor(companion, yielded));
   include_free_ends(part, input, result);
   set_error_bars(result, {part});
-  doubt_open_contact(result, input);
+  doubt_unresolved_contacts(result, input);
 }
 
 double memory_with_companion(const Case& input, const ResolvedSettings& settings) {

@@ -15,6 +15,7 @@
 #include "simulate/methods.h"
 #include "study/error_part.h"
 #include "study/free_end_error.h"
+#include "study/mesh_resolution.h"
 #include "study/method_choice.h"
 #include "subimpact/study/match.h"
 
@@ -158,7 +159,10 @@ Result simulate_with_all_error_bars(const Case& input, const Progress& progress,
                   {static_cast<double>(order), h(coarse->input), h(input), h(fine->input)});
     }
   }
-  if (!stop) set_error_bars(result, parts);
+  if (!stop) {
+    set_error_bars(result, parts);
+    doubt_unresolved_contacts(result, input);
+  }
   return result;
 }
 

@@ -1,7 +1,7 @@
 #include "subimpact/study/neglected_shear.h"
 
 #include "case/meshes.h"
-#include "study/refinement.h"
+#include "study/mesh_resolution.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {
@@ -27,7 +27,8 @@ Case coarse_case(const Case& input, const Result& result, double end_of_first) {
   coarse.output = {};
   coarse.output.keep_no_rows();
   // An odd number has a centre at mid-span.
-  coarse.model.segments = 2 * (parts_that_resolve(coarse, result.used.contact_time) / 2) + 1;
+  const int cells = parts_that_resolve(coarse, result.used.contact_time, most_cells_at_first);
+  coarse.model.segments = 2 * (cells / 2) + 1;
   return coarse;
 }
 

@@ -6,15 +6,13 @@
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"
+#include "study/mesh_resolution.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/study/mesh_error_bars.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double parts_per_wave = 8.0;
-constexpr int fewest_parts = 64;
-constexpr int most_parts_at_first = 2000;
 constexpr double first_tolerance = 1e-6;
 constexpr double first_tolerance_in_modes = 1e-8;
 constexpr double tightest_tolerance = 1e-12;
@@ -39,28 +37,11 @@ double step_by_default(Case input) {
 
 }  // namespace
 
-int parts_that_resolve(const Case& input, double contact_time) {
-  const Beam& beam = input.scene.beam;
-  const double density = beam.mass() / beam.length;
-  const double frequency = M_PI / contact_time;
-  const double wave =
-      2.0 * M_PI / std::sqrt(frequency) * std::pow(beam.bending_stiffness() / density, 0.25);
-  const double cells =
-      std::clamp<double>(parts_per_wave * beam.length / wave, fewest_parts, most_parts_at_first);
-  switch (input.model.mesh) {
-    case MeshKind::hermite:
-      return static_cast<int>(0.5 * cells);
-    case MeshKind::spectral:
-      return static_cast<int>(0.125 * cells);
-    default:
-      return static_cast<int>(cells);
-  }
-}
-
 Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(input), open_(open) {
   order_ = mesh_order(input).value_or(1);
   if (open_.size && mesh_order(input)) {
-    first_ = with_count(input, parts_that_resolve(input, resolve(input).settings().contact_time));
+    const double contact_time = resolve(input).settings().contact_time;
+    first_ = with_count(input, parts_that_resolve(input, contact_time, most_cells_at_first));
   }
   if (!open_.tolerance) return;
   if (!is_fixed_step(input)) {

@@ -6,10 +6,6 @@
 
 namespace subimpact {
 
-/// Cells over the whole length, or elements, that are an eighth or a quarter of the length of
-/// bending waves of contacts as short as `contact_time` (s); at most 2000.
-int parts_that_resolve(const Case& input, double contact_time);
-
 /// A case on finer and finer meshes, with the accuracy in time that goes with each: the default
 /// step of the mesh or, where the contact limits the step, one that shrinks as the mesh does; rtol
 /// divided by ten for every doubling. What is not open stays.

@@ -55,9 +55,8 @@ struct Reach {
 Reach reach_of(const Result& result, double wish) {
   Reach reach;
   const auto& all = result.sub_impacts;
-  const std::size_t n_decided =
-      result.error_estimate ? result.error_estimate->first_unresolved.value_or(all.size()) : 0;
-  reach.all_decided = result.error_estimate && n_decided == all.size();
+  const std::size_t n_decided = result.n_decided().value_or(0);
+  reach.all_decided = result.all_decided();
   bool within = true;
   for (std::size_t i = 0; i < n_decided; ++i) {
     const double error = std::max(all[i].start_error.value_or(0.0), all[i].end_error.value_or(0.0));
@@ -97,6 +96,7 @@ class Ladder {
   double observed_order() const;
   double ratio_towards_wish() const;
   bool is_out_of_reach();
+  double horizon(const Result& result) const;
   void report(WithinRun& run) const;
 
   Case input_;
@@ -312,6 +312,15 @@ WithinRun Ladder::climb() {
   return run;
 }
 
+// Up to where event times are within the wish: the first start beyond it or, where a run compared
+// with has a sub-impact after the last one here, the end of the last.
+double Ladder::horizon(const Result& result) const {
+  const auto& all = result.sub_impacts;
+  if (reach_.n_within < all.size()) return all[reach_.n_within].start;
+  if (result.all_decided()) return result.outcome.time;
+  return all.empty() ? 0.0 : result.end_of(all.back());
+}
+
 void Ladder::report(WithinRun& run) const {
   Result& result = run.result;
   result.choice = model_.reason;
@@ -321,8 +330,7 @@ void Ladder::report(WithinRun& run) const {
   outcome.wished = wish_;
   outcome.met = result.outcome.completed() && reach_.reason.empty();
   outcome.reached = reach_.error_within;
-  const auto& all = result.sub_impacts;
-  outcome.horizon = reach_.n_within < all.size() ? all[reach_.n_within].start : result.outcome.time;
+  outcome.horizon = horizon(result);
   if (!result.outcome.completed()) {
     outcome.reason = result.outcome.message;
   } else if (!outcome.met) {

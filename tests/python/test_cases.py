@@ -1,7 +1,9 @@
 """Cases: keys, values, messages."""
 
 import copy
+import os
 import pickle
+import threading
 
 import numpy as np
 import pytest
@@ -144,6 +146,49 @@ def test_notes_and_doubtful_units(elastic):
     assert any("model.layers" in note for note in elastic.notes())
     elastic["beam.length"] = 711.2
     assert any("beam.length" in warning for warning in elastic.warnings())
+
+
+@pytest.mark.parametrize("key, value", [
+    ("title", "\ud800"), ("output.points", [10**400]), ("solver.events", "\udcff"),
+])
+def test_values_that_cannot_be_kept_are_refused_by_key(elastic, key, value):
+    with pytest.raises(si.CaseError) as refused:
+        elastic[key] = value
+    assert refused.value.key == key and "allowed: " in str(refused.value)
+    with pytest.raises(si.CaseError):
+        si.Plan(elastic, {key: [value]})
+
+
+def test_texts_with_lone_surrogates_are_no_cases(elastic):
+    for call in (si.Case({"\ud800": 1}).check, lambda: si.Case.from_text('title = "\ud800"'),
+                 lambda: elastic["\ud800"], lambda: elastic.changed({"\ud800": 1})):
+        with pytest.raises(si.CaseError):
+            call()
+
+
+def test_a_table_that_holds_itself_is_refused():
+    table = {"mass": 1.0}
+    table["striker"] = table
+    with pytest.raises(si.CaseError, match="nested deeper"):
+        si.Case(striker=table)
+
+
+def test_files_are_read_no_further_than_a_case_can_be_long(tmp_path):
+    (tmp_path / "long.toml").write_text("#" * 1_000_001)
+    (tmp_path / "latin.toml").write_bytes(b"title = '\xff'")
+    for path, words in (("/dev/zero", "larger than 1000000 bytes"), (tmp_path, "is a directory"),
+                        (tmp_path / "long.toml", "larger than 1000000 bytes"), ("a\0b", "cannot be read"),
+                        (tmp_path / "latin.toml", "no UTF-8"), (tmp_path / "none", "cannot be read")):
+        with pytest.raises(si.CaseError, match=words):
+            si.Case.from_file(path)
+
+
+def test_a_case_may_come_through_a_pipe(elastic, tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    writer = threading.Thread(target=(tmp_path / "pipe").write_text, args=[ELASTIC])
+    writer.start()
+    assert si.Case.from_file(tmp_path / "pipe") == elastic
+    writer.join()
 
 
 def test_identity_depends_on_values_but_not_on_the_title(elastic):

@@ -76,7 +76,7 @@ def test_a_callback_ends_the_study(strike):
 
 
 def test_ctrl_c_without_derivatives_raises(strike):
-    slow = strike.changed({"model.segments": 1001, "time.end": 1.0})
+    slow = strike.changed({"model.segments": 1001, "time.end": 10.0})
     timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):

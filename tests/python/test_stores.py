@@ -1,5 +1,6 @@
 """The store of a sweep: damage, truncation, what is no store."""
 
+import os
 import random
 import sqlite3
 
@@ -7,6 +8,7 @@ import pytest
 
 import subimpact as si
 from conftest import tables
+from subimpact.sweep import store as module
 from subimpact.sweep.store import FILE, Store
 from subimpact.sweep.worker import COLUMNS, Row
 
@@ -90,6 +92,48 @@ def test_the_database_of_another_program_is_refused(tmp_path):
     connection.close()
     with pytest.raises(si.StoreError, match="another program"):
         Store(tmp_path)
+
+
+@pytest.mark.parametrize("name", [FILE, FILE + "-journal"])
+@pytest.mark.parametrize("target", ["there", "dangling", "fifo", "directory"])
+def test_a_store_that_is_no_file_of_its_own_is_refused(tmp_path, name, target):
+    """A link, dangling or not, is not followed."""
+    elsewhere = tmp_path / "elsewhere"
+    path = tmp_path / "sweep" / name
+    path.parent.mkdir()
+    if target == "fifo":
+        os.mkfifo(path)
+    elif target == "directory":
+        path.mkdir()
+    else:
+        path.symlink_to(elsewhere)
+    if target == "there":
+        elsewhere.write_bytes(b"")
+    with pytest.raises(si.StoreError, match="no regular file"):
+        Store(tmp_path / "sweep")
+    assert elsewhere.exists() == (target == "there")
+    assert target != "there" or elsewhere.read_bytes() == b""
+
+
+def test_a_store_that_cannot_be_begun_is_an_output_error(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "_TABLE", "no SQL")  # fails as a full disk does
+    with pytest.raises(si.OutputError, match="make room"):
+        Store(tmp_path)
+    monkeypatch.undo()
+    with Store(tmp_path) as begun:
+        assert begun.outcomes() == {}
+
+
+def test_a_store_that_another_program_has_is_no_damaged_one(tmp_path):
+    with Store(tmp_path) as store:
+        store.add(rows(5))
+    other = sqlite3.connect(tmp_path / FILE)
+    other.execute("BEGIN EXCLUSIVE")
+    with pytest.raises(si.StoreError, match="in use by another program"):
+        Store(tmp_path)
+    other.close()
+    with Store(tmp_path) as store:
+        assert len(store.outcomes()) == 5 and store.notes == []
 
 
 def test_an_empty_file_is_an_empty_store(tmp_path):

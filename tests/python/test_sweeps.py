@@ -4,6 +4,7 @@ import csv
 import os
 import random
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -15,6 +16,7 @@ import pytest
 import subimpact as si
 from conftest import ELASTIC, tables
 from subimpact.sweep.plan import spaced
+from subimpact.sweep.store import Store
 
 PLAN = """
 case = "case.toml"
@@ -231,7 +233,12 @@ def test_the_command_parts_and_merges(plan_file, tmp_path):
 
 @pytest.mark.parametrize("options, status, words", [
     (["--workers", -1], 2, "workers is -1"), (["--memory", -1], 2, "memory is -1"),
-    (["--only", "5"], 2, "0:1000"), (["--out", "plan.toml"], 3, "plan.toml"),
+    (["--memory", 0], 2, "allowed: 0."), (["--memory", 0.0001], 2, "leave it out for no limit"),
+    (["--memory", "inf"], 2, "memory is inf"), (["--memory", 1e30], 2, "memory is 1e+30"),
+    (["--only", "5"], 2, "0:1000"), (["--only", "5:2"], 2, "0:1000"),
+    (["--out", "plan.toml"], 2, "plan.toml: this output directory cannot be made"),
+    (["--merge", "nothing"], 2, "nothing: is no directory of a sweep"),
+    (["\x1b[31m"], 2, "unrecognized arguments: \\x1b[31m"),
     (["--dask", "tcp://127.0.0.1:1"], 3, "127.0.0.1"),
 ])
 def test_what_cannot_be_done_is_one_message(plan_file, options, status, words, monkeypatch):
@@ -242,13 +249,10 @@ def test_what_cannot_be_done_is_one_message(plan_file, options, status, words, m
     done = command(plan_file, *options)
     assert done.returncode == status, done.stderr
     assert words in done.stderr and "Traceback" not in done.stderr
+    assert "\x1b" not in done.stderr
 
 
 def test_a_full_disk_ends_the_sweep_and_the_next_one_goes_on(population, tmp_path, monkeypatch):
-    import sqlite3
-
-    from subimpact.sweep.store import Store
-
     def insert(*_):
         raise sqlite3.OperationalError("database or disk is full")
 
@@ -262,24 +266,63 @@ def test_a_full_disk_ends_the_sweep_and_the_next_one_goes_on(population, tmp_pat
 
 
 def test_two_sweeps_do_not_share_a_directory(population, tmp_path):
-    from subimpact.sweep.store import Store
-
     with Store(tmp_path):
-        with pytest.raises(si.StoreError, match="another sweep"):
+        with pytest.raises(si.StoreError, match="is writing into this directory"):
             si.sweep(population, out=tmp_path, workers=0)
 
 
-def test_ctrl_c_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_path, python):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_path, python, number):
     process = python("-m", "subimpact.sweep", plan_file, "--out", tmp_path / "out", "--workers", 2)
-    while process.poll() is None and not any(tmp_path.glob("out/*")):
+    while process.poll() is None and not any(tmp_path.glob("out/sweep.sqlite")):
         time.sleep(0.01)
     time.sleep(0.3)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
     output = process.communicate(timeout=60)
-    assert process.returncode in (0, 130), output
+    assert process.returncode in (0, 128 + number), output
+    with Store(tmp_path / "out") as store:
+        assert tables(tmp_path / "out")[0].count(b"\n") - 1 == len(store.outcomes())
+    assert process.returncode == 0 or f"stopped by {number.name}" in output[1]
     assert command(plan_file, "--out", tmp_path / "out").returncode == 0
     command(plan_file, "--out", tmp_path / "whole")
     assert tables(tmp_path / "out") == tables(tmp_path / "whole")
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("workers", [0, 1])
+def test_from_python_a_signal_is_a_keyboard_interrupt_after_the_rows_are_kept(
+        population, tmp_path, number, workers):
+    def stop(n_done, n_all):
+        if 0 < n_done < n_all:
+            os.kill(os.getpid(), number)
+
+    slow = si.Plan(population.case, population.axes, population.scatter, samples=400)
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        si.sweep(slow, out=tmp_path, workers=workers, progress=stop)
+    assert stopped.value.signal == number
+    assert signal.getsignal(number) is signal.SIG_DFL
+    assert 1 < (tmp_path / "runs.csv").read_bytes().count(b"\n") < len(slow)
+
+
+def test_a_signal_that_the_process_ignores_ends_no_sweep(population, tmp_path):
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        sweep = si.sweep(population, out=tmp_path, workers=1,
+                         progress=lambda *_: os.kill(os.getpid(), signal.SIGHUP))
+        assert sweep.outcomes == {"completed": 40}
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_cells_hold_no_character_that_breaks_a_table_or_obeys_a_terminal(without_rows, tmp_path):
+    """Nor does a quote at the beginning of a cell open a quoted one."""
+    titles = ["a\rb", "a\nb", "\x1b[31m", "\x85", '"q', "a,b", "\0"]
+    sweep = si.sweep(without_rows, {"title": titles}, out=tmp_path, workers=0)
+    text = (tmp_path / "runs.csv").read_text(encoding="utf-8")
+    assert not [c for c in text if c != "\n" and (ord(c) < 32 or 127 <= ord(c) < 160)]
+    assert list(sweep.runs["title"]) == ["a b", "a b", "\\x1b[31m", "\\xc2\\x85", "'q", "a;b", "\\x00"]
+    assert sweep.outcomes == {"completed": 7}
 
 
 def test_a_coordinator_killed_at_random_instants_goes_on(plan_file, tmp_path, python):

@@ -379,6 +379,18 @@ TEST(Explanation, GivesTheReasonForAWholeModel) {
             "not symmetric about mid-span");
 }
 
+TEST(RunSummary, DoesNotCallAllDecidedWhereTheRunComparedWithHasMore) {
+  Result result = sample_result_with_errors(3);
+  result.error_estimate->first_unresolved = result.sub_impacts.size();
+  expect_in(run_summary(paper_case(), result), "3 in 2 zones, 3 decided, which may not be all\n");
+}
+
+TEST(RunSummary, NamesTheKeyOfAFinerMeshWhereTheMeshDecidesNothing) {
+  Result result = sample_result_with_errors(0);
+  result.error_estimate->parts.clear();
+  expect_in(run_summary(paper_case(), result), "try a larger model.segments");
+}
+
 TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {
   Case input = paper_case();
   input.solver.method = Method::central_difference;

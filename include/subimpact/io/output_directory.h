@@ -25,6 +25,12 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Another process writes into the directory.
+class DirectoryInUse : public OutputError {
+ public:
+  using OutputError::OutputError;
+};
+
 /// A random identity of a run: 32 hexadecimal digits.
 std::string new_identity();
 
@@ -35,10 +41,9 @@ class OutputDirectory {
  public:
   /// Makes the directory if missing, locks it and makes sure that files can be written. Finishes
   /// what a killed writer has left undone. `kind` names what the directory holds: "run", "compare"
-  /// ...; `identity` the one it is of, a new
-  /// one if empty (results of an older version have none). Throws OutputError, also if another
-  /// process writes into the directory or if it holds files of another kind ("figures" go with the
-  /// run of that identity).
+  /// ...; `identity` the one it is of, a new one if empty (results of an older version have none).
+  /// Throws DirectoryInUse, and OutputError also if the directory holds files of another kind
+  /// ("figures" go with the run or sweep of that identity).
   OutputDirectory(const std::filesystem::path& directory, std::string kind,
                   std::string identity = new_identity());
   /// Removes what was not committed.

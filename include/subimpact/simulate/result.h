@@ -294,6 +294,9 @@ struct Result {
     return std::min(error_estimate->first_unresolved.value_or(sub_impacts.size()),
                     sub_impacts.size());
   }
+  /// Whether it is certain that there are these sub-impacts and no others. Not so where all of them
+  /// are decided, but the run compared with has more.
+  bool all_decided() const { return error_estimate && !error_estimate->first_unresolved; }
 
   /// One line: outcome, sub-impacts, error of the energy, steps and time.
   std::string brief_report() const;

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import signal
+import sqlite3
 import sys
 import time
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 from .._errors import CaseError, PlanError, StoreError
+from .._text import printable
 from .plan import Plan
 from .running import sweep
 
@@ -21,20 +24,39 @@ _EXAMPLES = """examples:
   subimpact-sweep plan.toml --only 0:1000 --out part-1      (one of several jobs)
   subimpact-sweep plan.toml --merge part-1 part-2           (and then their tables)
 
-exit status: 0 done; 2 bad command line, plan or case; 3 cases are missing or crashed, or
-files cannot be written; 130 stopped
-by Ctrl-C. A sweep that was stopped goes on where it was: give the same command again."""
+exit status: 0 done; 2 bad command line, plan, case or directory; 3 cases are missing or crashed,
+or files cannot be written; 130, 143, 129 stopped by Ctrl-C, SIGTERM, SIGHUP, with all rows so far
+stored and in the tables. A sweep that was stopped goes on where it was: give the same command again."""
+
+_MOST_DIGITS = 18
+
+
+def _say(text: str) -> None:
+    """A message on stderr, which may be gone with its terminal."""
+    try:
+        print(f"subimpact-sweep: {printable(text)}", file=sys.stderr)
+    except OSError:
+        pass
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        super().error(printable(message))
 
 
 def _part(text: str) -> tuple[int, int]:
     first, colon, end = text.partition(":")
-    if not colon or not all(part == "" or part.isdecimal() for part in (first, end)):
-        raise argparse.ArgumentTypeError(f"is {text!r}; allowed: two numbers from 0, such as 0:1000")
-    return int(first or 0), int(end) if end else sys.maxsize
+    is_pair = all(part == "" or part.isdecimal() and len(part) <= _MOST_DIGITS for part in (first, end))
+    part = (int(first or 0), int(end) if end else sys.maxsize) if is_pair else (0, 0)
+    if not colon or part[0] >= part[1]:
+        raise argparse.ArgumentTypeError(
+            f"is {text!r}; allowed: a number from 0 and a larger one, such as 0:1000"
+        )
+    return part
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="subimpact-sweep",
         description="Runs the cases of a plan and writes runs.csv and sub_impacts.csv.",
         epilog=_EXAMPLES,
@@ -103,25 +125,14 @@ def _run(options: argparse.Namespace, executor: Any) -> int:
     if options.hdf5:
         done.write_hdf5()
     for note in done.notes:
-        print(f"subimpact-sweep: {note}", file=sys.stderr)
-    outcomes = _outcomes(done.directory / "runs.csv")
+        _say(note)
     if not options.quiet:
-        counts = ", ".join(f"{count} {name}" for name, count in sorted(outcomes.items()))
+        counts = ", ".join(f"{count} {name}" for name, count in sorted(done.outcomes.items()))
         print(f"{len(plan)} cases: {counts or 'none run'}"
               f"{f', {done.n_missing} missing' if done.n_missing else ''}")
-        print(f"files in {done.directory}")
+        print(f"files in {printable(str(done.directory))}")
     is_whole = not done.n_missing or options.only is not None
-    return 0 if is_whole and "crashed" not in outcomes else 3
-
-
-def _outcomes(path: Any) -> dict[str, int]:
-    counts: dict[str, int] = {}
-    with open(path, encoding="utf-8") as file:
-        column = next(file).rstrip("\n").split(",").index("outcome")
-        for line in file:
-            outcome = line.split(",")[column]
-            counts[outcome] = counts.get(outcome, 0) + 1
-    return counts
+    return 0 if is_whole and "crashed" not in done.outcomes else 3
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -138,18 +149,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 return _run(options, executor)
         return _run(options, None)
     except (CaseError, PlanError, StoreError) as error:
-        print(f"subimpact-sweep: {error}", file=sys.stderr)
+        _say(str(error))
         return 2
-    except OSError as error:  # a directory or a disk that cannot be written, a scheduler out of reach
-        print(f"subimpact-sweep: {error}", file=sys.stderr)
+    except (OSError, sqlite3.Error) as error:  # a full disk, a scheduler out of reach
+        _say(str(error))
+        return 3
+    except MemoryError:
+        _say("the memory does not suffice; take fewer cases, or give more memory")
         return 3
     except ImportError as error:
-        print(f"subimpact-sweep: {error}; Debian's packages are python3-distributed, python3-mpi4py and python3-h5py",
-              file=sys.stderr)
+        _say(f"{error}; Debian's packages are python3-distributed, python3-mpi4py and python3-h5py")
         return 2
-    except KeyboardInterrupt:
-        print("subimpact-sweep: stopped; the same command goes on from here", file=sys.stderr)
-        return 130
+    except KeyboardInterrupt as error:
+        number: int = getattr(error, "signal", signal.SIGINT)
+        _say(f"stopped by {signal.Signals(number).name}; the same command goes on from here")
+        return 128 + number
 
 
 if __name__ == "__main__":

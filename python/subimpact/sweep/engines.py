@@ -22,6 +22,7 @@ from .worker import Row, identity_of, row_without_result, run_case, run_chunk
 
 MOST_DEATHS = 3
 _MOST_IN_A_CHUNK = 2000
+_ROOM_FOR_A_CASE = 0.25  # GiB
 _CHUNKS_AHEAD = 3  # per worker, handed out beyond what it runs
 
 Sink = Callable[[list[Row]], None]
@@ -33,16 +34,28 @@ def n_cores() -> int:
 
 
 def _prepare_worker(parent: int, memory: float | None) -> None:
-    """A worker ends with its coordinator, and leaves Ctrl-C to it."""
+    """A worker ends with its coordinator, and leaves Ctrl-C and the end of a terminal to it."""
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
     if os.getppid() != parent:
         os._exit(1)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    for number in (signal.SIGALRM, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
     if memory is not None:
         limit = int(memory * 2**30)
+        _, hard = resource.getrlimit(resource.RLIMIT_AS)
+        limit = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
         resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def least_memory() -> float:
+    """GiB of address space that a worker must have: what this process has, of which it is a copy,
+    and room for a small case."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        n_pages = int(file.read().split()[0])
+    return n_pages * resource.getpagesize() / 2**30 + _ROOM_FOR_A_CASE
 
 
 class Processes:
@@ -107,8 +120,9 @@ class CallersExecutor:
 
 
 def _is_death(error: BaseException) -> bool:
-    """Whether a worker was lost, as each library reports it."""
-    return isinstance(error, BrokenExecutor) or type(error).__name__ in ("KilledWorker", "CommClosedError")
+    """Whether a worker was lost, as each library reports it, or could not even begin."""
+    is_of_python = isinstance(error, (BrokenExecutor, MemoryError))
+    return is_of_python or type(error).__name__ in ("KilledWorker", "CommClosedError")
 
 
 def run_here(plan: Plan, numbers: Iterable[int], sink: Sink) -> None:

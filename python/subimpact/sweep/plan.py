@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+import math
 import os
+import stat
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from numbers import Integral, Real
+from itertools import islice
 from pathlib import Path
 from typing import Any, Union
 
 from .. import _core
+from .._checks import ALLOWED_TIMEOUT, LONGEST, is_positive, is_whole
 from .._errors import PlanError
-from .._toml import flat
-from ..case import Case, as_case
+from .._text import MOST_BYTES, is_unicode, read_at_most
+from .._toml import DEEPEST, flat, is_too_deep
+from ..case import Case, as_case, checked
 
 Axes = Mapping[Union[str, tuple[str, ...]], Iterable[Any]]
+
+#: Of a plan, and values of one of its axes.
+MOST_CASES = 10_000_000
+MOST_VALUES = 1_000_000
+_SPLIT = "take fewer values, or make several plans of it"
 
 
 @dataclass
@@ -48,8 +57,11 @@ class Plan:
     def __post_init__(self) -> None:
         self._check_numbers()
         as_case(self.case)
-        points = self._points = [_points(keys, values) for keys, values in self.axes.items()]
-        self.axes = {tuple(keys): values for keys, values in points}
+        self._points: list[tuple[list[str], list[list[Any]]]] = []
+        for keys, values in self.axes.items():
+            self._points.append(_points(keys, values))
+            self._check_size()
+        self.axes = {tuple(keys): values for keys, values in self._points}
         self._drawn = self._what_is_drawn()
         self._population.check(self.case._load())
         #: of the samples
@@ -58,14 +70,42 @@ class Plan:
     def _check_numbers(self) -> None:
         if self.error_bars not in (None, "off", "time", "all"):
             raise PlanError(f'error_bars is "{self.error_bars}"; allowed: "off", "time", "all"')
-        for name, value, least in (("samples", self.samples, 1), ("seed", self.seed, 0)):
-            if value is not None and not (isinstance(value, Integral) and value >= least):
-                raise PlanError(f"{name} is {value!r}; allowed: a whole number, {least} or more")
-        numbers = [("timeout", self.timeout)] if self.timeout is not None else []
-        numbers += [(f"scatter of {key}", value) for key, value in (self.scatter or {}).items()]
-        for name, number in numbers:
-            if not (isinstance(number, Real) and number > 0):
-                raise PlanError(f"{name} is {number!r}; allowed: a number above 0")
+        for name, value, least, most in (
+            ("samples", 1 if self.samples is None else self.samples, 1, MOST_CASES),
+            ("seed", self.seed, 0, 2**64 - 1),
+        ):
+            if not is_whole(value, least, most):
+                raise PlanError(f"{name} is {value!r}; allowed: a whole number, {least} to {most}; take one")
+        if self.timeout is not None and not is_positive(self.timeout, LONGEST):
+            raise PlanError(f"timeout is {self.timeout!r}; allowed: {ALLOWED_TIMEOUT}")
+        if not isinstance(self.axes, Mapping):
+            raise PlanError(f"axes is {self.axes!r}; allowed: lists of values by key")
+        self._check_scatter()
+
+    def _check_scatter(self) -> None:
+        allowed = 'relative standard deviations by key, such as { "striker.velocity" = 0.01 }'
+        if self.scatter is None:
+            return
+        if not isinstance(self.scatter, Mapping):
+            raise PlanError(f"scatter is {self.scatter!r}; allowed: {allowed}")
+        for key, number in self.scatter.items():
+            if not isinstance(key, str) or not is_unicode(key):
+                raise PlanError(f"scatter has {key!r} in place of a key; allowed: {allowed}")
+            if not is_positive(number):
+                raise PlanError(f"scatter of {key} is {number!r}; allowed: a number above 0")
+
+    def _check_size(self) -> None:
+        """Before the next axis takes memory, or the cases do."""
+        sizes = [(", ".join(keys), len(values)) for keys, values in self._points]
+        name, n = sizes[-1]
+        if n > MOST_VALUES:
+            raise PlanError(f"{name} has more than {MOST_VALUES} values; allowed: up to as many; {_SPLIT}")
+        if self.samples is not None:
+            sizes.append(("samples", int(self.samples)))
+        n_cases = math.prod(n for _, n in sizes)
+        if n_cases > MOST_CASES:
+            product = " times ".join(f"{n} of {name}" for name, n in sizes)
+            raise PlanError(f"there are {n_cases} cases, {product}; allowed: up to {MOST_CASES}; {_SPLIT}")
 
     def _what_is_drawn(self) -> dict[str, float]:
         if self.samples is None:
@@ -75,7 +115,7 @@ class Plan:
         if self.scatter is not None:
             drawn = dict(self.scatter)
         else:
-            axes = _core.Population(self._points, {}, 1, 1)
+            axes = self._made({})
             axes.check(self.case._load())
             drawn = axes.scatter_of(self.case._load())
         if not drawn:
@@ -87,7 +127,18 @@ class Plan:
 
     @cached_property
     def _population(self) -> _core.Population:
-        return _core.Population(self._points, self._drawn, int(self.samples or 1), int(self.seed))
+        return self._made(self._drawn)
+
+    def _made(self, drawn: Mapping[str, float]) -> _core.Population:
+        scatter = {key: float(value) for key, value in drawn.items()}
+        try:
+            return _core.Population(self._points, scatter, int(self.samples or 1), int(self.seed))
+        except (OverflowError, RuntimeError):  # a value that cannot be converted
+            for keys, points in self._points:
+                for point in points:
+                    for key, value in zip(keys, point):
+                        checked(key, value)
+            raise
 
     def __getstate__(self) -> dict[str, Any]:
         state = dict(self.__dict__)
@@ -120,31 +171,56 @@ class Plan:
         the plan."""
         path = Path(path)
         try:
-            tables = _parse(path.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise PlanError(f"{path}: cannot be read ({error.strerror}); give the path of a plan") from None
-        except ValueError as error:
-            raise PlanError(f"{path}: is no TOML: {error}") from None
-        try:
+            tables = _parse(_read(path))
             return _plan_of(tables, path.parent)
         except PlanError as error:
             raise PlanError(f"{path}: {error}") from None
+        except RecursionError:
+            raise PlanError(f"{path}: {_TOO_DEEP}") from None
+
+
+_TOO_DEEP = (
+    f"keys, tables or lists are nested deeper than {DEEPEST}; allowed: tables of keys, such as [axes] with "
+    "striker.mass = [0.1, 0.2]"
+)
+
+
+def _read(path: Path) -> str:
+    """The text of a plan: of a file, or of standard input by its name."""
+    try:
+        is_file = stat.S_ISREG(path.stat().st_mode) or str(path).startswith(("/dev/stdin", "/dev/fd/"))
+        content = read_at_most(path) if is_file else b""
+    except (OSError, ValueError) as error:
+        cause = error.strerror if isinstance(error, OSError) else error
+        raise PlanError(f"cannot be read ({cause}); give the path of a plan (TOML)") from None
+    if not is_file:
+        raise PlanError("is no regular file; give the path of a plan (TOML)")
+    if len(content) > MOST_BYTES:
+        raise PlanError(f"is larger than {MOST_BYTES} bytes; allowed: a plan (TOML); give the path of one")
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        raise PlanError("is no UTF-8 text; allowed: a plan (TOML)") from None
 
 
 def _points(keys: str | tuple[str, ...], values: Iterable[Any]) -> tuple[list[str], list[list[Any]]]:
     """An axis: its keys, and their values in each point."""
+    names = [keys] if isinstance(keys, str) else list(keys) if isinstance(keys, tuple) else []
+    if not names or not all(isinstance(name, str) and is_unicode(name) for name in names):
+        raise PlanError(f"axes have {keys!r} in place of a key; allowed: a key, or a tuple of keys")
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise PlanError(f"the axis of {keys} is {values!r}; allowed: a list of values")
+    values = islice(values, MOST_VALUES + 1)
     if isinstance(keys, str):
-        return [keys], [[value] for value in values]
+        return names, [[value] for value in values]
     points = []
     for point in values:
         if isinstance(point, str) or not isinstance(point, Iterable):
             raise PlanError(
-                f"the axis of {', '.join(keys)} has {point!r}; allowed: tuples of {len(keys)} values"
+                f"the axis of {', '.join(names)} has {point!r}; allowed: tuples of {len(names)} values"
             )
-        points.append(list(point))
-    return list(keys), points
+        points.append(list(islice(point, len(names) + 1)))
+    return names, points
 
 
 def _without_scatter(case: Case) -> Case:
@@ -160,7 +236,13 @@ def _parse(text: str) -> dict[str, Any]:
         import tomllib
     else:
         import tomli as tomllib
-    return tomllib.loads(text)
+    if is_too_deep(text):
+        raise PlanError(_TOO_DEEP)
+    try:
+        tables: dict[str, Any] = tomllib.loads(text)
+    except ValueError as error:
+        raise PlanError(f"is no TOML: {error}") from None
+    return tables
 
 
 _TABLES = ("case", "set", "axes", "together", "scatter", "samples", "seed", "error_bars", "timeout")
@@ -173,21 +255,23 @@ def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
     if not isinstance(tables.get("case"), str):
         raise PlanError('case is missing; write case = "strike.toml", the file of the base case')
     case = Case.from_file(directory / tables["case"])
-    for key, value in flat(tables.get("set", {})).items():
+    for key, value in flat(_table(tables, "set")).items():
         case[key] = value
-    axes: dict[str | tuple[str, ...], list[Any]] = {}
-    for key, values in _lists(tables.get("axes", {})).items():
+    axes: dict[str | tuple[str, ...], Iterable[Any]] = {}
+    for key, values in _lists(_table(tables, "axes")).items():
         axes[key] = values
-    for group in tables.get("together", []):
+    for group in _groups(tables):
         lists = _lists(group)
         lengths = {key: len(values) for key, values in lists.items()}
-        if len(set(lengths.values())) > 1:
-            raise PlanError(f"the lists of [[together]] differ in length: {lengths}")
-        axes[tuple(lists)] = list(zip(*lists.values()))
+        if len(set(lengths.values())) != 1:
+            raise PlanError(f"the lists of [[together]] differ in length: {lengths}; allowed: equal ones")
+        if tuple(lists) in axes:
+            raise PlanError(f"two [[together]] have {', '.join(lists)}; give their values in one of them")
+        axes[tuple(lists)] = zip(*lists.values())
     return Plan(
         case,
         axes,
-        scatter=flat(tables["scatter"]) if "scatter" in tables else None,
+        scatter=flat(_table(tables, "scatter")) if "scatter" in tables else None,
         samples=tables.get("samples"),
         seed=tables.get("seed", 1),
         error_bars=tables.get("error_bars"),
@@ -195,9 +279,25 @@ def _plan_of(tables: dict[str, Any], directory: Path) -> Plan:
     )
 
 
-def _lists(tables: Mapping[str, Any], prefix: str = "") -> dict[str, list[Any]]:
+def _table(tables: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    table = tables.get(name, {})
+    if not isinstance(table, Mapping):
+        raise PlanError(f"{name} is {table!r}; allowed: a table, which begins with [{name}]")
+    return table
+
+
+def _groups(tables: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    groups = tables.get("together", [])
+    if not isinstance(groups, list) or not all(isinstance(group, Mapping) for group in groups):
+        raise PlanError(f"together is {groups!r}; allowed: tables, each of which begins with [[together]]")
+    return groups
+
+
+def _lists(tables: Mapping[str, Any], prefix: str = "") -> dict[str, list[Any] | _Spaced]:
     """The lists of values by keys with dots; {from, to, n} stands for a list."""
-    lists: dict[str, list[Any]] = {}
+    if prefix.count(".") > DEEPEST:
+        raise PlanError(_TOO_DEEP)
+    lists: dict[str, list[Any] | _Spaced] = {}
     for name, value in tables.items():
         key = prefix + name
         if isinstance(value, list):
@@ -211,25 +311,43 @@ def _lists(tables: Mapping[str, Any], prefix: str = "") -> dict[str, list[Any]]:
     return lists
 
 
-def _range(key: str, values: Mapping[str, Any]) -> list[float]:
+@dataclass(frozen=True)
+class _Spaced:
+    """Values from `first` to `last`, which take no memory before they are asked for."""
+
+    first: float
+    last: float
+    n: int
+    spacing: str
+
+    def __len__(self) -> int:
+        return self.n
+
+    def __iter__(self) -> Iterator[float]:
+        first, last, n = self.first, self.last, self.n
+        for i in range(n - 1):
+            part = i / (n - 1)
+            is_log = self.spacing == "log"
+            yield first * (last / first) ** part if is_log else first + (last - first) * part
+        yield last
+
+
+def _range(key: str, values: Mapping[str, Any]) -> _Spaced:
     allowed = '{ from = 2, to = 16, n = 50 }, with spacing = "log" for equal ratios'
     try:
         first, last, n = float(values["from"]), float(values["to"]), values["n"]
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, OverflowError):
         raise PlanError(f"{key} is {dict(values)}; allowed: {allowed}") from None
     spacing = values.get("spacing", "linear")
     is_known = spacing in ("linear", "log") and set(values) <= {"from", "to", "n", "spacing"}
+    is_known = is_known and math.isfinite(first) and math.isfinite(last)
     if not is_known or type(n) is not int or n < 2 or (spacing == "log" and not first * last > 0):
         raise PlanError(f"{key} is {dict(values)}; allowed: {allowed}")
-    return spaced(first, last, n, spacing)
+    if n > MOST_VALUES:
+        raise PlanError(f"{key} has n = {n}; allowed: up to {MOST_VALUES} values; {_SPLIT}")
+    return _Spaced(first, last, n, spacing)
 
 
 def spaced(first: float, last: float, n: int, spacing: str = "linear") -> list[float]:
     """n values from `first` to `last`, both included, at equal distances or ("log") ratios."""
-    parts: Sequence[float] = [i / (n - 1) for i in range(n)]
-    if spacing == "log":
-        values = [first * (last / first) ** part for part in parts]
-    else:
-        values = [first + (last - first) * part for part in parts]
-    values[-1] = last
-    return values
+    return list(_Spaced(first, last, n, spacing))

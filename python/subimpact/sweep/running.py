@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from numbers import Real
 from pathlib import Path
 from typing import Any
 
+from .._checks import check_progress, is_positive, is_whole
 from .._errors import PlanError, StoreError
+from .._text import path_text
 from ..case import Case
-from .engines import CallersExecutor, Coordinator, Processes, n_cores, run_here
+from .engines import CallersExecutor, Coordinator, Processes, least_memory, n_cores, run_here
+from .interruption import Interruption
 from .plan import Axes, Plan
-from .store import Store
+from .store import FILE, Store
 from .tables import write_hdf5, write_tables
 from .worker import Row, identity_of
 
@@ -28,10 +31,13 @@ Progress = Callable[[int, int], object]
 class Sweep:
     """The results of a sweep: the files in its directory."""
 
-    def __init__(self, plan: Plan, directory: Path, n_missing: int, notes: list[str]) -> None:
+    def __init__(
+        self, plan: Plan, directory: Path, outcomes: Mapping[str, int], notes: list[str]
+    ) -> None:
         self.plan = plan
         self.directory = directory  #: of sweep.sqlite, runs.csv and sub_impacts.csv
-        self.n_missing = n_missing  #: cases of the plan that have no row yet
+        self.outcomes = dict(outcomes)  #: how many cases have each outcome
+        self.n_missing = len(plan) - sum(outcomes.values())  #: cases that have no row yet
         self.notes = notes  #: what the user has to be told
 
     @cached_property
@@ -45,8 +51,9 @@ class Sweep:
         return self._table("sub_impacts.csv")
 
     def write_hdf5(self) -> Path:
-        """Writes both tables into sweep.h5, which needs h5py; returns its path."""
-        return write_hdf5(self.directory)
+        """Writes both tables into sweep.h5, which needs h5py; returns its path. Raises StoreError if
+        the tables were changed since, and OutputError."""
+        return write_hdf5(self.directory, self.notes)
 
     def _table(self, name: str) -> Any:
         import pandas
@@ -96,13 +103,13 @@ def _missing(numbers: Iterable[int], identities: list[str], known: Mapping[str, 
 
 
 def _merge(store: Store, directory: str | os.PathLike[str]) -> None:
-    if Path(directory).resolve() == store.directory.resolve():
-        raise StoreError(f"{os.fspath(directory)}: is the directory to merge into")
-    if not Path(directory).is_dir():
-        raise StoreError(f"{os.fspath(directory)}: is no directory of a sweep")
-    with Store(directory) as other:
-        store.add(list(other.rows()))
-        store.notes += other.notes
+    path = Path(path_text(directory, StoreError))
+    if path.resolve() == store.directory.resolve():
+        raise StoreError(f"{path}: is the directory to merge into; name those of other sweeps")
+    if not os.path.lexists(path / FILE):
+        raise StoreError(f"{path}: is no directory of a sweep; allowed: one with {FILE}")
+    with Store(path) as other:
+        store.take(other)
 
 
 def _hand_out(
@@ -122,6 +129,30 @@ def _hand_out(
     else:
         n = min(workers or n_cores(), len(missing))
         Coordinator(Processes(n, memory), plan, sink).run(missing)
+
+
+#: GiB, and processes.
+_MOST_MEMORY = 1e6
+_MOST_WORKERS = 10_000
+
+
+def _check(workers: Any, memory: Any, only: Any) -> None:
+    if workers is not None and not is_whole(workers, 0, _MOST_WORKERS):
+        raise PlanError(f"workers is {workers!r}; allowed: a whole number from 0 to {_MOST_WORKERS}")
+    if memory is not None:
+        least = math.ceil(100 * least_memory()) / 100
+        if not is_positive(memory, _MOST_MEMORY) or memory < least:
+            raise PlanError(
+                f"memory is {memory!r}; allowed: {least:g} GiB (what each process takes before its first "
+                f"case, and 0.25) to {_MOST_MEMORY:g}; leave it out for no limit"
+            )
+    if only is not None:
+        is_pair = isinstance(only, (tuple, list)) and len(only) == 2
+        if not is_pair or not all(is_whole(number, 0, 2**63) for number in only) or only[0] >= only[1]:
+            raise PlanError(
+                f"only is {only!r}; allowed: the first number of a part of the cases, from 0, and the "
+                "number after its last, such as (0, 1000)"
+            )
 
 
 def sweep(
@@ -152,7 +183,7 @@ def sweep(
                 sub_impacts.csv. A sweep that was stopped, by whatever, goes on from there; cases of
                 an earlier plan that the new one has too are not run again
     workers     processes on this machine; by default one per core; 0: none, all runs in this one
-    memory      GiB that a worker process may have
+    memory      GiB of address space that a worker process may have
     executor    what runs the cases instead: a client of Dask, an MPIPoolExecutor of mpi4py, or
                 another executor with the interface of `concurrent.futures`
     only        (first, end): a part of the cases, by their numbers from 0
@@ -160,19 +191,19 @@ def sweep(
     merge       directories of other sweeps, whose rows are taken first
     progress    called with the number of cases that have a row, and of all
 
-    The tables are the same, byte for byte, whatever ran the cases. After Ctrl-C the rows so far are
-    stored and in the tables, and KeyboardInterrupt is raised.
+    The tables are the same, byte for byte, whatever ran the cases. After Ctrl-C, SIGTERM and SIGHUP
+    (in the main thread, unless the process has handlers of its own) the rows so far are stored and
+    in the tables, and KeyboardInterrupt is raised; its `signal` is the number of the others.
     """
+    _check(workers, memory, only)
+    check_progress(progress)
     if isinstance(case, Plan):
         plan = case
     else:
-        plan = Plan(case, axes or {}, scatter, samples, seed, error_bars, timeout)
-    for name, value in (("workers", workers), ("memory", memory)):
-        if value is not None and not (isinstance(value, Real) and value >= 0):
-            raise PlanError(f"{name} is {value!r}; allowed: 0 or more")
+        plan = Plan(case, {} if axes is None else axes, scatter, samples, seed, error_bars, timeout)
     numbers = range(len(plan))[slice(*only)] if only else range(len(plan))
     identities = [identity_of(plan, number) for number in range(len(plan))]
-    with Store(out) as store:
+    with Interruption() as interruption, Store(out) as store:
         for directory in merge:
             _merge(store, directory)
         if retry:
@@ -182,6 +213,7 @@ def sweep(
         try:
             _hand_out(plan, missing, sink, workers, memory, executor)
         finally:
+            interruption.hold()
             sink.flush()
-            n_missing = write_tables(plan, identities, store)
-        return Sweep(plan, Path(out), n_missing, store.notes)
+            outcomes = write_tables(plan, identities, store)
+        return Sweep(plan, store.directory, outcomes, store.notes)

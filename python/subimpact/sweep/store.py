@@ -7,24 +7,26 @@ again.
 
 from __future__ import annotations
 
-import fcntl
 import os
 import sqlite3
-import time
+import stat
 import zlib
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import IO
 
+from .. import _core
 from .._errors import OutputError, StoreError
+from .._text import path_text
 from .worker import COLUMNS, Row
 
 FILE = "sweep.sqlite"
+KIND = "sweep"  # of results, in manifest.json
+SECONDS_OF_THE_DYING = 2.0  # for which workers of a killed sweep may hold its lock
 _LAYOUT = 1
 _APPLICATION = 0x53554249  # "SUBI"
 _MAGIC = b"SQLite format 3\0"
 _ALL = "SELECT identity, outcome, cells, sub_impacts, checksum FROM rows"
-_SECONDS_OF_THE_DYING = 2.0  # for which workers of a killed sweep may hold its lock
 _TABLE = (
     "CREATE TABLE rows (identity TEXT PRIMARY KEY, outcome TEXT NOT NULL, cells TEXT NOT NULL, "
     "sub_impacts BLOB NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID"
@@ -48,44 +50,75 @@ def _checked(values: tuple[str, str, str, bytes, int]) -> Row | None:
 
 
 class Store:
-    """The rows of a sweep by identity, in a directory of their own."""
+    """The rows of a sweep by identity, in a directory of their own, which no other process writes
+    into meanwhile. The tables of the sweep are written into `staging` and put in place, as one, by
+    `commit`; the store itself is not among the files that manifest.json seals."""
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
-        """Opens or makes the store. Raises StoreError if another process has it, or if the file is
-        no store."""
-        self.directory = Path(directory)
-        self.directory.mkdir(parents=True, exist_ok=True)
+        """Opens or makes the store. Raises StoreError if another process has it, if the file is no
+        store, or if the directory holds other results; OutputError if it cannot be written."""
+        self.directory = Path(path_text(directory, StoreError))
         self.path = self.directory / FILE
-        self.notes: list[str] = []  #: what was found damaged
-        self._lock = self._locked()
+        self._found: list[str] = []
+        self._output = self._locked()
         try:
+            self._refuse_links()
             self._connection = self._opened()
         except BaseException:
-            self._lock.close()
+            self._output.close()
             raise
 
-    def _locked(self) -> IO[bytes]:
-        lock = open(self.directory / ".lock", "wb")
-        deadline = time.monotonic() + _SECONDS_OF_THE_DYING
-        while True:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                return lock
-            except OSError:
-                if time.monotonic() < deadline:
-                    time.sleep(0.05)
-                    continue
-            lock.close()
-            raise StoreError(
-                f"{self.directory}: another sweep writes there; wait for its end, or choose another "
-                "directory with --out"
-            )
+    @property
+    def notes(self) -> list[str]:
+        """What the user has to be told: what was damaged, which files were kept."""
+        return [*self._found, *self._output.notes]
+
+    @property
+    def staging(self) -> Path:
+        """The hidden directory for new files."""
+        return Path(self._output.staging)
+
+    def commit(self) -> None:
+        """Puts the files of `staging` in place, and removes those of the sweep before. Raises
+        OutputError."""
+        self._output.commit()
+
+    def _locked(self) -> _core.OutputDirectory:
+        try:
+            return _core.OutputDirectory(str(self.directory), KIND, SECONDS_OF_THE_DYING)
+        except OutputError as error:
+            raise StoreError(str(error)) from None
+
+    def _refuse_links(self) -> None:
+        """A store is no way to files elsewhere."""
+        for path in (self.path, Path(f"{self.path}-journal")):
+            if os.path.lexists(path) and not stat.S_ISREG(path.lstat().st_mode):
+                raise StoreError(
+                    f"{path}: is a symbolic link or another thing that is no regular file, which a store "
+                    "has to be; move it away, or choose another directory with --out"
+                )
+
+    @contextmanager
+    def _writing(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.Error as error:
+            raise OutputError(
+                f"{self.path}: cannot be written ({error}); make room, and start the sweep again: it "
+                "goes on from the rows that are stored"
+            ) from None
 
     def _opened(self) -> sqlite3.Connection:
         if not self.path.exists() or self.path.stat().st_size == 0:
             return self._made()
-        with open(self.path, "rb") as file:
-            is_sqlite = file.read(len(_MAGIC)) == _MAGIC
+        try:
+            with open(self.path, "rb") as file:
+                is_sqlite = file.read(len(_MAGIC)) == _MAGIC
+        except OSError as error:
+            raise StoreError(
+                f"{self.path}: cannot be read ({error.strerror}); change its permissions, or choose "
+                "another directory with --out"
+            ) from None
         if not is_sqlite:
             raise StoreError(
                 f"{self.path}: is no store of a sweep, or its beginning is damaged; move it away to "
@@ -101,7 +134,10 @@ class Store:
             damage = f"{wrong} wrong rows" if damage == "ok" else damage
         except (sqlite3.DatabaseError, OverflowError) as error:
             damage = str(error)
-        except StoreError:
+            if "locked" in damage:
+                connection.close()
+                raise StoreError(f"{self.path}: is in use by another program; wait for its end") from None
+        except (StoreError, OutputError):
             connection.close()
             raise
         rows = self._readable_rows(connection)
@@ -114,19 +150,24 @@ class Store:
         return connection
 
     def _made(self) -> sqlite3.Connection:
-        connection = self._connected()
-        self._fill(connection)
+        with self._writing():
+            connection = self._connected()
+            try:
+                self._fill(connection)
+            except BaseException:
+                connection.close()
+                raise
         return connection
 
-    @staticmethod
-    def _fill(connection: sqlite3.Connection) -> None:
-        connection.isolation_level = None
-        connection.execute("BEGIN IMMEDIATE")
-        connection.execute(f"PRAGMA application_id = {_APPLICATION}")
-        connection.execute(f"PRAGMA user_version = {_LAYOUT}")
-        connection.execute(_TABLE)
-        connection.execute("COMMIT")
-        connection.isolation_level = ""
+    def _fill(self, connection: sqlite3.Connection) -> None:
+        with self._writing():
+            connection.isolation_level = None
+            connection.execute("BEGIN IMMEDIATE")
+            connection.execute(f"PRAGMA application_id = {_APPLICATION}")
+            connection.execute(f"PRAGMA user_version = {_LAYOUT}")
+            connection.execute(_TABLE)
+            connection.execute("COMMIT")
+            connection.isolation_level = ""
 
     def _check_layout(self, connection: sqlite3.Connection) -> None:
         application = connection.execute("PRAGMA application_id").fetchone()[0]
@@ -159,7 +200,7 @@ class Store:
     def _salvaged(self, rows: list[Row], damage: str) -> sqlite3.Connection:
         kept = self.path.with_suffix(".damaged")
         number = 1
-        while kept.exists():
+        while os.path.lexists(kept):
             number += 1
             kept = self.path.with_suffix(f".damaged-{number}")
         os.replace(self.path, kept)
@@ -167,8 +208,9 @@ class Store:
         if journal.exists():
             journal.unlink()
         connection = self._made()
-        self._insert(connection, rows)
-        self.notes.append(
+        with self._writing():
+            self._insert(connection, rows)
+        self._found.append(
             f"{self.path}: was damaged ({damage}); {len(rows)} of its rows could be read and are kept, "
             f"the others will be run again; the damaged file is {kept.name}"
         )
@@ -184,13 +226,13 @@ class Store:
 
     def add(self, rows: Iterable[Row]) -> None:
         """Stores rows, all at once. Raises OutputError."""
-        try:
+        with self._writing():
             self._insert(self._connection, rows)
-        except sqlite3.OperationalError as error:
-            raise OutputError(
-                f"{self.path}: cannot be written ({error}); make room, and start the sweep again: it "
-                "goes on from the rows that are stored"
-            ) from None
+
+    def take(self, other: Store) -> None:
+        """Stores all rows of another store. Raises OutputError."""
+        self.add(list(other.rows()))
+        self._found += other.notes
 
     def outcomes(self) -> dict[str, str]:
         """The outcome of every row by its identity."""
@@ -202,8 +244,8 @@ class Store:
         return Row(*values[:4]) if values is not None else None
 
     def drop(self, outcomes: Iterable[str]) -> None:
-        """Removes the rows with these outcomes."""
-        with self._connection:
+        """Removes the rows with these outcomes. Raises OutputError."""
+        with self._writing(), self._connection:
             self._connection.executemany(
                 "DELETE FROM rows WHERE outcome = ?", [(outcome,) for outcome in outcomes]
             )
@@ -214,9 +256,9 @@ class Store:
             yield Row(*values[:4])
 
     def close(self) -> None:
-        """Closes the file; another process may open it then."""
+        """Closes the file; another process may open it then. What was not committed is dropped."""
         self._connection.close()
-        self._lock.close()
+        self._output.close()
 
     def __enter__(self) -> Store:
         return self

@@ -2,81 +2,129 @@
 
 from __future__ import annotations
 
-import os
+import hashlib
+import json
 import zlib
+from collections import Counter
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
+from .. import _core
+from .._errors import OutputError, StoreError
+from .._text import one_line
 from .plan import Plan
-from .store import Store
+from .store import KIND, SECONDS_OF_THE_DYING, Store
 from .worker import COLUMNS, cell, events_heading
 
 RUNS = "runs.csv"
 SUB_IMPACTS = "sub_impacts.csv"
+HDF5 = "sweep.h5"
+_MANIFEST = "manifest.json"
 
 
-class _Replacement:
-    """A file that appears whole, in place of the one before."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self._temporary = path.with_name(f".{path.name}.new")
-
-    def __enter__(self) -> IO[str]:
-        self._file = open(self._temporary, "w", encoding="utf-8", newline="\n")
-        return self._file
-
-    def __exit__(self, kind: object, *_: object) -> None:
-        self._file.flush()
-        os.fsync(self._file.fileno())
-        self._file.close()
-        if kind is None:
-            os.replace(self._temporary, self._path)
-        else:
-            os.unlink(self._temporary)
+def write_tables(plan: Plan, identities: list[str], store: Store) -> Counter[str]:
+    """Writes runs.csv and sub_impacts.csv, both as one, from the rows there are, which have the
+    identities of the plan's cases; returns how many rows have each outcome. Raises OutputError."""
+    try:
+        with _new(store.staging / RUNS) as runs, _new(store.staging / SUB_IMPACTS) as sub_impacts:
+            outcomes = _write_rows(plan, identities, store, runs, sub_impacts)
+    except OSError as error:
+        raise _not_written(store.directory, error) from None
+    store.commit()
+    return outcomes
 
 
-def write_tables(plan: Plan, identities: list[str], store: Store) -> int:
-    """Writes runs.csv and sub_impacts.csv from the rows there are, which have the identities of the
-    plan's cases; returns how many cases have none."""
-    n_missing = 0
+def _new(path: Path) -> IO[str]:
+    return open(path, "x", encoding="utf-8", newline="\n")
+
+
+def _not_written(directory: Path, error: Exception) -> OutputError:
+    cause = getattr(error, "strerror", None) or error
+    return OutputError(
+        f"{directory}: the tables cannot be written ({cause}); make room, and start the sweep again: its "
+        "rows are stored"
+    )
+
+
+def _write_rows(
+    plan: Plan, identities: list[str], store: Store, runs: IO[str], sub_impacts: IO[str]
+) -> Counter[str]:
     keys = plan.keys()
-    with _Replacement(store.directory / RUNS) as runs, _Replacement(
-        store.directory / SUB_IMPACTS
-    ) as sub_impacts:
-        runs.write(",".join(["run", *keys, *COLUMNS, "message"]) + "\n")
-        sub_impacts.write("run," + events_heading() + "\n")
-        for number, identity in enumerate(identities):
-            row = store.get(identity)
-            if row is None:
-                n_missing += 1
-                continue
-            values = dict(plan.settings(number))
-            cells = [str(number), *(cell(values[key]) for key in keys), row.outcome, row.cells]
-            runs.write(",".join(cells) + "\n")
-            for line in zlib.decompress(row.sub_impacts).decode().splitlines(keepends=True):
-                sub_impacts.write(f"{number},{line}")
-    return n_missing
+    outcomes: Counter[str] = Counter()
+    runs.write(",".join(["run", *keys, *COLUMNS, "message"]) + "\n")
+    sub_impacts.write("run," + events_heading() + "\n")
+    for number, identity in enumerate(identities):
+        row = store.get(identity)
+        if row is None:
+            continue
+        outcome = cell(row.outcome)
+        outcomes[outcome] += 1
+        values = dict(plan.settings(number))
+        cells = [str(number), *(cell(values[key]) for key in keys), outcome, one_line(row.cells)]
+        runs.write(",".join(cells) + "\n")
+        for line in zlib.decompress(row.sub_impacts).decode().splitlines(keepends=True):
+            sub_impacts.write(f"{number},{line}")
+    return outcomes
 
 
-def write_hdf5(directory: Path) -> Path:
-    """Writes sweep.h5 from the two tables: a group each, with one data set per column. Empty cells
-    of numbers are NaN. Needs h5py."""
+def write_hdf5(directory: Path, notes: list[str]) -> Path:
+    """Writes sweep.h5 beside the two tables: a group each, with one data set per column. Empty cells
+    of numbers are NaN. Needs h5py. `notes` takes what the user has to be told. Raises StoreError if
+    the tables are not as the sweep wrote them, and OutputError."""
     import h5py
 
-    path = directory / "sweep.h5"
-    temporary = path.with_name(".sweep.h5.new")
-    with h5py.File(temporary, "w") as file:
-        for name in (RUNS, SUB_IMPACTS):
-            group = file.create_group(name.removesuffix(".csv"))
-            with open(directory / name, encoding="utf-8") as table:
-                heading = next(table).rstrip("\n").split(",")
-                rows = [line.rstrip("\n").split(",") for line in table]
-            for column, label in enumerate(heading):
-                cells = [row[column] for row in rows]
-                try:
-                    group[label] = [float(text or "nan") for text in cells]
-                except ValueError:
-                    group.create_dataset(label, data=cells, dtype=h5py.string_dtype())
-    os.replace(temporary, path)
-    return path
+    identity = _manifest(directory)["identity"]
+    output = _core.OutputDirectory(str(directory), KIND, SECONDS_OF_THE_DYING, identity)
+    try:
+        _check_tables(directory, identity)
+        try:
+            with h5py.File(Path(output.staging) / HDF5, "x") as file:
+                for name in (RUNS, SUB_IMPACTS):
+                    _copy(directory / name, file.create_group(name.removesuffix(".csv")))
+        except (OSError, RuntimeError) as error:
+            raise _not_written(directory, error) from None
+        output.commit()
+        notes += output.notes
+    finally:
+        output.close()
+    return directory / HDF5
+
+
+def _copy(table: Path, group: Any) -> None:
+    import h5py
+
+    with open(table, encoding="utf-8", newline="\n") as file:
+        heading = next(file).rstrip("\n").split(",")
+        rows = [line.rstrip("\n").split(",") for line in file]
+    for column, label in enumerate(heading):
+        cells = [row[column] for row in rows]
+        try:
+            group[label] = [float(text or "nan") for text in cells]
+        except ValueError:
+            group.create_dataset(label, data=cells, dtype=h5py.string_dtype())
+
+
+def _manifest(directory: Path) -> dict[str, Any]:
+    path = directory / _MANIFEST
+    try:
+        manifest: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        if isinstance(manifest["identity"], str) and manifest["kind"] == KIND:
+            return manifest
+    except (OSError, ValueError, TypeError, KeyError):
+        pass
+    raise StoreError(f"{path}: is no list of the tables of a sweep; {_AGAIN}")
+
+
+_AGAIN = "run the sweep again, which takes what it has from its store"
+
+
+def _check_tables(directory: Path, identity: str) -> None:
+    manifest = _manifest(directory)
+    for name in (RUNS, SUB_IMPACTS):
+        try:
+            content = (directory / name).read_bytes()
+            is_whole = manifest["files"][name]["sha256"] == hashlib.sha256(content).hexdigest()
+        except (OSError, TypeError, KeyError):
+            is_whole = False
+        if not is_whole or manifest["identity"] != identity:
+            raise StoreError(f"{directory / name}: was changed since the sweep wrote it; {_AGAIN}")

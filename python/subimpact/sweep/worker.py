@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from .. import _core
 from .._errors import CaseError
+from .._text import one_line
 from ..case import Case
 from .plan import Plan
 
@@ -53,7 +54,8 @@ class Row(NamedTuple):
 
 
 def cell(value: object) -> str:
-    """A value as the program's tables have it: 17 digits, and no commas in texts."""
+    """A value as the program's tables have it: 17 digits, and in texts no commas, no control
+    characters and no quote at the beginning, which readers would take for a quoted cell."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -62,7 +64,8 @@ def cell(value: object) -> str:
         return format(value, ".17g")
     if isinstance(value, (list, tuple)):
         return ";".join(cell(item) for item in value)
-    return str(value).replace(",", ";").replace("\n", " ")
+    text = one_line(str(value)).replace(",", ";")
+    return "'" + text[1:] if text.startswith('"') else text
 
 
 def events_heading() -> str:
@@ -96,15 +99,15 @@ def run_case(plan: Plan, number: int) -> Row:
     identity = identity_of(plan, number, case)
     try:
         result = _core.run(case._load(), plan.error_bars, 1, None, plan.timeout)
+        if result.interrupted:
+            raise KeyboardInterrupt
+        if result.timed_out:
+            return row_without_result(identity, "timed_out", f"took more than {plan.timeout:g} s")
+        return row_of(identity, result)
     except CaseError as error:
         return row_without_result(identity, "refused", str(error))
     except MemoryError:
         return row_without_result(identity, "out_of_memory", "the memory of a worker does not suffice")
-    if result.interrupted:
-        raise KeyboardInterrupt
-    if result.timed_out:
-        return row_without_result(identity, "timed_out", f"took more than {plan.timeout:g} s")
-    return row_of(identity, result)
 
 
 def row_of(identity: str, result: _core.Finished) -> Row:
@@ -120,7 +123,7 @@ def row_of(identity: str, result: _core.Finished) -> Row:
         result.n_sub_impacts,
         result.n_zones,
         decided,
-        None if decided is None else decided == result.n_sub_impacts,
+        None if decided is None else result.all_decided,
         result.wish_met,
         result.horizon,
         result.n_predictable,
