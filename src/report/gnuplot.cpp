@@ -41,6 +41,17 @@ void throw_if_not_started(const std::string& figure, int error) {
   throw GnuplotMissing(message);
 }
 
+// The last lines that were printed, among which is the cause: fonts alone can print hundreds.
+std::string last_lines(const std::string& text) {
+  constexpr int most = 12;
+  std::size_t start = text.find_last_not_of('\n');
+  if (start == std::string::npos) return {};
+  for (int n = 0; n < most && start != std::string::npos; ++n) {
+    start = start == 0 ? std::string::npos : text.rfind('\n', start - 1);
+  }
+  return start == std::string::npos ? text : "..." + text.substr(start);
+}
+
 // gnuplot draws into a pipe, and the figure is written when it is complete.
 void draw(const fs::path& directory, const std::string& name, const std::string& ending,
           const std::string& terminal, TimeLimit limit) {
@@ -57,7 +68,7 @@ void draw(const fs::path& directory, const std::string& name, const std::string&
   }
   if (gnuplot.status != 0) {
     throw FigureError(fmt::format("{}: gnuplot failed with status {} on {}.gp: {}", figure,
-                                  gnuplot.status, name, gnuplot.errors));
+                                  gnuplot.status, name, last_lines(gnuplot.errors)));
   }
   write_file(directory / figure, gnuplot.output);
 }

@@ -121,6 +121,20 @@ TEST(AFigureThatCannotBeWritten, LeavesNoneOfItsFiles) {
   EXPECT_TRUE(fs::is_empty(place));
 }
 
+TEST(AFigureGnuplotCannotDraw, IsReportedWithTheLastTwelveLinesGnuplotSaid) {
+  const TemporaryDirectory directory;
+  const auto message_of = [&](const std::string& script) {
+    const FakeGnuplot gnuplot(directory.path / "bin", script);
+    return failure(directory.path, "plot x\n", most_drawing_time);
+  };
+  const std::string all = message_of("seq 201 212 >&2; exit 1\n");
+  EXPECT_NE(all.find("figure.gp: 201\n202\n"), std::string::npos) << all;
+  const std::string last = message_of("seq 1 212 >&2; exit 1\n");
+  EXPECT_NE(last.find("figure.gp: ...\n201\n202\n"), std::string::npos) << last;
+  EXPECT_NE(last.find("\n212\n"), std::string::npos) << last;
+  EXPECT_NE(message_of("exit 1\n").find("status 1 on figure.gp: "), std::string::npos);
+}
+
 TEST(AFigureThatFailsInOneFormat, IsInNone) {
   const TemporaryDirectory directory;
   failure(directory.path, "plot x\nif (GPVAL_TERM eq 'pdfcairo') { nonsense }\n",
