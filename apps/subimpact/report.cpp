@@ -30,9 +30,9 @@ int report(const ReportOptions& options) {
   const FinishedRun run = read_results(options.runs.front());
   OutputDirectory directory(options.directory.empty() ? options.runs.front() : options.directory,
                             "figures", run.identity);
-  const WrittenReport written = write_html_report(directory.staging(), run, options.dygraphs);
-  directory.commit();
-  print("{}\n", (directory.path() / written.page.filename()).string());
+  WrittenReport written = write_html_report(directory.staging(), run, options.dygraphs);
+  const bool is_there = commit_figures(directory, written.figures) && !written.page.empty();
+  if (is_there) print("{}\n", (directory.path() / written.page.filename()).string());
   std::fflush(stdout);
   print_warnings(directory.notes());
   print_figure_notes(run);
@@ -113,7 +113,8 @@ void add_report(CLI::App& program, int& status) {
       "  subimpact report out/first\n"
       "  subimpact report out/first out/second --out out/both\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
-      "missing; 3 a figure could not be drawn, the page is written without it.");
+      "missing; 3 a figure could not be drawn, the page is written without it; or the page could "
+      "not be written, the figures are.");
   command->callback([options, &status] { status = report_any(*options); });
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "io/manifest.h"
+#include "io/sealed_files.h"
 #include "io/write_file.h"
 #include "report/figure_script.h"
 #include "report/files.h"
@@ -43,6 +45,29 @@ std::string undecided_mark(const Result& result) {
   if (n_decided == 0) return "no sub-impact is decided";
   return n_decided + 1 == n ? fmt::format("sub-impact {} is not decided", n)
                             : fmt::format("sub-impacts {} to {} are not decided", n_decided + 1, n);
+}
+
+constexpr const char* script_names[] = {"style",       "tables",   "response", "first-sub-impact",
+                                        "indentation", "energies", "timeline", "bending",
+                                        "shapes",      "envelope"};
+
+// Data of another run would be drawn in place of this one's; files that no manifest lists would
+// lie among results.
+void refuse_finished_scripts(const std::filesystem::path& directory) {
+  constexpr const char* remedy =
+      "name a directory of scripts without data; the program puts its own into a new one";
+  if (std::filesystem::exists(directory / manifest_name)) {
+    throw OutputError(fmt::format("{}: holds results, and cannot be the directory of scripts; {}",
+                                  directory.string(), remedy));
+  }
+  for (const char* name : script_names) {
+    const std::filesystem::path file = directory / (std::string(name) + ".gp");
+    if (!std::filesystem::exists(file) || !is_finished_script(read_whole_file(file))) continue;
+    throw OutputError(
+        fmt::format("{}: is the finished script of a drawn figure, with the data of its run, which "
+                    "would be drawn in place of those asked for; {}",
+                    file.string(), remedy));
+  }
 }
 
 }  // namespace
@@ -91,6 +116,7 @@ std::vector<FigureScript> figure_scripts(const Case& input, const Result& result
 }
 
 std::vector<std::string> write_figure_scripts(const std::filesystem::path& directory) {
+  refuse_finished_scripts(directory);
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) {
@@ -98,8 +124,7 @@ std::vector<std::string> write_figure_scripts(const std::filesystem::path& direc
         fmt::format("{}: this directory cannot be made ({})", directory.string(), error.message()));
   }
   std::vector<std::string> written;
-  for (const char* name : {"style", "tables", "response", "first-sub-impact", "indentation",
-                           "energies", "timeline", "bending", "shapes", "envelope"}) {
+  for (const char* name : script_names) {
     const std::string file = std::string(name) + ".gp";
     if (std::filesystem::exists(directory / file)) continue;
     write_file(directory / file, std::string(embedded_file("figures/" + file)));
@@ -110,6 +135,7 @@ std::vector<std::string> write_figure_scripts(const std::filesystem::path& direc
 
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
                           const Result& result, const std::filesystem::path& scripts) {
+  if (!scripts.empty()) refuse_finished_scripts(scripts);
   DrawnFigures figures;
   figures.left_out = figures_left_out(input, result);
   for (const FigureScript& figure : figure_scripts(input, result)) {
@@ -118,11 +144,32 @@ DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& in
       figures.drawn.push_back({figure.name(), figure.caption()});
     } catch (const GnuplotMissing&) {
       throw;
-    } catch (const FigureError& error) {
+    } catch (const OutputError& error) {  // not drawn, or not written
       figures.failed.push_back(error.what());
     }
   }
   return figures;
+}
+
+bool commit_figures(OutputDirectory& directory, DrawnFigures& figures) {
+  while (true) {
+    try {
+      directory.commit();
+      return true;
+    } catch (const OutputError& error) {
+      std::error_code ignored;
+      std::filesystem::remove(directory.staging() / manifest_name, ignored);
+      if (figures.drawn.empty()) {
+        figures.failed.push_back(error.what());
+        return false;
+      }
+      const std::string name = figures.drawn.back().name;
+      remove_figure(directory.staging(), name);
+      figures.drawn.pop_back();
+      figures.failed.push_back(
+          fmt::format("{}: was removed to make room for the others ({})", name, error.what()));
+    }
+  }
 }
 
 void throw_if_failed(const DrawnFigures& figures) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,16 +25,27 @@ std::string figure_style();
 std::string figure_script(const std::string& name, const std::string& settings = {},
                           const std::filesystem::path& scripts = {});
 
+/// Whether a text is of figure_script(), with the data of a figure within it.
+bool is_finished_script(const std::string& text);
+
+/// A figure takes about a second.
+inline constexpr std::chrono::seconds most_drawing_time{120};
+
 /// Draws a figure with gnuplot as directory/name.svg, name.png and name.pdf. `script` sets no
 /// terminal and no output; data are in it (`$data << EOD`) or in files named relative to the
 /// directory. It is left as directory/name.gp, so that a figure can be changed and drawn again:
 ///
-///     gnuplot -e "set terminal svg; set output 'name.svg'" name.gp
+///     gnuplot -d -e "set terminal svg; set output 'name.svg'" name.gp
 ///
-/// A figure appears whole or not at all. Throws GnuplotMissing if gnuplot cannot be started;
-/// FigureError if it does not take the script, with what it printed; OutputError if a file cannot
-/// be written.
+/// A figure appears whole or not at all. gnuplot is ended when `most_time` is over. Throws
+/// GnuplotMissing if gnuplot cannot be started; FigureError if it does not take the script, with
+/// what it printed, or takes too long; OutputError if a file cannot be written, and then the script
+/// is removed too.
 void draw_figure(const std::filesystem::path& directory, const std::string& name,
-                 const std::string& script, FigureSize size = {});
+                 const std::string& script, FigureSize size = {},
+                 std::chrono::milliseconds most_time = most_drawing_time);
+
+/// Removes all files of a figure.
+void remove_figure(const std::filesystem::path& directory, const std::string& name);
 
 }  // namespace subimpact

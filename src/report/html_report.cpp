@@ -287,8 +287,15 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
 WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,
                                 const std::filesystem::path& dygraphs) {
   DrawnFigures figures = draw_figures(directory, run.input, run.result);
-  const std::filesystem::path path = directory / "report.html";
-  write_file(path, html_report(run, figures, directory, dygraphs));
+  std::filesystem::path path = directory / "report.html";
+  try {
+    write_file(path, html_report(run, figures, directory, dygraphs));
+  } catch (const OutputError& error) {
+    figures.failed.push_back(error.what());
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    path.clear();
+  }
   return {path, std::move(figures), chart_library(dygraphs).missing};
 }
 

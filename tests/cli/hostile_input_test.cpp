@@ -64,7 +64,7 @@ int shell(const std::string& line, const fs::path& directory) {
 
 // A gnuplot that fails on the figure of that name and writes nothing for the others.
 void make_failing_gnuplot(const TemporaryDirectory& directory, const std::string& figure) {
-  directory.write("gnuplot", "#!/bin/sh\ncase \"$3\" in " + figure +
+  directory.write("gnuplot", "#!/bin/sh\ncase \"$4\" in " + figure +
                                  ".gp) echo broken >&2; exit 1;; esac\necho '<svg></svg>'\n");
   fs::permissions(directory.path / "gnuplot", fs::perms::owner_all);
 }

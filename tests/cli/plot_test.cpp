@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <thread>
 
+#include "fake_gnuplot.h"
 #include "process.h"
 
 namespace subimpact {
@@ -137,6 +141,72 @@ TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
   EXPECT_EQ(finished.status, 2);
   expect_in(finished.errors, "gnuplot is not installed");
   expect_in(finished.errors, "apt-get install gnuplot-nox");
+}
+
+TEST(Plot, DrawsNoScriptThatHoldsTheDataOfAnotherRun) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  ASSERT_EQ(run_program({"plot", "here", "--out", "drawn"}, directory.path).status, 0);
+  std::filesystem::create_directory(directory.path / "mine");
+  std::filesystem::copy_file(directory.path / "drawn" / "timeline.gp",
+                             directory.path / "mine" / "timeline.gp");
+  const Finished finished =
+      run_program({"plot", "here", "--scripts", "mine", "--out", "there"}, directory.path);
+  EXPECT_EQ(finished.status, 2);
+  expect_in(finished.errors, "mine/timeline.gp: is the finished script of a drawn figure");
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "there"));
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "mine" / "style.gp"));
+}
+
+TEST(Plot, RefusesTheDirectoryOfTheRunOrOfTheFiguresAsThatOfTheScripts) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  for (const char* scripts : {"here", "./here/", "there"}) {
+    const Finished finished =
+        run_program({"plot", "here", "--scripts", scripts, "--out", "there"}, directory.path);
+    EXPECT_EQ(finished.status, 2) << scripts;
+    expect_in(finished.errors, "is the directory of the run or of its figures; name another");
+    EXPECT_FALSE(std::filesystem::exists(directory.path / scripts / "style.gp"));
+  }
+}
+
+TEST(FiguresThatCannotBeWritten, LeaveTheOthersAndEndWithStatus3) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  ASSERT_EQ(run_program({"plot", "here", "--out", "whole"}, directory.path).status, 0);
+  std::filesystem::path longest;
+  for (const auto& entry : std::filesystem::directory_iterator(directory.path / "whole")) {
+    if (longest.empty() || entry.file_size() > file_size(longest)) longest = entry.path();
+  }
+  const std::string name = longest.stem().string();
+  const std::string other = name == "response" ? "timeline" : "response";
+  for (const std::string command : {"plot", "report"}) {
+    const Finished finished = run_program({command, "here", "--out", command}, directory.path, 0,
+                                          SIGINT, file_size(longest) - 1);
+    EXPECT_EQ(finished.status, 3) << command;
+    expect_in(finished.errors, longest.filename().string() + ": cannot be written");
+    const std::filesystem::path place = directory.path / command;
+    EXPECT_FALSE(std::filesystem::exists(place / (name + ".gp")));
+    for (const char* ending : {".svg", ".png", ".pdf", ".gp"}) {
+      EXPECT_TRUE(std::filesystem::exists(place / (other + ending))) << other << ending;
+    }
+    EXPECT_FALSE(std::filesystem::exists(place / "report.html"));  // longer than any figure
+    if (command == "report") expect_in(finished.errors, "report.html: cannot be written");
+  }
+}
+
+TEST(Plot, TakesGnuplotWithItWhenASignalEndsIt) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  const std::filesystem::path number = directory.path / "number";
+  const FakeGnuplot gnuplot(directory.path / "bin", "echo $$ > " + number.string() +
+                                                        "\nkill -TERM $PPID\nexec sleep 300\n");
+  EXPECT_EQ(run_program({"plot", "here"}, directory.path).status, -SIGTERM);
+  ASSERT_TRUE(std::filesystem::exists(number));
+  for (int i = 0; i < 300 && is_running(number); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_FALSE(is_running(number));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "file_size_limit.h"
+#include "io/manifest.h"
 #include "report/figure_script.h"
 #include "report/files.h"
 #include "sample_result.h"
@@ -315,6 +317,88 @@ TEST(Figures, AreDrawnWithAUsersScripts) {
   EXPECT_TRUE(svg.find("#123456") != std::string::npos ||
               svg.find("rgb( 18,  52,  86)") != std::string::npos);
   expect_in(content(directory.path / "timeline.svg"), "</svg>");
+}
+
+// The message with which a directory of scripts is refused.
+std::string refusal(const std::filesystem::path& scripts) {
+  const TemporaryDirectory directory;
+  try {
+    draw_figures(directory.path, {}, sample_result(), scripts);
+  } catch (const OutputError& error) {
+    EXPECT_TRUE(std::filesystem::is_empty(directory.path));
+    return error.what();
+  }
+  return "no refusal";
+}
+
+TEST(ADirectoryOfScripts, IsRefusedIfTheyHoldTheDataOfADrawnFigure) {
+  const TemporaryDirectory mine;
+  const std::string finished = response_figure({}, sample_result()).text();
+  const std::string older = finished.substr(finished.find("# Lines and points"));
+  for (const std::string& script : {finished, older, figure_script("response")}) {
+    std::ofstream(mine.path / "response.gp") << script;
+    const std::string message = refusal(mine.path);
+    expect_in(message, (mine.path / "response.gp").string() + ": is the finished script");
+    expect_in(message, "name a directory of scripts without data");
+    EXPECT_THROW(write_figure_scripts(mine.path), OutputError);
+    EXPECT_FALSE(std::filesystem::exists(mine.path / "style.gp"));
+  }
+}
+
+TEST(ADirectoryOfScripts, IsRefusedIfItHoldsResults) {
+  const TemporaryDirectory results;
+  std::ofstream(results.path / manifest_name) << "{}";
+  expect_in(refusal(results.path), "holds results, and cannot be the directory of scripts");
+  EXPECT_THROW(write_figure_scripts(results.path), OutputError);
+  EXPECT_FALSE(std::filesystem::exists(results.path / "style.gp"));
+}
+
+TEST(TheScriptsOfTheLibrary, AreNotTakenForFinishedOnes) {
+  const TemporaryDirectory mine;
+  write_figure_scripts(mine.path);
+  EXPECT_NO_THROW(write_figure_scripts(mine.path));
+}
+
+// Figures as files of a few bytes.
+DrawnFigures staged_figures(const OutputDirectory& directory, int count) {
+  DrawnFigures figures;
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "figure-" + std::to_string(i);
+    for (const char* ending : {".svg", ".png", ".pdf", ".gp"}) {
+      std::ofstream(directory.staging() / (name + ending)) << name;
+    }
+    figures.drawn.push_back({name, "a caption"});
+  }
+  return figures;
+}
+
+TEST(DrawnFigures, AreKeptAsFarAsTheDiskHasRoomForTheirManifest) {
+  const TemporaryDirectory place;
+  OutputDirectory directory(place.path / "figures", "figures");
+  DrawnFigures figures = staged_figures(directory, 4);
+  {
+    const FileSizeLimit limit(1500);  // room for two figures
+    EXPECT_TRUE(commit_figures(directory, figures));
+  }
+  ASSERT_GE(figures.drawn.size(), 1u);
+  ASSERT_GE(figures.failed.size(), 1u);
+  EXPECT_EQ(figures.drawn.size() + figures.failed.size(), 4u);
+  expect_in(figures.failed[0], "figure-3: was removed to make room for the others");
+  const auto manifest = read_manifest(directory.path());
+  ASSERT_TRUE(manifest.has_value());
+  EXPECT_EQ(manifest->files.size(), 4 * figures.drawn.size());
+  EXPECT_TRUE(std::filesystem::exists(directory.path() / "figure-0.gp"));
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "figure-3.gp"));
+}
+
+TEST(DrawnFigures, ThatCannotBePutInPlaceAreReportedEach) {
+  const TemporaryDirectory place;
+  OutputDirectory directory(place.path / "figures", "figures");
+  DrawnFigures figures = staged_figures(directory, 2);
+  const FileSizeLimit limit(50);  // no manifest is that short
+  EXPECT_FALSE(commit_figures(directory, figures));
+  EXPECT_TRUE(figures.drawn.empty());
+  EXPECT_EQ(figures.failed.size(), 3u);  // the last is of the manifest alone
 }
 
 TEST(Timeline, HasTwoLabelledTicksAtLeastOnItsLogarithmicAxes) {

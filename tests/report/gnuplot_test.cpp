@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 
+#include "fake_gnuplot.h"
+#include "file_size_limit.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
 
@@ -47,6 +53,95 @@ TEST(AFigureGnuplotCannotDraw, IsReportedWithWhatGnuplotSaid) {
     EXPECT_NE(message.find("nonsense.svg"), std::string::npos) << message;
     EXPECT_NE(message.find("line 1"), std::string::npos) << message;
   }
+}
+
+// The message of a drawing that fails.
+std::string failure(const fs::path& directory, const std::string& script,
+                    std::chrono::milliseconds most_time) {
+  try {
+    draw_figure(directory, "figure", script, {}, most_time);
+  } catch (const FigureError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// Within a second, because a process that is killed needs a moment to end.
+bool ends(const fs::path& number) {
+  for (int i = 0; i < 100 && is_running(number); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return !is_running(number);
+}
+
+TEST(AFigureThatTakesTooLong, IsGivenUpWithTheCauseAndWhatDrawsItIsEnded) {
+  const TemporaryDirectory directory;
+  for (const char* waiting : {"sleep 300 & echo $! > number; wait\n",
+                              "echo $$ > number; exec sleep 300 > /dev/null 2>&1\n"}) {
+    const FakeGnuplot gnuplot(directory.path / "bin", waiting);
+    const std::string message = failure(directory.path, "plot x\n", std::chrono::milliseconds(500));
+    EXPECT_NE(message.find("figure.svg: gnuplot was ended"), std::string::npos) << message;
+    EXPECT_NE(message.find("within 0.5 s"), std::string::npos) << message;
+    ASSERT_TRUE(fs::exists(directory.path / "number"));
+    EXPECT_TRUE(ends(directory.path / "number")) << waiting;
+    fs::remove(directory.path / "number");
+  }
+}
+
+TEST(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
+  const TemporaryDirectory directory;
+  const std::string script =
+      "set title 'obeyed: '.system('env | grep -cE \"^(GNUTERM|GNUPLOT_|GDFONTPATH)\"')\n"
+      "plot [1:10] x\n";
+  draw_figure(directory.path, "plain", script);
+  fs::create_directory(directory.path / "home");
+  std::ofstream(directory.path / "home" / ".gnuplot")
+      << "set logscale y\nset datafile separator ';'\nprint 'hello'\n";
+  const std::string home = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
+  ::setenv("HOME", (directory.path / "home").c_str(), 1);
+  for (const char* name : {"GNUTERM", "GNUPLOT_LIB", "GDFONTPATH"}) ::setenv(name, "dumb", 1);
+  draw_figure(directory.path, "figure", script);
+  for (const char* name : {"GNUTERM", "GNUPLOT_LIB", "GDFONTPATH"}) ::unsetenv(name);
+  ::setenv("HOME", home.c_str(), 1);
+  const std::string svg = content(directory.path / "figure.svg");
+  EXPECT_NE(svg.find("obeyed: 0"), std::string::npos);
+  EXPECT_EQ(svg, content(directory.path / "plain.svg"));
+}
+
+TEST(AFigureThatCannotBeWritten, LeavesNoneOfItsFiles) {
+  const TemporaryDirectory directory;
+  draw_figure(directory.path, "whole", "plot x\n");
+  const auto longest = std::max({fs::file_size(directory.path / "whole.svg"),
+                                 fs::file_size(directory.path / "whole.png"),
+                                 fs::file_size(directory.path / "whole.pdf")});
+  const fs::path place = directory.path / "place";
+  fs::create_directory(place);
+  const FileSizeLimit limit(longest - 1);
+  EXPECT_THROW(draw_figure(place, "part", "plot x\n"), OutputError);
+  EXPECT_TRUE(fs::is_empty(place));
+}
+
+TEST(AFigureGnuplotCannotDraw, IsReportedWithTheLastTwelveLinesGnuplotSaid) {
+  const TemporaryDirectory directory;
+  const auto message_of = [&](const std::string& script) {
+    const FakeGnuplot gnuplot(directory.path / "bin", script);
+    return failure(directory.path, "plot x\n", most_drawing_time);
+  };
+  const std::string all = message_of("seq 201 212 >&2; exit 1\n");
+  EXPECT_NE(all.find("figure.gp: 201\n202\n"), std::string::npos) << all;
+  const std::string last = message_of("seq 1 212 >&2; exit 1\n");
+  EXPECT_NE(last.find("figure.gp: ...\n201\n202\n"), std::string::npos) << last;
+  EXPECT_NE(last.find("\n212\n"), std::string::npos) << last;
+  EXPECT_NE(message_of("exit 1\n").find("status 1 on figure.gp: "), std::string::npos);
+}
+
+TEST(AFigureThatFailsInOneFormat, IsInNone) {
+  const TemporaryDirectory directory;
+  failure(directory.path, "plot x\nif (GPVAL_TERM eq 'pdfcairo') { nonsense }\n",
+          most_drawing_time);
+  EXPECT_TRUE(fs::exists(directory.path / "figure.gp"));
+  EXPECT_FALSE(fs::exists(directory.path / "figure.svg"));
+  EXPECT_FALSE(fs::exists(directory.path / "figure.png"));
 }
 
 }  // namespace

@@ -48,6 +48,21 @@ TEST(StabilityFigures, NameMethodsAndAxesOfTheirTables) {
   expect_in(directory.path / "layers.svg", {"layers − exact (µs)", "lost or invented"});
 }
 
+TEST(TheFigureOfCriticalSteps, ShowsWhateverNumbersOfCellsThereAre) {
+  for (const int segments : {9, 1601}) {
+    const TemporaryDirectory directory;
+    std::vector<CriticalStep> steps;
+    for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+      for (const int n : {segments, segments, 2 * segments - 1}) {  // as coarse meshes have them
+        steps.push_back({"central-difference", theory, n, 1e7, 2.0, 2e-5 / n, 2e-5 / n});
+      }
+    }
+    write_critical_steps(directory.path, steps);
+    expect_in(directory.path / "critical_steps.svg",
+              {">" + std::to_string(segments) + "<", ">" + std::to_string(2 * segments - 1) + "<"});
+  }
+}
+
 TEST(AMapOfOutcomes, HasARowPerMethodAndAColumnPerSetting) {
   const TemporaryDirectory directory;
   OutcomeMap map;

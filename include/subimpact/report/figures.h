@@ -41,7 +41,8 @@ std::vector<std::string> figures_left_out(const Case& input, const Result& resul
 
 /// Writes the gnuplot scripts of a run's figures (response.gp, ..., style.gp, tables.gp) into a
 /// directory, made if missing, but for those that it has: to be changed and handed to
-/// draw_figures(). Returns the names of the files written. Throws OutputError.
+/// draw_figures(). Returns the names of the files written. Throws OutputError, also if the
+/// directory holds results or the finished scripts of drawn figures.
 std::vector<std::string> write_figure_scripts(const std::filesystem::path& directory);
 
 /// Draws into a directory, as SVG, PNG and PDF: `response` (force and displacements),
@@ -50,9 +51,14 @@ std::vector<std::string> write_figure_scripts(const std::filesystem::path& direc
 /// (moment against curvature of the sections kept), `shapes` and `envelope` (along the beam). The
 /// gnuplot scripts, tables included, stay beside them. Figures of a run that did not complete state
 /// this above their panels. A script that the directory `scripts` has replaces that of the library.
-/// Throws GnuplotMissing, and OutputError if a file cannot be written.
+/// A figure whose files cannot be written is one that failed. Throws GnuplotMissing, and
+/// OutputError if `scripts` holds results or the finished scripts of drawn figures.
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
                           const Result& result, const std::filesystem::path& scripts = {});
+
+/// Puts figures in place that were drawn into directory.staging(). Where the disk has no room for
+/// that, the last figures are given up, and count as failed. Returns whether files are in place.
+bool commit_figures(OutputDirectory& directory, DrawnFigures& figures);
 
 /// Throws a FigureError with the messages of the figures that failed, if any did.
 void throw_if_failed(const DrawnFigures& figures);

@@ -19,13 +19,13 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
                         const std::filesystem::path& dygraphs = {});
 
 struct WrittenReport {
-  std::filesystem::path page;
+  std::filesystem::path page;  ///< empty if it could not be written; `figures.failed` has the cause
   DrawnFigures figures;
   std::string charts_missing;  ///< why the page has no zoomable charts; empty: it has
 };
 
 /// Draws the figures of a run into the directory and writes report.html beside them, without those
-/// that failed. Throws GnuplotMissing, OutputError.
+/// that failed. Throws GnuplotMissing.
 WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,
                                 const std::filesystem::path& dygraphs = {});
 
