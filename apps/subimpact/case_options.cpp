@@ -43,10 +43,11 @@ void CaseOptions::add_case_to(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-LoadedCase CaseOptions::load() const {
+LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
   std::vector<Override> overrides;
   for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
   if (!method.empty()) overrides.push_back({"solver.method", method, "--method " + method});
+  overrides.insert(overrides.end(), by_options.begin(), by_options.end());
   return read_case_file(file, overrides);
 }
 
@@ -62,6 +63,20 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
     print_error("subimpact: warning: {}\n", warning);
   }
+}
+
+bool write_after_printing(OutputDirectory& directory,
+                          const std::function<void(const std::filesystem::path&)>& write) {
+  std::fflush(stdout);
+  try {
+    write(directory.staging());
+    directory.commit();
+  } catch (const OutputError& error) {
+    print_error("subimpact: {}\n", error.what());
+    return false;
+  }
+  print_warnings(directory.notes());
+  return true;
 }
 
 void print_figure_notes(const FinishedRun& run) {

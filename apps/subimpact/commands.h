@@ -2,10 +2,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "subimpact/io/case_file.h"
+#include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact::app {
@@ -27,7 +30,8 @@ struct CaseOptions {
   /// Without --method, for commands that run methods of their own choice.
   void add_case_to(CLI::App& command);
   /// Throws CaseFileError.
-  LoadedCase load() const;
+  /// With `by_options` after the settings of --set and --method.
+  LoadedCase load(const std::vector<Override>& by_options = {}) const;
   /// The case file's name without its ending, and this ending, in the current directory.
   std::string directory_with(const std::string& ending) const;
 };
@@ -50,6 +54,11 @@ auto with_places(const LoadedCase& loaded, Body body) {
 void print_notes(const LoadedCase& loaded);
 /// Prints warnings on stderr, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
+
+/// Writes files and puts them in place, once their content has been printed: without room for them
+/// it is not lost. False, with a message, if they cannot be written.
+bool write_after_printing(OutputDirectory& directory,
+                          const std::function<void(const std::filesystem::path&)>& write);
 
 /// Prints on stderr what the figures of a run leave out, and how a run ended that did not complete.
 void print_figure_notes(const FinishedRun& run);

@@ -85,14 +85,14 @@ int run_comparison(const CompareOptions& options) {
     return listener.exit_status();
   }
   listener.hold_back();
-  if (directory) {
-    write_comparison(directory->staging(), comparison);
-    directory->commit();
-    print_warnings(directory->notes());
-  }
   print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
         comparison_table(comparison));
-  if (!options.directory.empty()) {
+  if (directory) {
+    if (!write_after_printing(*directory, [&](const std::filesystem::path& place) {
+          write_comparison(place, comparison);
+        })) {
+      return failed;
+    }
     print("\ncomparison.csv and matches.csv in {}\n", options.directory);
   }
   if (comparison.interrupted) {

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,6 +63,18 @@ std::string usage_error(const CLI::App* program, const CLI::Error& error) {
       fmt::format("{}: {}; see {} --help\n", command, error.what(), command));
 }
 
+// Whether standard output is a pipe that nobody reads any longer.
+bool is_reader_gone() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;
+}
+
+// Ends the program as other programs end whose reader has left: `subimpact keys | head`.
+void end_by_broken_pipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+}
+
 // Output that was lost is a failure of the command.
 int checked_output(int status) {
   using namespace subimpact;
@@ -69,6 +82,7 @@ int checked_output(int status) {
   const bool flushed = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   const int cause = errno;
   if (flushed && std::cout.flush()) return status;
+  if (is_reader_gone()) end_by_broken_pipe();
   app::print_error(
       "subimpact: standard output cannot be written ({}); free the disk or write the output "
       "elsewhere\n",
@@ -89,6 +103,7 @@ bool occupy_closed_streams() {
 int run_command_line(int argc, char** argv) {
   using namespace subimpact;
   std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit fails then, like writing to a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // results come before what is printed, and notes before a run
   int status = app::done;
   CLI::App program("Finds every sub-impact when a rigid mass strikes an elasto-plastic beam.",
                    "subimpact");

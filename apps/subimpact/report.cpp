@@ -62,7 +62,8 @@ int compare_runs(const ReportOptions& options) {
 int report_sweep(const ReportOptions& options) {
   const std::string& sweep = options.runs.front();
   const SweptRuns runs = read_sweep(sweep);
-  OutputDirectory directory(options.directory.empty() ? sweep : options.directory, "report");
+  OutputDirectory directory(options.directory.empty() ? sweep : options.directory,
+                            runs.identity.empty() ? "report" : "figures", runs.identity);
   write_sweep_report(directory.staging(), runs, options.runs.front());
   directory.commit();
   print("{}\n", (directory.path() / "sweep.html").string());

@@ -126,8 +126,13 @@ std::string write(ResultWriter& files, const Case& input, const Result& result) 
 }
 
 int run(const RunOptions& options) {
-  LoadedCase loaded = options.input.load();
-  if (!options.within.empty()) loaded.value.accuracy.event_times = seconds_of(options.within);
+  std::vector<Override> by_options;
+  if (!options.within.empty()) {
+    by_options.push_back({"accuracy.event_times",
+                          fmt::format("{}", seconds_of(options.within).value()),
+                          "--within " + options.within});
+  }
+  LoadedCase loaded = options.input.load(by_options);
   error_bars_of(loaded, options);
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = resolve_loaded(loaded);

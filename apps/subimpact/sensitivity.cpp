@@ -87,15 +87,17 @@ int run_sensitivity(const SensitivityCommand& command) {
         {"no number of a sub-impact can be derived before time.end: the first contact "
          "lasts to the end; use a later time.end"});
   }
-  if (directory) {
-    write_sensitivity(directory->staging(), study);
-    directory->commit();
-    print_warnings(directory->notes());
-  }
   if (!command.quiet) {
     print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
           sensitivity_table(study));
-    if (directory) print("\nsensitivity.csv in {}\n", command.directory);
+  }
+  if (directory) {
+    if (!write_after_printing(*directory, [&](const std::filesystem::path& place) {
+          write_sensitivity(place, study);
+        })) {
+      return failed;
+    }
+    if (!command.quiet) print("\nsensitivity.csv in {}\n", command.directory);
   }
   if (study.interrupted) {
     print_error("subimpact: interrupted; the keys above are those whose runs had ended\n");

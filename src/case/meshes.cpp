@@ -44,17 +44,11 @@ void check_points(const Case& input) {
       "it out, or set beam.ends = [\"free\", \"free\"]");
 }
 
-bool is_struck_between_cells(const Case& input) {
-  const double cells = input.model.segments;
-  const double at = input.scene.striker.position;
-  return at * cells >= 0.5 && (1.0 - at) * cells >= 0.5;
-}
-
 void check_cells(const Case& input) {
   if (input.model.spacing == CellSpacing::points) return check_points(input);
   const double cells = input.model.segments;
   const double at = input.scene.striker.position;
-  if (!is_struck_between_cells(input)) {
+  if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
     throw InvalidCase(
         "striker.position",
         fmt::format(
@@ -298,8 +292,9 @@ void check_mesh(const Case& input) {
 }
 
 MeshKind default_mesh(const Case& input) {
-  const bool has_points = input.model.spacing == CellSpacing::points;
-  if (has_points || is_struck_between_cells(input)) return MeshKind::cells;
+  const double at = input.scene.striker.position;
+  const bool is_at_an_end = at == 0.0 || at == 1.0;
+  if (!is_at_an_end || input.model.spacing == CellSpacing::points) return MeshKind::cells;
   return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
 }
 

@@ -47,7 +47,7 @@ const MeshDescriptor& descriptor_of(MeshKind kind);
 /// check() does.
 void check_mesh(const Case& input);
 
-/// Cells, but where the strike is closer to an end than half a cell: a mesh with a node there.
+/// Cells, but for a strike at an end: a mesh with a node there.
 MeshKind default_mesh(const Case& input);
 
 /// Whether the mesh of a case uses a key of [model] that not all meshes use.

@@ -75,6 +75,11 @@ bool is_sealed(const fs::path& file, const std::string& name,
   return fs::file_size(file, error) == found->second.bytes && seal_of(file) == found->second;
 }
 
+std::string command_of(const std::string& kind) {
+  if (kind == "sweep") return "subimpact-sweep";
+  return "subimpact " + (kind == "figures" ? "plot" : kind);
+}
+
 // The place that a staged file will have.
 fs::path place_of(const fs::path& path) {
   const fs::path directory = path.parent_path();
@@ -151,9 +156,9 @@ void OutputDirectory::open(const fs::path& directory) {
   if (present && present->kind != kind_ && !joins_run) {
     refuse(path_, present->kind == "run" && kind_ == "figures"
                       ? "holds the results of another run"
-                      : fmt::format("holds the results of `subimpact {}`, with which those of "
-                                    "`subimpact {}` would be mixed",
-                                    present->kind, kind_));
+                      : fmt::format("holds the results of `{}`, with which those of `{}` would be "
+                                    "mixed",
+                                    command_of(present->kind), command_of(kind_)));
   }
   if (joins_run) kind_ = present->kind;
   try {

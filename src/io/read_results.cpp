@@ -24,7 +24,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int first_sealed_layout = 4;
-constexpr int most_attempts = 10;
 
 constexpr int deepest_summary = 16;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -379,8 +378,7 @@ RowThinning<ShapeRow> shape_thinning(std::size_t n_rows, std::size_t n_points) {
   return {n_rows, n_points, {}};
 }
 
-FinishedRun read_once(const std::filesystem::path& directory) {
-  const SealedFiles files(directory);
+FinishedRun read_once(const std::filesystem::path& directory, const SealedFiles& files) {
   FinishedRun run;
   const std::filesystem::path summary = directory / "summary.json";
   const int layout = read_summary(summary, files.text("summary.json"), run);
@@ -456,14 +454,8 @@ FinishedRun read_results(const std::filesystem::path& directory) {
                     "`subimpact run` (--out)",
                     directory.string()));
   }
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    try {
-      return read_once(directory);
-    } catch (const ReplacedMeanwhile&) {
-    }
-  }
-  throw ResultsError(fmt::format(
-      "{}: is written anew again and again; read it when the runs have ended", directory.string()));
+  return read_sealed(directory,
+                     [&](const SealedFiles& files) { return read_once(directory, files); });
 }
 
 }  // namespace subimpact

@@ -13,6 +13,7 @@
 #include "io/check_results.h"
 #include "io/csv_reader.h"
 #include "io/run_tables.h"
+#include "io/sealed_files.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
@@ -45,14 +46,6 @@ Columns<SweptSubImpact> sub_impact_columns() {
   return columns;
 }
 
-std::ifstream opened(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw ResultsError(fmt::format("{}: cannot be read; {}", path.string(), remedy));
-  }
-  return file;
-}
-
 // As numbers, if every cell is a number or empty.
 std::optional<std::vector<double>> as_numbers(const std::vector<std::string>& cells) {
   std::vector<double> numbers;
@@ -64,8 +57,8 @@ std::optional<std::vector<double>> as_numbers(const std::vector<std::string>& ce
   return numbers;
 }
 
-SweptRuns read_runs(const fs::path& path) {
-  std::ifstream file = opened(path);
+SweptRuns read_runs(const SealedFiles& files, const fs::path& path) {
+  std::ifstream file = files.open(path.filename());
   CsvReader csv(file, path.string(), remedy);
   const std::size_t n = csv.heading().size();
   const std::size_t run = csv.find("run"), outcome = csv.find("outcome");
@@ -102,11 +95,11 @@ SweptRuns read_runs(const fs::path& path) {
   return runs;
 }
 
-void read_sub_impacts(const fs::path& path, SweptRuns& runs) {
+void read_sub_impacts(const SealedFiles& files, const fs::path& path, SweptRuns& runs) {
   std::map<long, std::size_t> places;
   for (const long number : runs.numbers) places.emplace(number, places.size());
   runs.sub_impacts.resize(runs.numbers.size());
-  std::ifstream file = opened(path);
+  std::ifstream file = files.open(path.filename());
   CsvReader csv(file, path.string(), remedy);
   std::optional<long> before;
   std::optional<RowChecks> checks;
@@ -139,9 +132,12 @@ bool holds_sweep(const fs::path& directory) {
 }
 
 SweptRuns read_sweep(const fs::path& directory) {
-  SweptRuns runs = read_runs(directory / runs_name);
-  read_sub_impacts(directory / sub_impacts_name, runs);
-  return runs;
+  return read_sealed(directory, [&](const SealedFiles& files) {
+    SweptRuns runs = read_runs(files, directory / runs_name);
+    read_sub_impacts(files, directory / sub_impacts_name, runs);
+    if (files.are_sealed()) runs.identity = files.manifest()->identity;
+    return runs;
+  });
 }
 
 }  // namespace subimpact

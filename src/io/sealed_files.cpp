@@ -53,12 +53,21 @@ std::string read_whole_file(const fs::path& path) {
   return text_of(file, path);
 }
 
+void throw_always_replaced(const fs::path& directory) {
+  throw ResultsError(fmt::format(
+      "{}: is written anew again and again; read it when the runs have ended", directory.string()));
+}
+
 SealedFiles::SealedFiles(fs::path directory)
     : directory_(std::move(directory)), manifest_(read_manifest(directory_)) {}
 
+bool SealedFiles::are_sealed() const {
+  return manifest_ && manifest_->kind != "figures" && manifest_->kind != "report";
+}
+
 std::ifstream SealedFiles::open(const std::string& name) const {
   const fs::path path = directory_ / name;
-  if (!manifest_ || manifest_->kind == "figures") return open_file(path);
+  if (!are_sealed()) return open_file(path);
   const auto listed = manifest_->files.find(name);
   if (listed == manifest_->files.end()) {
     throw ResultsError(fmt::format("{}: is not among the results of `subimpact {}` that {} lists",

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -36,7 +37,7 @@ class ResultWriter::RowFile {
   int write_to(const fs::path& directory) {
     if (file_ < 0) {
       const fs::path path = directory / name_;
-      file_ = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
+      file_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
       if (file_ < 0) return errno;
       // A copy of a file that was cut short has part of a row at its end.
       if (ftruncate(file_, n_written_) != 0) return errno;
@@ -54,14 +55,39 @@ class ResultWriter::RowFile {
     n_written_ = 0;
   }
 
-  /// The file is opened again, in another directory.
-  void leave_directory() {
-    if (file_ >= 0) close(file_);
-    file_ = -1;
+  /// Goes on in another directory. The rows so far are taken from the open file if no copy is
+  /// there: somebody may have removed or renamed the directory. Returns 0, or the error's number.
+  int move_to(const fs::path& directory) {
+    const int cause = fs::exists(directory / name_) ? 0 : copy_to(directory / name_);
+    leave_directory();
+    return cause;
   }
 
  private:
   static constexpr std::size_t most_pending = 1 << 18;
+
+  void leave_directory() {
+    if (file_ >= 0) close(file_);
+    file_ = -1;
+  }
+  int copy_to(const fs::path& path) const {
+    if (n_written_ == 0) return 0;
+    const int copy = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (copy < 0) return errno;
+    const int cause = copy_rows(copy);
+    return close(copy) == 0 ? cause : errno;
+  }
+  int copy_rows(int copy) const {
+    std::string rows;
+    for (off_t at = 0; at < n_written_; at += static_cast<off_t>(rows.size())) {
+      rows.resize(std::min(most_pending, static_cast<std::size_t>(n_written_ - at)));
+      const ssize_t n = pread(file_, rows.data(), rows.size(), at);
+      if (n <= 0) return n < 0 ? errno : EIO;
+      rows.resize(static_cast<std::size_t>(n));
+      if (const int cause = write_all(copy, rows)) return cause;
+    }
+    return 0;
+  }
 
   std::string name_;
   std::string heading_;
@@ -171,16 +197,18 @@ void ResultWriter::write_or_relocate(Write write) {
       return;
     } catch (const OutputError& error) {
       directory_.relocate(error.what());  // throws the second time
-      for_each_file([](RowFile& file) { file.leave_directory(); });
+      for_each_file([this](RowFile& file) { check_written(file.move_to(directory_.staging())); });
     }
   }
 }
 
-void ResultWriter::write_rows(RowFile& rows) {
-  if (const int cause = rows.write_to(directory_.staging())) {
-    throw OutputError(fmt::format("{}: cannot be written ({})", directory_.path().string(),
-                                  std::strerror(cause)));
-  }
+void ResultWriter::write_rows(RowFile& rows) { check_written(rows.write_to(directory_.staging())); }
+
+// `cause`: 0, or an error's number.
+void ResultWriter::check_written(int cause) const {
+  if (cause == 0) return;
+  throw OutputError(
+      fmt::format("{}: cannot be written ({})", directory_.path().string(), std::strerror(cause)));
 }
 
 void ResultWriter::finish(const Case& input, const Result& result) {

@@ -286,7 +286,7 @@ TEST(Compare, ThatIsToldToEndPrintsTheMethodsThatHadEnded) {
 }
 
 TEST(Run, ThatIsToldToEndKeepsWhatItHasComputed) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1}) {
     const TemporaryDirectory directory;
     const Finished finished =
         run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "solver.max_step=1e-9",
@@ -411,6 +411,47 @@ TEST(Run, WithoutErrorBarsTakesTheDefaultKeys) {
   EXPECT_FALSE(run.result.error_estimate);
   EXPECT_EQ(run.input.model.segments, 501);
   EXPECT_EQ(run.input.solver.method, Method::erk);
+}
+
+// A cantilever struck at its tip; elements have a node there, cells do not.
+std::string cantilever(const std::string& more) {
+  std::string text =
+      "beam = { length = 0.5, width = 0.02, thickness = 0.005, density = 7850, "
+      "youngs_modulus = 210e9, ends = [\"clamped\", \"free\"]";
+  text += more;
+  text +=
+      " }\nstriker = { mass = 0.1, nose_radius = 0.01, velocity = 1.0, position = 1.0 }\n"
+      "time = { end = 1e-4 }\n";
+  return text;
+}
+
+TEST(ACantileverStruckAtItsTip, NeedsNoKeyOfTheMesh) {
+  const TemporaryDirectory directory;
+  for (const char* more :
+       {"", ", yield_stress = 250e6", ", theory = \"timoshenko\", poisson = 0.3"}) {
+    const std::string input = directory.write("tip.toml", cantilever(more));
+    const Finished finished = run_program({"run", input, "--out", "here"}, directory.path);
+    EXPECT_EQ(finished.status, 0) << more << finished.errors;
+    EXPECT_EQ(run_program({"explain", input}, directory.path).status, 0) << more;
+  }
+}
+
+TEST(ARigidBeamThatTurnsFar, IsBeyondTheModel) {
+  const TemporaryDirectory directory;
+  const std::string input = directory.write(
+      "rigid.toml",
+      "beam = { length = 0.5, width = 0.02, thickness = 0.005, density = 7850, "
+      "youngs_modulus = 210e9 }\n"
+      "striker = { mass = 0.1, nose_radius = 0.01, velocity = 50.0, position = 0.05 }\n"
+      "time = { end = 3e-3 }\nmodel = { mesh = \"rigid\" }\n");
+  expect_in(run_program({"run", input, "--out", "here"}, directory.path).errors,
+            "warning: the beam turns by up to 0.4");
+}
+
+TEST(RunWithin, IsNamedWhereItsTimeIsRefused) {
+  const TemporaryDirectory directory;
+  expect_in(run_program({"run", SUBIMPACT_PAPER_CASE, "--within", "1e300s"}, directory.path).errors,
+            "--within 1e300s: accuracy.event_times");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <csignal>
@@ -337,6 +338,63 @@ TEST(FilesBeingMade, AreNamedByTheirPlaceInMessages) {
   } catch (const OutputError& error) {
     expect_in(error.what(), (directory.path / "events.csv").string() + ": cannot be written");
   }
+}
+
+TEST(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory.path / ".subimpact-backup");
+  write_file(directory.path / ".subimpact-backup" / "data", "mine");
+  write_file(directory.path / ".subimpact-notes", "mine");
+  OutputDirectory files(directory.path, "run");
+  commit(files, "events.csv", "1");
+  EXPECT_EQ(read_file(directory.path / ".subimpact-backup" / "data"), "mine");
+  EXPECT_EQ(read_file(directory.path / ".subimpact-notes"), "mine");
+}
+
+TEST(AnOutputDirectory, ThatIsInUseIsRefusedAsSuch) {
+  const TemporaryDirectory directory;
+  const OutputDirectory files(directory.path, "run");
+  EXPECT_THROW(OutputDirectory(directory.path, "run"), DirectoryInUse);
+}
+
+TEST(APipeInPlaceOfAFile, IsRefusedInsteadOfWaitedFor) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory files(directory.path, "run");
+    commit(files, "events.csv", "1");
+  }
+  const fs::path file = directory.path / "events.csv";
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  try {
+    SealedFiles(directory.path).text("events.csv");
+    ADD_FAILURE() << "read";
+  } catch (const ResultsError& error) {
+    expect_in(error.what(), "it is no regular file");
+  }
+}
+
+TEST(ADirectoryRemovedDuringARun, LosesNoRow) {
+  const TemporaryDirectory directory;
+  Case input;
+  input.end_time = 1.0;
+  input.output.interval = 1e-5;
+  input.output.shapes = 0.0;
+  ResultWriter files(directory.path / "here", input);
+  const int n_rows = 20'000;  // more than are collected before they are written
+  HistoryRow row;
+  for (int i = 0; i < n_rows; ++i) {
+    row.time = 1e-5 * i;
+    files.add(row);
+    if (i == n_rows / 2) fs::remove_all(directory.path / "here");
+  }
+  files.finish(input, Result{});
+  const fs::path place = files.directory().path();
+  EXPECT_TRUE(files.directory().is_relocated());
+  const std::string history = SealedFiles(place).text("history.csv");
+  EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), n_rows + 1);
+  EXPECT_EQ(history.find('\0'), std::string::npos);
+  fs::remove_all(place);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
@@ -133,6 +134,26 @@ TEST(ReadSweep, NeedsBothTables) {
   expect_in(sweep.refusal(), "sub_impacts.csv: cannot be read");
   std::ofstream(sweep.path() / "summary.json") << "{}";
   EXPECT_FALSE(holds_sweep(sweep.path()));  // of one run
+}
+
+TEST(SealedTablesOfASweep, AreThoseOfTheManifestOrRefused) {
+  const TemporaryDirectory directory;
+  {
+    OutputDirectory files(directory.path, "sweep", "5");
+    std::ofstream(files.staging() / "runs.csv") << runs_csv;
+    std::ofstream(files.staging() / "sub_impacts.csv")
+        << heading() << rows_of(events_csv(two_sub_impacts()), 0);
+    files.commit();
+  }
+  EXPECT_EQ(read_sweep(directory.path).identity, "5");
+  std::ofstream(directory.path / "runs.csv", std::ios::app) << "3,1,erk,completed,0,,\n";
+  try {
+    read_sweep(directory.path);
+    ADD_FAILURE() << "read";
+  } catch (const ResultsError& error) {
+    EXPECT_NE(std::string(error.what()).find("changed or cut short"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ struct SweptRuns {
     std::vector<double> numbers;
     std::vector<std::string> words;
   };
-  std::vector<long> numbers;                        ///< of the runs, in the plan
-  std::vector<Column> columns;                      ///< without those that have no values
+  std::string identity;         ///< of these tables; empty if no manifest.json has one
+  std::vector<long> numbers;    ///< of the runs, in the plan
+  std::vector<Column> columns;  ///< without those that have no values
   std::vector<std::vector<SubImpact>> sub_impacts;  ///< one list per run
 
   /// nullptr if there is no such column, or one without values.
@@ -30,8 +31,9 @@ struct SweptRuns {
 /// Whether a directory holds the tables of a sweep, and not the files of one run.
 bool holds_sweep(const std::filesystem::path& directory);
 
-/// Reads runs.csv and sub_impacts.csv. Throws ResultsError with file, line, what was found and what
-/// to do, also where there is no run.
+/// Reads runs.csv and sub_impacts.csv, which must be those that manifest.json lists, if there is
+/// one. Throws ResultsError with file, line, what was found and what to do, also where there is no
+/// run.
 SweptRuns read_sweep(const std::filesystem::path& directory);
 
 }  // namespace subimpact

@@ -65,6 +65,7 @@ class ResultWriter final : public RowSink {
   void add_to(RowFile& file, const Row& row);
   void flush(RowFile& rows);
   void write_rows(RowFile& rows);
+  void check_written(int cause) const;
   template <class Write>
   void write_or_relocate(Write write);
 

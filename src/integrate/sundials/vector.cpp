@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 
 #include "numerics/vector_sum.h"
@@ -122,9 +123,21 @@ ContextPointer make_context() {
   return ContextPointer(context);
 }
 
+namespace {
+
+// SUNDIALS writes into what its own function returns, which is null where the memory is used up.
+N_Vector clone(N_Vector vector) {
+  N_Vector copy = N_VClone_Serial(vector);
+  if (copy == nullptr) throw std::bad_alloc();
+  return copy;
+}
+
+}  // namespace
+
 VectorPointer make_vector(std::size_t n, SUNContext context, VectorOperations operations) {
   VectorPointer vector(N_VNew_Serial(static_cast<sunindextype>(n), context));
-  if (!vector) throw std::runtime_error("N_VNew_Serial failed");
+  if (!vector) throw std::bad_alloc();
+  vector->ops->nvclone = clone;
   if (operations == VectorOperations::project) {
     auto& ops = *vector->ops;
     ops.nvlinearsum = linear_sum;
