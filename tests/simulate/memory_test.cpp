@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "address_sanitizer.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/simulate/simulate.h"
 #include "temporary_directory.h"
@@ -98,6 +99,7 @@ TEST_F(AvailableMemory, HasNoBoundWhereTheSystemShowsNone) {
 }
 
 TEST(CheckMemory, RefusesARunThatTakesMoreThanThereIsAndNamesTheRemedy) {
+  if (has_address_sanitizer) GTEST_SKIP() << "no limit of memory with the address sanitizer";
   ResolvedSettings settings;
   settings.n_unknowns = 20000;
   settings.memory = 3.2e9;

@@ -81,14 +81,24 @@ class Processes:
         return self._pool.submit(run_chunk, plan, numbers)
 
     def restart(self) -> None:
+        self._release(getattr(self._pool, "_call_queue", None))
         self._pool.shutdown(wait=True, cancel_futures=True)
         self._pool = self._made()
 
     def stop(self) -> None:
         processes = list((self._pool._processes or {}).values())
+        tasks = getattr(self._pool, "_call_queue", None)
         self._pool.shutdown(wait=False, cancel_futures=True)
         for process in processes:
             process.kill()
+        self._release(tasks)
+
+    @staticmethod
+    def _release(tasks: Any) -> None:
+        """Of a pool that ends. One of its threads may be writing a task into a pipe that is full and
+        that no worker reads any more; it would wait for ever (Python's issue 94777)."""
+        if tasks is not None:
+            tasks._reader.close()
 
 
 class CallersExecutor:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import threading
 from types import FrameType
+from typing import Any
 
 
 class Interrupted(KeyboardInterrupt):
@@ -17,11 +18,11 @@ class Interrupted(KeyboardInterrupt):
 
 class Interruption:
     """Makes SIGTERM and SIGHUP act like Ctrl-C while it is entered, in the main thread, unless the
-    process handles or ignores them itself. Raises Interrupted at its end. While a first one is
-    obeyed, others are not. After `hold` they wait for the end."""
+    process handles or ignores them itself. Raises Interrupted at its end. While a first signal is
+    obeyed, others are not. After `hold` they, and Ctrl-C, wait for the end."""
 
     def __init__(self) -> None:
-        self._numbers: list[int] = []
+        self._before: dict[int, Any] = {}
         self._caught: int | None = None
         self._is_held = False
 
@@ -37,15 +38,16 @@ class Interruption:
 
     def __enter__(self) -> Interruption:
         if threading.current_thread() is threading.main_thread():
-            for number in (signal.SIGTERM, signal.SIGHUP):
-                if signal.getsignal(number) is signal.SIG_DFL:
-                    self._numbers.append(number)
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                before = signal.getsignal(number)
+                if before in (signal.SIG_DFL, signal.default_int_handler):
+                    self._before[number] = before
                     signal.signal(number, self._stop)
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self.hold()
-        for number in self._numbers:
-            signal.signal(number, signal.SIG_DFL)
+        for number, before in self._before.items():
+            signal.signal(number, before)
         if self._caught is not None and (kind is None or issubclass(kind, KeyboardInterrupt)):
             raise Interrupted(self._caught) from None

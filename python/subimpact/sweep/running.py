@@ -193,7 +193,7 @@ def sweep(
 
     The tables are the same, byte for byte, whatever ran the cases. After Ctrl-C, SIGTERM and SIGHUP
     (in the main thread, unless the process has handlers of its own) the rows so far are stored and
-    in the tables, and KeyboardInterrupt is raised; its `signal` is the number of the others.
+    in the tables, and KeyboardInterrupt is raised; its `signal` is the number.
     """
     _check(workers, memory, only)
     check_progress(progress)
