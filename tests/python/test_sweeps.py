@@ -279,11 +279,11 @@ def test_a_signal_keeps_the_rows_and_the_same_command_goes_on(plan_file, tmp_pat
     time.sleep(0.3)
     process.send_signal(number)
     output = process.communicate(timeout=60)
-    assert process.returncode in (0, 128 + number), output
+    assert process.returncode in (0, 128 + number, -number), output  # the last: after the sweep
     with Store(tmp_path / "out") as store:
         n_rows = len(store.outcomes())
     assert n_rows == 0 or tables(tmp_path / "out")[0].count(b"\n") - 1 == n_rows
-    assert process.returncode == 0 or f"stopped by {number.name}" in output[1]
+    assert process.returncode <= 0 or f"stopped by {number.name}" in output[1]
     assert command(plan_file, "--out", tmp_path / "out").returncode == 0
     command(plan_file, "--out", tmp_path / "whole")
     assert tables(tmp_path / "out") == tables(tmp_path / "whole")

@@ -11,7 +11,10 @@ import ctypes
 import multiprocessing
 import os
 import resource
+import select
 import signal
+import threading
+import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
@@ -22,6 +25,7 @@ from .worker import Row, identity_of, row_without_result, run_case, run_chunk
 
 MOST_DEATHS = 3
 _MOST_IN_A_CHUNK = 2000
+_SECONDS_TO_END = 10.0  # for the thread of a pool whose workers are dead
 _ROOM_FOR_A_CASE = 0.25  # GiB
 _CHUNKS_AHEAD = 3  # per worker, handed out beyond what it runs
 
@@ -70,35 +74,42 @@ class Processes:
         self._pool = self._made()
 
     def _made(self) -> ProcessPoolExecutor:
-        return ProcessPoolExecutor(
+        pool: Any = ProcessPoolExecutor(
             self.n_workers,
             multiprocessing.get_context("fork"),
             _prepare_worker,
             (os.getpid(), self._memory),
         )
+        self._tasks = os.dup(pool._call_queue._reader.fileno())  # the pool closes its own when it likes
+        made: ProcessPoolExecutor = pool
+        return made
 
     def submit(self, plan: Plan, numbers: list[int]) -> Future[Any]:
         return self._pool.submit(run_chunk, plan, numbers)
 
     def restart(self) -> None:
-        self._release(getattr(self._pool, "_call_queue", None))
-        self._pool.shutdown(wait=True, cancel_futures=True)
+        self.stop()
         self._pool = self._made()
 
     def stop(self) -> None:
+        """Ends the workers, whatever they do. The pool's thread then waits for ever where a killed
+        worker leaves it: in a write to a full pipe that nobody reads (Python's issue 94777), and in
+        the midst of a result. So the pipe is read here, and the end of results is closed."""
         processes = list((self._pool._processes or {}).values())
-        tasks = getattr(self._pool, "_call_queue", None)
+        thread: threading.Thread | None = getattr(self._pool, "_executor_manager_thread", None)
+        results: Any = getattr(self._pool, "_result_queue", None)
         self._pool.shutdown(wait=False, cancel_futures=True)
         for process in processes:
             process.kill()
-        self._release(tasks)
-
-    @staticmethod
-    def _release(tasks: Any) -> None:
-        """Of a pool that ends. One of its threads may be writing a task into a pipe that is full and
-        that no worker reads any more; it would wait for ever (Python's issue 94777)."""
-        if tasks is not None:
-            tasks._reader.close()
+        if results is not None:
+            results._writer.close()
+        deadline = time.monotonic() + _SECONDS_TO_END
+        while thread is not None and thread.is_alive() and self._tasks >= 0 and time.monotonic() < deadline:
+            if select.select([self._tasks], [], [], 0.01)[0]:
+                os.read(self._tasks, 2**16)
+        tasks, self._tasks = self._tasks, -1
+        if tasks >= 0:  # unless Ctrl-C came into an end before
+            os.close(tasks)
 
 
 class CallersExecutor:
