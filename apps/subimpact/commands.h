@@ -29,8 +29,7 @@ struct CaseOptions {
   void add_to(CLI::App& command);
   /// Without --method, for commands that run methods of their own choice.
   void add_case_to(CLI::App& command);
-  /// Throws CaseFileError.
-  /// With `by_options` after the settings of --set and --method.
+  /// With `by_options` after the settings of --set and --method. Throws CaseFileError.
   LoadedCase load(const std::vector<Override>& by_options = {}) const;
   /// The case file's name without its ending, and this ending, in the current directory.
   std::string directory_with(const std::string& ending) const;

@@ -63,7 +63,7 @@ std::string usage_error(const CLI::App* program, const CLI::Error& error) {
       fmt::format("{}: {}; see {} --help\n", command, error.what(), command));
 }
 
-// Whether standard output is a pipe that nobody reads any longer.
+// Whether standard output is a pipe whose reader has ended.
 bool is_reader_gone() {
   pollfd output{STDOUT_FILENO, POLLOUT, 0};
   return poll(&output, 1, 0) > 0 && (output.revents & POLLERR) != 0;

@@ -99,7 +99,7 @@ pid_t start(const fs::path& directory, std::vector<std::string>& words, const Pi
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(0);  // it ended before it could take this process with it
   const int error = become_gnuplot(directory.c_str(), arguments.data(), variables.data(), pipes);
-  // Without a reader there is nobody to be told.
+  // If this fails, the parent process has ended, too.
   [[maybe_unused]] const ssize_t n = ::write(pipes.start_error.writing_end(), &error, sizeof error);
   ::_exit(127);
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "subimpact/study/mesh_error_bars.h"
 
@@ -98,11 +97,18 @@ double shortest_contact_shown(const Case& input) {
 void doubt_unresolved_contacts(Result& result, const Case& input) {
   if (!mesh_order(input)) return;
   ErrorEstimate& estimate = *result.error_estimate;
-  for (std::optional<Doubt> doubt : {short_contact(result, input), open_contact(result, input)}) {
+  for (const std::optional<Doubt>& doubt :
+       {short_contact(result, input), open_contact(result, input)}) {
     if (!doubt || estimate.first_unresolved.value_or(doubt->first + 1) <= doubt->first) continue;
     estimate.first_unresolved = doubt->first;
-    estimate.reason = std::move(doubt->reason);
+    estimate.reason = doubt->reason;
     estimate.largest_error = largest_error(result, doubt->first);
+    for (ErrorEstimate::Part& part : estimate.parts) {
+      if (!part.name.starts_with("mesh")) continue;
+      part.first_unresolved = doubt->first;
+      part.reason = doubt->reason;
+      part.largest_error = std::min(part.largest_error, estimate.largest_error);
+    }
   }
 }
 

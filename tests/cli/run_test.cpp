@@ -448,5 +448,27 @@ TEST(RunWithin, IsNamedWhereItsTimeIsRefused) {
             "--within 1e300s: accuracy.event_times");
 }
 
+// By bash, for the status of the first command of a pipe. Its reader ends before the program
+// prints.
+int status_with_reader_gone(const std::string& command, const std::filesystem::path& directory) {
+  const std::string script = "cd '" + directory.string() + "' && bash -c \"(sleep 0.3; " + command +
+                             ") | true; exit \\${PIPESTATUS[0]}\"";
+  return WEXITSTATUS(std::system(script.c_str()));
+}
+
+TEST(Run, WhoseMessagesNobodyReadsEndsWithItsResults) {
+  const TemporaryDirectory directory;
+  const std::string command = std::string("'" SUBIMPACT_PROGRAM "' run '") + SUBIMPACT_PAPER_CASE +
+                              "' --out here --set time.end=2e-5 --set beam.thickness=7.5 "
+                              "2>&1 > /dev/null";
+  EXPECT_EQ(status_with_reader_gone(command, directory.path), 0);
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / "manifest.json"));
+}
+
+TEST(AListing, WhoseReaderHasEndedEndsAsOtherProgramsDo) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(status_with_reader_gone("'" SUBIMPACT_PROGRAM "' keys", directory.path), 128 + SIGPIPE);
+}
+
 }  // namespace
 }  // namespace subimpact
