@@ -1,9 +1,8 @@
 #include <sstream>
 #include <string>
 
-#include "io/check_results.h"
 #include "io/csv_reader.h"
-#include "io/read_summary.h"
+#include "io/run_record.h"
 #include "io/run_tables.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/report.h"
@@ -16,7 +15,7 @@ template <class Row>
 void read_table(const std::string& text, const Columns<Row>& columns) {
   std::istringstream file(text);
   CsvReader csv(file, "table.csv");
-  RowChecks checks("table.csv");
+  RowOrder checks("table.csv");
   for_each_row(csv, columns, [&](const Row& row) { checks.check(row); });
 }
 
@@ -25,18 +24,17 @@ void read(std::uint8_t kind, const std::string& text) {
     case 0: {
       FinishedRun run;
       read_summary("summary.json", text, run);
-      check_summary("summary.json", run);
       run_summary(run.input, run.result);
       break;
     }
     case 1:
-      return read_table(text, events_columns());
+      return read_table(text, run_table<SubImpact>().columns);
     case 2:
-      return read_table(text, transitions_columns());
+      return read_table(text, run_table<Transition>().columns);
     case 3:
-      return read_table(text, history_columns());
+      return read_table(text, run_table<HistoryRow>().columns);
     default:
-      return read_table(text, sections_columns());
+      return read_table(text, run_table<SectionRow>().columns);
   }
 }
 

@@ -15,16 +15,16 @@
 namespace subimpact::python {
 namespace {
 
+// "sub_impacts" for events.csv; else the name of the file without its ending.
 py::array table_named(const Finished& run, const std::string& name) {
-  const Result& result = run.result;
-  if (name == "sub_impacts") return table(events_columns(result), result.sub_impacts);
-  if (name == "transitions") return table(transitions_columns(), result.transitions);
-  if (name == "history") return table(history_columns(), result.history);
-  if (name == "sections") return table(sections_columns(), result.section_history);
-  if (name == "points") return table(points_columns(), result.point_history);
-  if (name == "shapes") return table(shapes_columns(), result.shapes);
-  if (name == "envelope") return table(envelope_columns(), result.envelope);
-  throw py::key_error(name);
+  const std::string file = (name == "sub_impacts" ? "events" : name) + ".csv";
+  py::object found = py::none();
+  for_each_run_table([&](const auto& of_run) {
+    if (file != of_run.file) return;
+    found = table(columns_for(of_run, run.result), run.result.*of_run.rows);
+  });
+  if (found.is_none()) throw py::key_error(name);
+  return found;
 }
 
 Finished read(const std::string& directory) {
@@ -35,6 +35,41 @@ Finished read(const std::string& directory) {
 py::object first_failure(const Finished& run) {
   const auto& failure = run.result.outcome.first_failure;
   return failure ? py::object(py::make_tuple(failure->from, failure->to)) : py::none();
+}
+
+// --- tables of sweeps ----------------------------------------------------------------------------
+
+auto member(auto pointer) {
+  return [pointer](const Finished& run) { return run.result.*pointer; };
+}
+
+// The value of a function of an optional part of the result; none without that part.
+template <class Part, class Value>
+auto of_part(std::optional<Part> Result::*part, Value value) {
+  return [=](const Finished& run) {
+    const std::optional<Part>& there = run.result.*part;
+    return there ? std::optional(std::invoke(value, *there)) : std::nullopt;
+  };
+}
+
+// The same of the first sub-impact.
+template <class Value>
+auto of_first(std::optional<Value> SubImpact::*value) {
+  return [=](const Finished& run) {
+    const auto& all = run.result.sub_impacts;
+    return all.empty() ? std::optional<Value>() : all.front().*value;
+  };
+}
+
+std::optional<std::size_t> n_predictable(const Finished& run) {
+  const auto& found = run.result.predictability;
+  if (!found) return std::nullopt;
+  return found->first_unpredictable.value_or(run.result.sub_impacts.size());
+}
+
+std::optional<int> all_decided(const Finished& run) {
+  if (!run.result.error_estimate) return std::nullopt;
+  return run.result.all_decided() ? 1 : 0;
 }
 
 double total_impulse(const Finished& run) {
@@ -48,20 +83,58 @@ double residual_indentation(const Finished& run) {
   return all.empty() ? 0.0 : all.back().residual_indentation;
 }
 
-std::optional<std::size_t> n_predictable(const Finished& run) {
+double restitution(const Finished& run) {
   const Result& result = run.result;
-  if (!result.predictability) return std::nullopt;
-  return result.predictability->first_unpredictable.value_or(result.sub_impacts.size());
+  return (result.beam_mean_velocity - result.striker_velocity) / run.input.scene.striker.velocity;
+}
+
+double striker_energy_share(const Finished& run) {
+  return std::pow(run.result.striker_velocity / run.input.scene.striker.velocity, 2);
+}
+
+// The columns that runs.csv has of a run.
+const Columns<Finished>& swept_run_columns() {
+  static const Columns<Finished> columns = {
+      {"outcome", [](const Finished& run) { return run.result.outcome.kind; }},
+      {"time_s", [](const Finished& run) { return run.result.outcome.time; }},
+      {"n_sub_impacts", [](const Finished& run) { return run.result.sub_impacts.size(); }},
+      {"n_zones",
+       [](const Finished& run) { return summarise_zones(run.result.sub_impacts).size(); }},
+      {"n_decided", [](const Finished& run) { return run.result.n_decided(); }},
+      {"all_decided", &all_decided},
+      {"wish_met", of_part(&Result::wish, [](const WishOutcome& w) { return w.met ? 1 : 0; })},
+      {"horizon_s", of_part(&Result::wish, &WishOutcome::horizon)},
+      {"n_predictable", &n_predictable},
+      {"predictable_until_s", of_part(&Result::predictability, &Predictability::horizon)},
+      {"first_separation_s", of_first(&SubImpact::end)},
+      {"first_separation_error_s", of_first(&SubImpact::end_error)},
+      {"first_section_yield_s", member(&Result::first_section_yield)},
+      {"first_contact_yield_s", member(&Result::first_contact_yield)},
+      {"max_force_N", member(&Result::max_force)},
+      {"max_indentation_m", member(&Result::max_indentation)},
+      {"residual_indentation_m", &residual_indentation},
+      {"impulse_Ns", &total_impulse},
+      {"striker_velocity_m_per_s", member(&Result::striker_velocity)},
+      {"beam_mean_velocity_m_per_s", member(&Result::beam_mean_velocity)},
+      {"restitution", &restitution},
+      {"striker_energy_share", &striker_energy_share},
+      {"max_energy_error", member(&Result::max_energy_error)}};
+  return columns;
+}
+
+std::vector<std::string> names_of_columns(const auto& columns) {
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  return names;
 }
 
 }  // namespace
 
 void bind_results(py::module_& module) {
-  const auto member = [](auto pointer) {
-    return [pointer](const Finished& run) { return run.result.*pointer; };
-  };
   module.def("read_results", &read, py::arg("directory"), py::call_guard<py::gil_scoped_release>());
   module.def("columns", &column_listing);
+  module.def("event_columns", [] { return names_of_columns(run_table<SubImpact>().columns); });
+  module.def("swept_columns", [] { return names_of_columns(swept_run_columns()); });
   py::class_<Finished>(module, "Finished")
       .def("table", &table_named, py::arg("name"))
       .def(
@@ -71,7 +144,14 @@ void bind_results(py::module_& module) {
           },
           py::arg("directory"), py::call_guard<py::gil_scoped_release>())
       .def("summary", [](const Finished& run) { return summary_json(run.input, run.result); })
-      .def("events_csv", [](const Finished& run) { return events_csv(run.result); })
+      .def("events_csv", [](const Finished& run) { return csv_of<SubImpact>(run.result); })
+      .def("swept_cells",
+           [](const Finished& run) {
+             std::string cells;
+             append_row(cells, swept_run_columns(), run);
+             cells.pop_back();  // the end of the line
+             return cells;
+           })
       .def("report",
            [](const Finished& run) {
              const bool has_scatter = run.result.predictability.has_value();
@@ -96,40 +176,11 @@ void bind_results(py::module_& module) {
       .def_property_readonly("first_failure", &first_failure)
       .def_property_readonly("usable", [](const Finished& run) { return run.result.is_usable(); })
       .def_property_readonly("warnings", member(&Result::warnings))
-      .def_property_readonly("n_sub_impacts",
-                             [](const Finished& run) { return run.result.sub_impacts.size(); })
-      .def_property_readonly(
-          "n_zones",
-          [](const Finished& run) { return summarise_zones(run.result.sub_impacts).size(); })
       .def_property_readonly("n_decided",
                              [](const Finished& run) { return run.result.n_decided(); })
       .def_property_readonly("all_decided",
                              [](const Finished& run) { return run.result.all_decided(); })
-      .def_property_readonly("wish_met",
-                             [](const Finished& run) {
-                               return run.result.wish ? std::optional(run.result.wish->met)
-                                                      : std::nullopt;
-                             })
-      .def_property_readonly("horizon",
-                             [](const Finished& run) {
-                               return run.result.wish ? std::optional(run.result.wish->horizon)
-                                                      : std::nullopt;
-                             })
-      .def_property_readonly("predictable_until",
-                             [](const Finished& run) {
-                               const auto& found = run.result.predictability;
-                               return found ? std::optional(found->horizon) : std::nullopt;
-                             })
       .def_property_readonly("n_predictable", &n_predictable)
-      .def_property_readonly("first_section_yield", member(&Result::first_section_yield))
-      .def_property_readonly("first_contact_yield", member(&Result::first_contact_yield))
-      .def_property_readonly("max_force", member(&Result::max_force))
-      .def_property_readonly("max_indentation", member(&Result::max_indentation))
-      .def_property_readonly("residual_indentation", &residual_indentation)
-      .def_property_readonly("impulse", &total_impulse)
-      .def_property_readonly("striker_velocity", member(&Result::striker_velocity))
-      .def_property_readonly("beam_mean_velocity", member(&Result::beam_mean_velocity))
-      .def_property_readonly("max_energy_error", member(&Result::max_energy_error))
       .def_readonly("interrupted", &Finished::interrupted)
       .def_readonly("timed_out", &Finished::timed_out);
 }

@@ -72,6 +72,10 @@ bool read_cell(std::string_view cell, Number& value) {
   const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   return end.ec == std::errc() && end.ptr == cell.data() + cell.size();
 }
+/// A finite number.
+inline bool read_cell(std::string_view cell, double& value) {
+  return read_cell<double>(cell, value) && std::isfinite(value);
+}
 inline bool read_cell(std::string_view cell, std::string& words) {
   words = cell;
   return true;
@@ -80,6 +84,14 @@ template <class Value>
 bool read_cell(std::string_view cell, std::optional<Value>& value) {
   value.reset();
   return cell.empty() || read_cell(cell, value.emplace());
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+bool read_cell(std::string_view cell, Enum& value) {
+  const auto names = names_of(value);
+  const auto found = std::ranges::find(names, cell, [](const auto& named) { return named.name; });
+  if (found != names.end()) value = found->value;
+  return found != names.end();
 }
 template <class Enum, std::size_t n>
 bool read_choice(std::string_view cell, Enum& value, const Enum (&all)[n]) {
@@ -124,10 +136,9 @@ struct Column {
   template <class Value>
   Column(std::string name_with_unit, Value value) : Column(std::move(name_with_unit), "", value) {}
 
-  std::string name;                  ///< with its unit
-  std::string meaning;               ///< for the documentation
-  const char* allowed = "a number";  ///< for messages
-  bool optional = false;             ///< whether a file may lack it
+  std::string name;                         ///< with its unit
+  std::string meaning;                      ///< for the documentation
+  const char* allowed = "a finite number";  ///< for messages
   CellType type = CellType::real;
   std::function<Cell(const Row&, std::size_t index)> cell;
   std::function<void(std::string& text, const Row&, std::size_t index)> append;

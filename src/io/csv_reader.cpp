@@ -60,4 +60,34 @@ void CsvReader::refuse_cell(std::size_t column, const char* allowed) const {
                                  allowed, remedy_));
 }
 
+void RowOrder::refuse(const char* column, double value, const char* allowed) const {
+  throw ResultsError(fmt::format("{}:{}: {} is {:.17g}; allowed: {}; run the case again", file_,
+                                 line_, column, value, allowed));
+}
+
+void RowOrder::check_time(const char* column, double time) {
+  if (time < 0.0) refuse(column, time, "a finite number, 0 or above");
+  if (time < last_time_) refuse(column, time, "the time of the row above, or later");
+  last_time_ = time;
+}
+
+// `last`: that of the row above.
+void RowOrder::check_number(const char* column, int number, int& last) const {
+  if (number < 1 || (number != last && number != last + 1)) {
+    refuse(column, number, "the number of the row above or the next one, from 1");
+  }
+  last = number;
+}
+
+void RowOrder::check(const SubImpact& row) {
+  ++line_;
+  check_time("start_s", row.start);
+  if (row.end && *row.end < row.start) {
+    refuse("end_s", *row.end, "start_s or later, or an empty cell");
+  }
+  if (row.zone != last_zone_) last_subzone_ = 0;
+  check_number("zone", row.zone, last_zone_);
+  check_number("subzone", row.subzone, last_subzone_);
+}
+
 }  // namespace subimpact

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/csv_columns.h"
+#include "subimpact/simulate/records.h"
 
 namespace subimpact {
 
@@ -40,8 +41,8 @@ class CsvReader {
   std::vector<std::string_view> cells_;
 };
 
-/// Calls `use` with every row of a file. Throws ResultsError if the file lacks a column that is not
-/// optional or a cell holds another kind of value than its column.
+/// Calls `use` with every row of a file. Throws ResultsError if the file lacks a column
+/// or a cell holds another kind of value than its column.
 template <class Row, class Use>
 void for_each_row(CsvReader& csv, const Columns<Row>& columns, Use use) {
   struct Place {
@@ -53,7 +54,7 @@ void for_each_row(CsvReader& csv, const Columns<Row>& columns, Use use) {
     const std::size_t cell = csv.find(column.name);
     const bool is_there = cell < csv.heading().size();
     if (column.read && is_there) places.push_back({cell, &column});
-    if (column.read && !is_there && !column.optional) csv.refuse_lack_of(column.name);
+    if (column.read && !is_there) csv.refuse_lack_of(column.name);
   }
   while (csv.next()) {
     Row row{};
@@ -66,12 +67,29 @@ void for_each_row(CsvReader& csv, const Columns<Row>& columns, Use use) {
   }
 }
 
-template <class Row>
-std::vector<Row> read_rows(std::istream& file, std::string name, const Columns<Row>& columns) {
-  CsvReader csv(file, std::move(name));
-  std::vector<Row> rows;
-  for_each_row(csv, columns, [&](const Row& row) { rows.push_back(row); });
-  return rows;
-}
+/// Refuses what no run can have written, row by row, in the order of a table: times that are
+/// negative or decrease, zones that are not numbered from 1. Throws ResultsError with file, line,
+/// value and what is allowed.
+class RowOrder {
+ public:
+  explicit RowOrder(std::string file) : file_(std::move(file)) {}
+
+  template <class Row>
+  void check(const Row& row) {
+    ++line_;
+    if constexpr (requires { row.time; }) check_time("time_s", row.time);
+  }
+  void check(const SubImpact& row);
+
+ private:
+  void check_time(const char* column, double time);
+  void check_number(const char* column, int number, int& last) const;
+  [[noreturn]] void refuse(const char* column, double value, const char* allowed) const;
+
+  std::string file_;
+  std::size_t line_ = 1;  // the heading
+  double last_time_ = 0.0;
+  int last_zone_ = 0, last_subzone_ = 0;
+};
 
 }  // namespace subimpact

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/json_integer.h"
+#include "io/record.h"
 #include "io/sealed_files.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/versions.h"

@@ -10,7 +10,6 @@
 #include <optional>
 #include <utility>
 
-#include "io/check_results.h"
 #include "io/csv_reader.h"
 #include "io/run_tables.h"
 #include "io/sealed_files.h"
@@ -33,11 +32,10 @@ struct SweptSubImpact {
 // Those of events.csv after the run's number.
 Columns<SweptSubImpact> sub_impact_columns() {
   Columns<SweptSubImpact> columns = {{"run", &SweptSubImpact::run}};
-  for (const Column<SubImpact>& of_run : events_columns()) {
+  for (const Column<SubImpact>& of_run : run_table<SubImpact>().columns) {
     if (!of_run.read) continue;
     Column<SweptSubImpact> column(of_run.name, [](const SweptSubImpact&) { return 0.0; });
     column.allowed = of_run.allowed;
-    column.optional = of_run.optional;
     column.read = [read = of_run.read](std::string_view cell, SweptSubImpact& row) {
       return read(cell, row.sub_impact);
     };
@@ -102,7 +100,7 @@ void read_sub_impacts(const SealedFiles& files, const fs::path& path, SweptRuns&
   std::ifstream file = files.open(path.filename());
   CsvReader csv(file, path.string(), remedy);
   std::optional<long> before;
-  std::optional<RowChecks> checks;
+  std::optional<RowOrder> order;
   for_each_row(csv, sub_impact_columns(), [&](const SweptSubImpact& row) {
     const auto place = places.find(row.run);
     if (place == places.end()) csv.refuse_cell(csv.find("run"), "a run of runs.csv");
@@ -110,10 +108,10 @@ void read_sub_impacts(const SealedFiles& files, const fs::path& path, SweptRuns&
       if (!runs.sub_impacts[place->second].empty()) {
         csv.refuse_cell(csv.find("run"), "rows of one run after each other");
       }
-      checks.emplace(fmt::format("{}, run {}", path.string(), row.run));
+      order.emplace(fmt::format("{}, run {}", path.string(), row.run));
     }
     before = row.run;
-    checks->check(row.sub_impact);
+    order->check(row.sub_impact);
     runs.sub_impacts[place->second].push_back(row.sub_impact);
   });
 }

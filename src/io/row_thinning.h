@@ -33,8 +33,10 @@ class RowThinning {
     const std::vector<Row> last(pending_.end() - static_cast<std::ptrdiff_t>(n_last),
                                 pending_.end());
     reduce();
-    if (!last.empty() && rows_.back().time < last.back().time) {
-      rows_.insert(rows_.end(), last.begin(), last.end());
+    if constexpr (requires { last.back().time; }) {
+      if (!last.empty() && rows_.back().time < last.back().time) {
+        rows_.insert(rows_.end(), last.begin(), last.end());
+      }
     }
     return std::move(rows_);
   }

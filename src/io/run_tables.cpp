@@ -1,18 +1,9 @@
 #include "io/run_tables.h"
 
+#include "io/run_record.h"
 #include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
-#include "subimpact/system/events.h"
 
 namespace subimpact {
-
-static bool read_cell(std::string_view cell, EventKind& kind) {
-  return read_choice(
-      cell, kind,
-      {EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
-       EventKind::contact_ends, EventKind::section_reverses});
-}
-
 namespace {
 
 std::size_t number_from_1(const SubImpact&, std::size_t index) { return index + 1; }
@@ -27,49 +18,6 @@ Column<SubImpact> decided_column(const std::optional<std::size_t>& n_decided) {
           [n_decided](const SubImpact&, std::size_t index) {
             return n_decided ? std::optional(index < *n_decided ? 1 : 0) : std::nullopt;
           }};
-}
-
-// Files of older versions may lack these.
-Columns<SubImpact> error_columns() {
-  Columns<SubImpact> columns = {
-      {"start_error_s",
-       "error of start_s, sum of its parts; this and what follows: empty without "
-       "error bars",
-       &SubImpact::start_error},
-      {"end_error_s", "error of end_s, sum of its parts", &SubImpact::end_error},
-      {"error_time_s", "part of the integration in time", &SubImpact::error_time},
-      {"error_mesh_s", "part of the mesh", &SubImpact::error_mesh},
-      {"error_layers_s", "part of layers in place of the exact section", &SubImpact::error_layers},
-      {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes",
-       &SubImpact::start_mesh_limit},
-      {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
-      {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error},
-      {"start_scatter_s",
-       "standard deviation of start_s by the case's [scatter]; this and the next: empty without",
-       &SubImpact::start_scatter},
-      {"end_scatter_s", "standard deviation of end_s", &SubImpact::end_scatter}};
-  for (Column<SubImpact>& column : columns) column.optional = true;
-  return columns;
-}
-
-Columns<SubImpact> all_events_columns(const std::optional<std::size_t>& n_decided) {
-  Columns<SubImpact> columns = {
-      {"index", "number of the sub-impact, from 1", number_from_1},
-      {"zone", "number of its zone, from 1", &SubImpact::zone},
-      {"subzone", "number of its sub-zone within the zone, from 1", &SubImpact::subzone},
-      {"start_s", "instant at which contact begins", &SubImpact::start},
-      {"end_s", "instant at which the contact force returns to zero; empty: after the run's end",
-       &SubImpact::end},
-      {"duration_s", "end_s - start_s", duration},
-      {"peak_force_N", "largest contact force", &SubImpact::peak_force},
-      {"impulse_Ns", "momentum that the striker loses", &SubImpact::impulse},
-      {"max_indentation_m", "largest indentation", &SubImpact::max_indentation},
-      {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
-      {"striker_velocity_m_per_s", "velocity of the striker at the end",
-       &SubImpact::striker_velocity},
-      decided_column(n_decided)};
-  for (const Column<SubImpact>& column : error_columns()) columns.push_back(column);
-  return columns;
 }
 
 // A number of nine digits: fields are looked at and integrated, and their files are large.
@@ -101,185 +49,229 @@ void add_range(Columns<EnvelopeRow>& columns, const std::string& name, const std
   add("min_", "smallest ", &EnvelopeRow::Range::smallest);
 }
 
-// Files of older versions may lack these.
-Columns<HistoryRow> reaction_columns() {
-  Columns<HistoryRow> columns = {
-      {"R_0_N",
-       "force of the support at x = 0 on the beam, positive in the direction of the strike; "
-       "empty: free end",
-       &HistoryRow::first_reaction},
-      {"R_l_N", "the same at x = length", &HistoryRow::last_reaction}};
-  for (Column<HistoryRow>& column : columns) column.optional = true;
-  return columns;
+Columns<EnvelopeRow> envelope_columns() {
+  Columns<EnvelopeRow> all = {{"position_m", "position along the beam", &EnvelopeRow::position}};
+  add_range(all, "displacement", "_m", "displacement", &EnvelopeRow::displacement);
+  add_range(all, "moment", "_Nm", "bending moment", &EnvelopeRow::moment);
+  add_range(all, "strain", "", "strain of the outer fibre behind, positive in tension",
+            &EnvelopeRow::strain);
+  add_range(all, "plastic_curvature", "_per_m", "plastic curvature",
+            &EnvelopeRow::plastic_curvature);
+  all.push_back({"permanent_set_m",
+                 "displacement, against the chord of both ends, of the beam at rest after the "
+                 "run: the double integral of the plastic curvature",
+                 &EnvelopeRow::permanent_set});
+  return all;
 }
 
-Columns<HistoryRow> all_history_columns() {
-  Columns<HistoryRow> columns = {
-      {"time_s", "time", &HistoryRow::time},
-      {"force_N", "contact force", &HistoryRow::force},
-      {"indentation_m", "indentation", &HistoryRow::indentation},
-      {"w_c_m", "displacement of the struck point", &HistoryRow::struck_displacement},
-      {"w_m_m", "displacement of the striker", &HistoryRow::striker_displacement},
-      {"f_c_m", "deflection w_c - w(0) of the struck point", &HistoryRow::struck_deflection},
-      {"u_mf_m", "w_m - w(0)", &HistoryRow::striker_relative},
-      {"v_c_m_per_s", "velocity of the struck point", &HistoryRow::struck_velocity},
-      {"v_m_m_per_s", "velocity of the striker", &HistoryRow::striker_velocity},
-      {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension",
-       &HistoryRow::back_stress},
-      {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
-      {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
-      {"U_e_J", "elastic energy of bending", &HistoryRow::bending_elastic},
-      {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
-      {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
-      {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
-      {"energy_error", "relative error of the sum of these six and D_b_J",
-       &HistoryRow::energy_error},
-      {"momentum_error", "relative error of the momentum; empty where supports take momentum up",
-       &HistoryRow::momentum_error},
-      {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping}};
-  columns.back().optional = true;  // files of older versions lack it
-  for (Column<HistoryRow>& column : reaction_columns()) columns.push_back(std::move(column));
-  return columns;
+std::size_t one(const Case&, const Result&) { return 1; }
+std::size_t n_sections(const Case& input, const Result&) { return input.output.sections.size(); }
+std::size_t n_points(const Case& input, const Result&) { return input.output.points.size(); }
+std::size_t n_shape_points(const Case&, const Result& result) {
+  return result.n_shape_rows > 0 ? result.used.n_shape_points : 0;
 }
-
-template <class Row>
-std::string listing(const char* file, const char* rows, const Columns<Row>& columns) {
-  std::string text = fmt::format("{}: {}\n", file, rows);
-  for (const Column<Row>& column : columns) {
-    text += fmt::format("  {:<25} {}\n", column.name, column.meaning);
-  }
-  return text;
+std::size_t one_with_shapes(const Case& input, const Result& result) {
+  return n_shape_points(input, result) > 0 ? 1 : 0;
+}
+std::size_t n_history_rows(const Result& result) { return result.n_history_rows; }
+std::size_t n_shapes(const Result& result) {
+  return result.n_shape_rows / result.used.n_shape_points;
 }
 
 }  // namespace
 
-const Columns<SubImpact>& events_columns() {
-  static const Columns<SubImpact> columns = all_events_columns(std::nullopt);
+template <>
+const RunTable<SubImpact>& run_table() {
+  static const RunTable<SubImpact> table = {
+      "events.csv",
+      "one row per sub-impact",
+      {{"index", "number of the sub-impact, from 1", number_from_1},
+       {"zone", "number of its zone, from 1", &SubImpact::zone},
+       {"subzone", "number of its sub-zone within the zone, from 1", &SubImpact::subzone},
+       {"start_s", "instant at which contact begins", &SubImpact::start},
+       {"end_s", "instant at which the contact force returns to zero; empty: after the run's end",
+        &SubImpact::end},
+       {"duration_s", "end_s - start_s", duration},
+       {"peak_force_N", "largest contact force", &SubImpact::peak_force},
+       {"impulse_Ns", "momentum that the striker loses", &SubImpact::impulse},
+       {"max_indentation_m", "largest indentation", &SubImpact::max_indentation},
+       {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
+       {"striker_velocity_m_per_s", "velocity of the striker at the end",
+        &SubImpact::striker_velocity},
+       decided_column(std::nullopt),
+       {"start_error_s",
+        "error of start_s, sum of its parts; this and what follows: empty without "
+        "error bars",
+        &SubImpact::start_error},
+       {"end_error_s", "error of end_s, sum of its parts", &SubImpact::end_error},
+       {"error_time_s", "part of the integration in time", &SubImpact::error_time},
+       {"error_mesh_s", "part of the mesh", &SubImpact::error_mesh},
+       {"error_layers_s", "part of layers in place of the exact section", &SubImpact::error_layers},
+       {"start_mesh_limit_s", "start extrapolated to the limit of fine meshes",
+        &SubImpact::start_mesh_limit},
+       {"end_mesh_limit_s", "end extrapolated to that limit", &SubImpact::end_mesh_limit},
+       {"mesh_limit_error_s", "error of both limits", &SubImpact::mesh_limit_error},
+       {"start_scatter_s",
+        "standard deviation of start_s by the case's [scatter]; this and the next: empty without",
+        &SubImpact::start_scatter},
+       {"end_scatter_s", "standard deviation of end_s", &SubImpact::end_scatter}},
+      &Result::sub_impacts,
+      one};
+  return table;
+}
+
+template <>
+const RunTable<Transition>& run_table() {
+  static const RunTable<Transition> table = {
+      "transitions.csv",
+      "one row per located event",
+      {{"time_s", "instant of the event", &Transition::time},
+       {"kind",
+        "contact_begins, contact_yields, contact_unloads, contact_ends, or section_reverses (not "
+        "by "
+        "central-difference)",
+        &Transition::kind},
+       {"section", "index of the section, from 0; empty for events of the contact",
+        &Transition::section},
+       {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value}},
+      &Result::transitions,
+      one};
+  return table;
+}
+
+template <>
+const RunTable<HistoryRow>& run_table() {
+  static const RunTable<HistoryRow> table = {
+      "history.csv",
+      "one row per output.interval, and two per event of the contact",
+      {{"time_s", "time", &HistoryRow::time},
+       {"force_N", "contact force", &HistoryRow::force},
+       {"indentation_m", "indentation", &HistoryRow::indentation},
+       {"w_c_m", "displacement of the struck point", &HistoryRow::struck_displacement},
+       {"w_m_m", "displacement of the striker", &HistoryRow::striker_displacement},
+       {"f_c_m", "deflection w_c - w(0) of the struck point", &HistoryRow::struck_deflection},
+       {"u_mf_m", "w_m - w(0)", &HistoryRow::striker_relative},
+       {"v_c_m_per_s", "velocity of the struck point", &HistoryRow::struck_velocity},
+       {"v_m_m_per_s", "velocity of the striker", &HistoryRow::striker_velocity},
+       {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension",
+        &HistoryRow::back_stress},
+       {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
+       {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
+       {"U_e_J", "elastic energy of bending", &HistoryRow::bending_elastic},
+       {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
+       {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
+       {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
+       {"energy_error", "relative error of the sum of these six and D_b_J",
+        &HistoryRow::energy_error},
+       {"momentum_error", "relative error of the momentum; empty where supports take momentum up",
+        &HistoryRow::momentum_error},
+       {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping},
+       {"R_0_N",
+        "force of the support at x = 0 on the beam, positive in the direction of the strike; "
+        "empty: free end",
+        &HistoryRow::first_reaction},
+       {"R_l_N", "the same at x = length", &HistoryRow::last_reaction}},
+      &Result::history,
+      one,
+      n_history_rows,
+      {&HistoryRow::force, &HistoryRow::indentation, &HistoryRow::struck_deflection,
+       &HistoryRow::striker_relative, &HistoryRow::back_stress}};
+  return table;
+}
+
+template <>
+const RunTable<SectionRow>& run_table() {
+  static const RunTable<SectionRow> table = {
+      "sections.csv",
+      "one row per section of output.sections and row of history.csv",
+      {{"time_s", "time", &SectionRow::time},
+       {"position_m", "position of the section along the beam", &SectionRow::position},
+       {"curvature_per_m", "curvature", &SectionRow::curvature},
+       {"moment_Nm", "bending moment M, E I kappa while elastic", &SectionRow::moment},
+       {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature}},
+      &Result::section_history,
+      n_sections,
+      n_history_rows,
+      {&SectionRow::curvature, &SectionRow::moment}};
+  return table;
+}
+
+template <>
+const RunTable<PointRow>& run_table() {
+  static const RunTable<PointRow> table = {
+      "points.csv",
+      "one row per point of output.points and row of history.csv",
+      {{"time_s", "time", &PointRow::time},
+       {"position_m", "position of the point along the beam", &PointRow::position},
+       {"displacement_m", "displacement of the axis there", &PointRow::displacement},
+       {"velocity_m_per_s", "velocity", &PointRow::velocity}},
+      &Result::point_history,
+      n_points,
+      n_history_rows,
+      {&PointRow::displacement}};
+  return table;
+}
+
+template <>
+const RunTable<ShapeRow>& run_table() {
+  static const RunTable<ShapeRow> table = {
+      "shapes.csv",
+      "one row per point of the whole beam, at instants output.shapes apart and at every event of "
+      "the contact; numbers beside the time have 9 digits",
+      {{"time_s", "time", &ShapeRow::time},
+       short_column("position_m", "position along the beam, from x = 0 to its length",
+                    &ShapeRow::position),
+       short_column("displacement_m",
+                    "displacement w of the axis, positive in the direction of the "
+                    "strike",
+                    &ShapeRow::displacement),
+       short_column("velocity_m_per_s", "velocity dw/dt", &ShapeRow::velocity),
+       short_column(
+           "rotation_rad",
+           "rotation of the section, dw/dx where sections do not shear; at a hinge the mean "
+           "of both sides",
+           &ShapeRow::rotation),
+       short_column("curvature_per_m", "curvature", &ShapeRow::curvature),
+       short_column("moment_Nm", "bending moment M, E I kappa while elastic", &ShapeRow::moment),
+       short_column("plastic_curvature_per_m", "curvature - M/(E I)",
+                    &ShapeRow::plastic_curvature)},
+      &Result::shapes,
+      n_shape_points,
+      n_shapes};
+  return table;
+}
+
+template <>
+const RunTable<EnvelopeRow>& run_table() {
+  static const RunTable<EnvelopeRow> table = {
+      "envelope.csv",
+      "one row per point of shapes.csv: extremes over its instants and over rows of history.csv, "
+      "at least 1/4000 of time.end apart",
+      envelope_columns(), &Result::envelope, one_with_shapes};
+  return table;
+}
+
+Columns<SubImpact> columns_for(const RunTable<SubImpact>& table, const Result& result) {
+  Columns<SubImpact> columns = table.columns;
+  *std::ranges::find(columns, "decided", &Column<SubImpact>::name) =
+      decided_column(result.n_decided());
   return columns;
-}
-
-Columns<SubImpact> events_columns(const Result& result) {
-  return all_events_columns(result.n_decided());
-}
-
-const Columns<Transition>& transitions_columns() {
-  static const Columns<Transition> columns = {
-      {"time_s", "instant of the event", &Transition::time},
-      {"kind",
-       "contact_begins, contact_yields, contact_unloads, contact_ends, or section_reverses (not by "
-       "central-difference)",
-       &Transition::kind},
-      {"section", "index of the section, from 0; empty for events of the contact",
-       &Transition::section},
-      {"value", "indentation (m), or curvature of the section (1/m)", &Transition::value}};
-  return columns;
-}
-
-const Columns<HistoryRow>& history_columns() {
-  static const Columns<HistoryRow> columns = all_history_columns();
-  return columns;
-}
-
-const Columns<SectionRow>& sections_columns() {
-  static const Columns<SectionRow> columns = {
-      {"time_s", "time", &SectionRow::time},
-      {"position_m", "position of the section along the beam", &SectionRow::position},
-      {"curvature_per_m", "curvature", &SectionRow::curvature},
-      {"moment_Nm", "bending moment M, E I kappa while elastic", &SectionRow::moment},
-      {"plastic_curvature_per_m", "curvature - M/(E I)", &SectionRow::plastic_curvature}};
-  return columns;
-}
-
-const Columns<PointRow>& points_columns() {
-  static const Columns<PointRow> columns = {
-      {"time_s", "time", &PointRow::time},
-      {"position_m", "position of the point along the beam", &PointRow::position},
-      {"displacement_m", "displacement of the axis there", &PointRow::displacement},
-      {"velocity_m_per_s", "velocity", &PointRow::velocity}};
-  return columns;
-}
-
-const Columns<ShapeRow>& shapes_columns() {
-  static const Columns<ShapeRow> columns = {
-      {"time_s", "time", &ShapeRow::time},
-      short_column("position_m", "position along the beam, from x = 0 to its length",
-                   &ShapeRow::position),
-      short_column("displacement_m",
-                   "displacement w of the axis, positive in the direction of the "
-                   "strike",
-                   &ShapeRow::displacement),
-      short_column("velocity_m_per_s", "velocity dw/dt", &ShapeRow::velocity),
-      short_column(
-          "rotation_rad",
-          "rotation of the section, dw/dx where sections do not shear; at a hinge the mean "
-          "of both sides",
-          &ShapeRow::rotation),
-      short_column("curvature_per_m", "curvature", &ShapeRow::curvature),
-      short_column("moment_Nm", "bending moment M, E I kappa while elastic", &ShapeRow::moment),
-      short_column("plastic_curvature_per_m", "curvature - M/(E I)", &ShapeRow::plastic_curvature)};
-  return columns;
-}
-
-const Columns<EnvelopeRow>& envelope_columns() {
-  static const Columns<EnvelopeRow> columns = [] {
-    Columns<EnvelopeRow> all = {{"position_m", "position along the beam", &EnvelopeRow::position}};
-    add_range(all, "displacement", "_m", "displacement", &EnvelopeRow::displacement);
-    add_range(all, "moment", "_Nm", "bending moment", &EnvelopeRow::moment);
-    add_range(all, "strain", "", "strain of the outer fibre behind, positive in tension",
-              &EnvelopeRow::strain);
-    add_range(all, "plastic_curvature", "_per_m", "plastic curvature",
-              &EnvelopeRow::plastic_curvature);
-    all.push_back({"permanent_set_m",
-                   "displacement, against the chord of both ends, of the beam at rest after the "
-                   "run: the double integral of the plastic curvature",
-                   &EnvelopeRow::permanent_set});
-    return all;
-  }();
-  return columns;
-}
-
-std::string events_csv(const Result& result) {
-  return csv_text(events_columns(result), result.sub_impacts);
-}
-
-std::string transitions_csv(const std::vector<Transition>& transitions) {
-  return csv_text(transitions_columns(), transitions);
-}
-
-std::string history_csv(const std::vector<HistoryRow>& history) {
-  return csv_text(history_columns(), history);
-}
-
-std::string sections_csv(const std::vector<SectionRow>& sections) {
-  return csv_text(sections_columns(), sections);
-}
-
-std::string envelope_csv(const std::vector<EnvelopeRow>& envelope) {
-  return csv_text(envelope_columns(), envelope);
 }
 
 std::string column_listing() {
-  return listing("events.csv", "one row per sub-impact", events_columns()) + "\n" +
-         listing("transitions.csv", "one row per located event", transitions_columns()) + "\n" +
-         listing("history.csv", "one row per output.interval, and two per event of the contact",
-                 history_columns()) +
-         "\n" +
-         listing("sections.csv", "one row per section of output.sections and row of history.csv",
-                 sections_columns()) +
-         "\n" +
-         listing("points.csv", "one row per point of output.points and row of history.csv",
-                 points_columns()) +
-         "\n" +
-         listing("shapes.csv",
-                 "one row per point of the whole beam, at instants output.shapes apart and at "
-                 "every "
-                 "event of the contact; numbers beside the time have 9 digits",
-                 shapes_columns()) +
-         "\n" +
-         listing("envelope.csv",
-                 "one row per point of shapes.csv: extremes over its instants and over rows of "
-                 "history.csv, at least 1/4000 of time.end apart",
-                 envelope_columns());
+  std::string text;
+  for_each_run_table([&](const auto& table) {
+    text += fmt::format("{}: {}\n", table.file, table.meaning);
+    for (const auto& column : table.columns) {
+      text += fmt::format("  {:<25} {}\n", column.name, column.meaning);
+    }
+    text += '\n';
+  });
+  text += "summary.json: one object; a.b: the member b of the object a, a[].b: of each in a list\n";
+  for (const auto& [name, meaning] : listing_of(run_record())) {
+    text += fmt::format("  {:<44} {}\n", name, meaning);
+  }
+  return text;
 }
 
 }  // namespace subimpact

@@ -1,19 +1,55 @@
 #pragma once
 
 #include "io/csv_columns.h"
+#include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
 
-// The columns of the tables that a run leaves.
-const Columns<SubImpact>& events_columns();
-/// The same with `decided` of this result.
-Columns<SubImpact> events_columns(const Result& result);
-const Columns<Transition>& transitions_columns();
-const Columns<HistoryRow>& history_columns();
-const Columns<SectionRow>& sections_columns();
-const Columns<PointRow>& points_columns();
-const Columns<ShapeRow>& shapes_columns();
-const Columns<EnvelopeRow>& envelope_columns();
+/// A table that a run leaves: its file, and all that reading, writing and describing it need.
+template <class Row>
+struct RunTable {
+  const char* file;
+  const char* meaning;  ///< of a row
+  Columns<Row> columns;
+  std::vector<Row> Result::*rows;
+  /// How many rows there are at an instant; 0: the run leaves no such table.
+  std::size_t (*group)(const Case& input, const Result& result);
+  /// Of a table that may be too long to hold: how many instants were written, and the values whose
+  /// extremes are kept.
+  std::size_t (*n_instants)(const Result& result) = nullptr;
+  std::vector<double Row::*> drawn = {};
+};
+
+/// For SubImpact, Transition, HistoryRow, SectionRow, PointRow, ShapeRow, EnvelopeRow.
+template <class Row>
+const RunTable<Row>& run_table();
+
+/// Calls `use` with every table.
+template <class Use>
+void for_each_run_table(Use use) {
+  use(run_table<SubImpact>());
+  use(run_table<Transition>());
+  use(run_table<HistoryRow>());
+  use(run_table<SectionRow>());
+  use(run_table<PointRow>());
+  use(run_table<ShapeRow>());
+  use(run_table<EnvelopeRow>());
+}
+
+/// The columns of a table as a result fills them.
+template <class Row>
+const Columns<Row>& columns_for(const RunTable<Row>& table, const Result&) {
+  return table.columns;
+}
+/// With `decided`.
+Columns<SubImpact> columns_for(const RunTable<SubImpact>& table, const Result& result);
+
+/// The contents of a file.
+template <class Row>
+std::string csv_of(const Result& result) {
+  const RunTable<Row>& table = run_table<Row>();
+  return csv_text(columns_for(table, result), result.*table.rows);
+}
 
 }  // namespace subimpact

@@ -27,8 +27,8 @@ class ResultWriter::RowFile {
   RowFile& operator=(const RowFile&) = delete;
 
   template <class Row>
-  void add(const Columns<Row>& columns, const Row& row) {
-    append_row(pending_, columns, row);
+  void add(const Row& row) {
+    append_row(pending_, run_table<Row>().columns, row);
   }
   bool is_full() const { return pending_.size() > most_pending; }
 
@@ -104,11 +104,6 @@ constexpr double bytes_per_section_row = 97.0;
 constexpr double bytes_per_point_row = 80.0;
 constexpr double bytes_per_shape_row = 105.0;
 
-const Columns<HistoryRow>& columns_of(const HistoryRow&) { return history_columns(); }
-const Columns<SectionRow>& columns_of(const SectionRow&) { return sections_columns(); }
-const Columns<PointRow>& columns_of(const PointRow&) { return points_columns(); }
-const Columns<ShapeRow>& columns_of(const ShapeRow&) { return shapes_columns(); }
-
 void check_space(const OutputDirectory& directory, const Case& input) {
   std::error_code error;
   const auto available = static_cast<double>(fs::space(directory.path(), error).available);
@@ -140,22 +135,25 @@ double foreseen_bytes(const Case& input, std::optional<std::size_t> n_shape_poin
   return of_shapes + input.end_time / input.output.interval * bytes_per_row;
 }
 
+template <class Row>
+std::unique_ptr<ResultWriter::RowFile> ResultWriter::row_file() {
+  const RunTable<Row>& table = run_table<Row>();
+  return std::make_unique<RowFile>(table.file, csv_heading(table.columns));
+}
+
 ResultWriter::ResultWriter(const fs::path& directory, const Case& input)
     : directory_(directory, "run") {
   check_space(directory_, input);
-  const auto file = [](const char* name, const auto& columns) {
-    return std::make_unique<RowFile>(name, csv_heading(columns));
-  };
-  history_ = file("history.csv", history_columns());
-  if (!input.output.sections.empty()) sections_ = file("sections.csv", sections_columns());
-  if (!input.output.points.empty()) points_ = file("points.csv", points_columns());
+  history_ = row_file<HistoryRow>();
+  if (!input.output.sections.empty()) sections_ = row_file<SectionRow>();
+  if (!input.output.points.empty()) points_ = row_file<PointRow>();
 }
 
 ResultWriter::~ResultWriter() = default;
 
 template <class Row>
 void ResultWriter::add_to(RowFile& file, const Row& row) {
-  file.add(columns_of(row), row);
+  file.add(row);
   if (file.is_full()) flush(file);
 }
 
@@ -163,9 +161,7 @@ void ResultWriter::add(const HistoryRow& row) { add_to(*history_, row); }
 void ResultWriter::add(const SectionRow& row) { add_to(*sections_, row); }
 void ResultWriter::add(const PointRow& row) { add_to(*points_, row); }
 void ResultWriter::add(const ShapeRow& row) {
-  if (!shapes_) {
-    shapes_ = std::make_unique<RowFile>("shapes.csv", csv_heading(shapes_columns()));
-  }
+  if (!shapes_) shapes_ = row_file<ShapeRow>();
   add_to(*shapes_, row);
 }
 
@@ -216,9 +212,12 @@ void ResultWriter::finish(const Case& input, const Result& result) {
   write_or_relocate([&] {
     const fs::path& place = directory_.staging();
     for_each_file([this](RowFile& file) { write_rows(file); });
-    if (!result.envelope.empty()) write_file(place / "envelope.csv", envelope_csv(result.envelope));
-    write_file(place / "events.csv", events_csv(result));
-    write_file(place / "transitions.csv", transitions_csv(result.transitions));
+    const auto write_table = [&]<class Row>(const RunTable<Row>& table) {
+      write_file(place / table.file, csv_of<Row>(result));
+    };
+    if (!result.envelope.empty()) write_table(run_table<EnvelopeRow>());
+    write_table(run_table<SubImpact>());
+    write_table(run_table<Transition>());
     write_file(place / "summary.json", summary_json(input, result));
     directory_.commit();
   });

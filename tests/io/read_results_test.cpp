@@ -1,6 +1,8 @@
 #include "subimpact/io/read_results.h"
-#include "io/json_integer.h"
+#include "io/record.h"
+#include "io/run_tables.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include "io/row_thinning.h"
 #include "print.h"
 #include "read_file.h"
+#include "reseal.h"
 #include "sample_result.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
@@ -37,14 +40,6 @@ void expect_in(const std::string& text, const std::string& piece) {
   EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in: " << text;
 }
 
-// As a version before manifest.json left the files.
-void make_older(const std::filesystem::path& directory, std::string summary, const char* layout) {
-  const std::string now = "\"layout\": 4";
-  summary.replace(summary.find(now), now.size(), layout);
-  std::ofstream(directory / "summary.json") << summary;
-  std::filesystem::remove(directory / "manifest.json");
-}
-
 TEST(ReadResults, IsTheInverseOfWritingThem) {
   const Case paper =
       read_case_file(SUBIMPACT_PAPER_CASE,
@@ -66,33 +61,18 @@ TEST(ReadResults, IsTheInverseOfWritingThem) {
       EXPECT_EQ(key.get(run.input), key.get(input)) << key.name;
     }
     EXPECT_EQ(summary_json(run.input, run.result), summary_json(input, result));
-    EXPECT_EQ(events_csv(run.result), events_csv(result));
-    EXPECT_EQ(transitions_csv(run.result.transitions), transitions_csv(result.transitions));
-    EXPECT_EQ(history_csv(run.result.history), history_csv(result.history));
-    EXPECT_EQ(sections_csv(run.result.section_history), sections_csv(result.section_history));
+    EXPECT_EQ(csv_of<SubImpact>(run.result), csv_of<SubImpact>(result));
+    EXPECT_EQ(csv_of<Transition>(run.result), csv_of<Transition>(result));
+    EXPECT_EQ(csv_of<HistoryRow>(run.result), csv_of<HistoryRow>(result));
+    EXPECT_EQ(csv_of<SectionRow>(run.result), csv_of<SectionRow>(result));
     EXPECT_EQ(run.result.section_history.empty(), input.output.sections.empty());
-    EXPECT_EQ(envelope_csv(run.result.envelope), envelope_csv(result.envelope));
+    EXPECT_EQ(csv_of<EnvelopeRow>(run.result), csv_of<EnvelopeRow>(result));
     ASSERT_EQ(run.result.shapes.size(), result.shapes.size());
     const ShapeRow& last = result.shapes.back();
     EXPECT_EQ(run.result.shapes.back().time, last.time);
     EXPECT_NEAR(run.result.shapes.back().velocity, last.velocity, 1e-8 * std::abs(last.velocity));
     EXPECT_EQ(run.result.point_history.size(), input.output.points.size() * result.history.size());
   }
-}
-
-TEST(ReadResults, TakesAKeyUnderTheNameItHadBefore) {
-  const TemporaryDirectory directory;
-  Case input = read_case_text(small_case_text(), "small.toml").value;
-  input.solver.rtol = 3e-7;
-  write_results(directory.path, input, sample_result());
-  std::string text = summary_json(input, sample_result());
-  const std::string key = "\"rtol\"";
-  text.replace(text.find(key), key.size(), "\"tolerance\"");
-  make_older(directory.path, text, "\"layout\": 3");
-  const FinishedRun run = read_results(directory.path);
-  EXPECT_EQ(run.input.solver.rtol, 3e-7);
-  ASSERT_EQ(run.result.warnings.size(), 1u);
-  expect_in(run.result.warnings.front(), "without checksums");
 }
 
 TEST(ReadResults, RefusesNumbersThatAreNoIntegersWhereIntegersStand) {
@@ -142,7 +122,7 @@ TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
       "the same, finer", 2, "they part", 3e-9, {{"mesh", "the same, finer", 2, "they part", 3e-9}}};
   write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
   const FinishedRun run = read_results(directory.path);
-  EXPECT_EQ(events_csv(run.result), events_csv(result));
+  EXPECT_EQ(csv_of<SubImpact>(run.result), csv_of<SubImpact>(result));
   ASSERT_TRUE(run.result.error_estimate);
   EXPECT_EQ(run.result.error_estimate->first_unresolved, 2u);
   EXPECT_EQ(run.result.error_estimate->reason, "they part");
@@ -175,39 +155,6 @@ TEST(ReadResults, KeepsAWishAndThatNoneWasMade) {
   expect_in(summary_json(input, sample_result()), "\"wish_met\": null");
 }
 
-TEST(ReadResults, OfFilesWithoutAWishHaveNone) {
-  const Case input = read_case_text(small_case_text(), "small.toml").value;
-  const TemporaryDirectory directory;
-  write_results(directory.path, input, sample_result());
-  std::string text = summary_json(input, sample_result());
-  for (const std::string line : {"  \"wish_met\": null,\n", "  \"wish\": null,\n"}) {
-    ASSERT_NE(text.find(line), std::string::npos);
-    text.erase(text.find(line), line.size());
-  }
-  make_older(directory.path, text, "\"layout\": 3");
-  EXPECT_FALSE(read_results(directory.path).result.wish);
-}
-
-TEST(ReadResults, OfOlderTablesLackErrorsAndWhetherSubImpactsAreDecided) {
-  const TemporaryDirectory directory;
-  const Case input = read_case_text(small_case_text(), "small.toml").value;
-  write_results(directory.path, input, sample_result());
-  make_older(directory.path, summary_json(input, sample_result()), "\"layout\": 3");
-  std::istringstream lines(events_csv(sample_result()));
-  std::ofstream older(directory.path / "events.csv");
-  for (std::string line; std::getline(lines, line);) {  // as before: the first 11 columns
-    std::size_t end = 0;
-    for (int k = 0; k < 11; ++k) end = line.find(',', end) + 1;
-    older << line.substr(0, end - 1) << '\n';
-  }
-  older.close();
-  const FinishedRun run = read_results(directory.path);
-  ASSERT_EQ(run.result.sub_impacts.size(), 3u);
-  EXPECT_FALSE(run.result.sub_impacts.front().start_error);
-  EXPECT_FALSE(run.result.n_decided());
-  EXPECT_EQ(events_csv(run.result), events_csv(sample_result()));
-}
-
 TEST(ReadResults, KeepWhichSubImpactsAreDecided) {
   for (const std::size_t n : {0u, 1u, 3u}) {
     const TemporaryDirectory directory;
@@ -215,33 +162,8 @@ TEST(ReadResults, KeepWhichSubImpactsAreDecided) {
     write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
     const FinishedRun run = read_results(directory.path);
     EXPECT_EQ(run.result.n_decided(), n);
-    EXPECT_EQ(events_csv(run.result), events_csv(result));
+    EXPECT_EQ(csv_of<SubImpact>(run.result), csv_of<SubImpact>(result));
   }
-}
-
-TEST(ReadResults, OfLayout2HaveOtherNamesAndTheOppositeMoment) {
-  const TemporaryDirectory directory;
-  Result result = sample_result();
-  result.error_estimate = ErrorEstimate{"the same, finer", 2, "they part", 3e-9, {}};
-  result.section_history = {{0.0, 0.3556, 0.1, 25.0, 0.0}};
-  Case input = read_case_text(small_case_text(), "small.toml").value;
-  input.output.sections = {0.5};
-  write_results(directory.path, input, result);
-  std::string text = summary_json(input, result);
-  const auto rename = [&](const std::string& name, const std::string& before) {
-    ASSERT_NE(text.find(name), std::string::npos) << name;
-    text.replace(text.find(name), name.size(), before);
-  };
-  rename("\"banded\"", "\"tridiagonal\"");
-  rename("\"refined_run\"", "\"companion\"");
-  rename("\"first_unresolved_index\"", "\"first_undecided_index\"");
-  make_older(directory.path, text, "\"layout\": 2");
-  const FinishedRun run = read_results(directory.path);
-  EXPECT_EQ(run.input.study.mass_solver, MassSolverKind::banded);
-  ASSERT_TRUE(run.result.error_estimate);
-  EXPECT_EQ(run.result.error_estimate->refined_run, "the same, finer");
-  EXPECT_EQ(run.result.error_estimate->first_unresolved, 2u);
-  EXPECT_EQ(run.result.section_history.front().moment, -25.0);
 }
 
 TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
@@ -252,24 +174,29 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
                 sample_result());
   EXPECT_EQ(refusal_of(directory.path), "(accepted)");
   const std::string summary = read_file(directory.path / "summary.json");
+  const auto refusal_with = [&](const char* name, const std::string& text) {
+    const std::string before = read_file(directory.path / name);
+    std::ofstream(directory.path / name) << text;
+    reseal(directory.path);
+    const std::string refusal = refusal_of(directory.path);
+    std::ofstream(directory.path / name) << before;
+    return refusal;
+  };
+  expect_in(refusal_with("events.csv", "index,zone\n1,2\n"), "events.csv: has no column subzone");
+  const std::string heading = "time_s,kind,section,value\n";
+  expect_in(refusal_with("transitions.csv", heading + "1\n"),
+            "transitions.csv:2: has 1 cell where the header has 4");
+  expect_in(refusal_with("transitions.csv", heading + "0,contact_begins,,0\n1,contact_melts,,0\n"),
+            "transitions.csv:3: kind is \"contact_melts\"");
+  expect_in(refusal_with("transitions.csv", heading + ",,,\n"),
+            "transitions.csv:2: time_s is \"\"; allowed: a finite number");
+  expect_in(refusal_with("summary.json", "{}"), "summary.json: is not the summary of a run");
+  std::string older = summary;
+  const std::string layout = fmt::format("\"layout\": {}", summary_layout);
+  older.replace(older.find(layout), layout.size(), "\"layout\": 3");
+  expect_in(refusal_with("summary.json", older), "summary.json: has layout 3, but this program");
   std::filesystem::remove(directory.path / "manifest.json");
   expect_in(refusal_of(directory.path), "has no manifest.json of a run");
-  make_older(directory.path, summary, "\"layout\": 3");
-  EXPECT_EQ(refusal_of(directory.path), "(accepted)");
-  std::ofstream(directory.path / "events.csv") << "index,zone\n1,2\n";
-  expect_in(refusal_of(directory.path), "events.csv: has no column subzone");
-  std::ofstream(directory.path / "events.csv") << events_csv({});
-  std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n1\n";
-  expect_in(refusal_of(directory.path), "transitions.csv:2: has 1 cell where the header has 4");
-  std::ofstream(directory.path / "transitions.csv")
-      << "time_s,kind,section,value\n0,contact_begins,,0\n1e-6,contact_melts,,0\n";
-  expect_in(refusal_of(directory.path), "transitions.csv:3: kind is \"contact_melts\"");
-  std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n,,,\n";
-  expect_in(refusal_of(directory.path), "transitions.csv:2: time_s is \"\"; allowed: a number");
-  std::ofstream(directory.path / "transitions.csv") << "time_s,kind,section,value\n";
-  std::ofstream(directory.path / "events.csv") << events_csv({});
-  std::ofstream(directory.path / "summary.json") << "{}";
-  expect_in(refusal_of(directory.path), "summary.json: is not the summary of a run");
 }
 
 TEST(ReadResults, RefuseFilesThatWereChangedSince) {

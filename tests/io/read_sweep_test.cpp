@@ -1,4 +1,5 @@
 #include "subimpact/io/read_sweep.h"
+#include "io/run_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -46,10 +47,12 @@ Result two_sub_impacts() {
 }
 
 std::string heading() {
-  const std::string events = events_csv(two_sub_impacts());
+  const std::string events = csv_of<SubImpact>(two_sub_impacts());
   return "run," + events.substr(0, events.find('\n') + 1);
 }
-std::string sub_impacts_csv() { return heading() + rows_of(events_csv(two_sub_impacts()), 0); }
+std::string sub_impacts_csv() {
+  return heading() + rows_of(csv_of<SubImpact>(two_sub_impacts()), 0);
+}
 
 class Sweep {
  public:
@@ -112,12 +115,13 @@ TEST(ReadSweep, NamesWhatADamagedTableHolds) {
             "runs.csv:3: run is \"1\"");
   expect_in(Sweep("run,outcome\n0,\n", good).refusal(), "runs.csv:2: outcome is \"\"");
   expect_in(Sweep(runs_csv, "run,start_s\n").refusal(), "sub_impacts.csv: has no column zone");
-  const std::string rows = rows_of(events_csv(two_sub_impacts()), 0);
-  expect_in(Sweep(runs_csv, heading() + rows_of(events_csv(two_sub_impacts()), 7)).refusal(),
+  const std::string rows = rows_of(csv_of<SubImpact>(two_sub_impacts()), 0);
+  expect_in(Sweep(runs_csv, heading() + rows_of(csv_of<SubImpact>(two_sub_impacts()), 7)).refusal(),
             "sub_impacts.csv:2: run is \"7\"; allowed: a run of runs.csv");
-  expect_in(Sweep(runs_csv, heading() + rows + rows_of(events_csv(two_sub_impacts()), 2) + rows)
-                .refusal(),
-            "allowed: rows of one run after each other");
+  expect_in(
+      Sweep(runs_csv, heading() + rows + rows_of(csv_of<SubImpact>(two_sub_impacts()), 2) + rows)
+          .refusal(),
+      "allowed: rows of one run after each other");
   std::string not_finite = good;
   not_finite.replace(not_finite.find("1234.5"), 6, "inf");
   expect_in(Sweep(runs_csv, not_finite).refusal(), "peak_force_N");
@@ -142,7 +146,7 @@ TEST(SealedTablesOfASweep, AreThoseOfTheManifestOrRefused) {
     OutputDirectory files(directory.path, "sweep", "5");
     std::ofstream(files.staging() / "runs.csv") << runs_csv;
     std::ofstream(files.staging() / "sub_impacts.csv")
-        << heading() << rows_of(events_csv(two_sub_impacts()), 0);
+        << heading() << rows_of(csv_of<SubImpact>(two_sub_impacts()), 0);
     files.commit();
   }
   EXPECT_EQ(read_sweep(directory.path).identity, "5");

@@ -1,4 +1,5 @@
 #include "subimpact/io/results.h"
+#include "io/run_tables.h"
 #include "subimpact/io/report.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +52,7 @@ nlohmann::json parsed_summary(const Case& input, const Result& result) {
 
 TEST(EventsCsv, HasTheAgreedColumns) {
   EXPECT_EQ(
-      events_csv({}),
+      csv_of<SubImpact>({}),
       "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
       "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s,decided,"
       "start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
@@ -60,7 +61,7 @@ TEST(EventsCsv, HasTheAgreedColumns) {
 
 TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
   const Result result = sample_result();
-  const Table rows = parse_csv(events_csv(result));
+  const Table rows = parse_csv(csv_of<SubImpact>(result));
   ASSERT_EQ(rows.size(), 4u);
   const SubImpact& first = result.sub_impacts[0];
   EXPECT_EQ(rows[1][0], "1");
@@ -74,7 +75,7 @@ TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
 }
 
 TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
-  const Table rows = parse_csv(events_csv(sample_result()));
+  const Table rows = parse_csv(csv_of<SubImpact>(sample_result()));
   ASSERT_EQ(rows[3].size(), 22u);
   EXPECT_EQ(rows[3][4], "");
   EXPECT_EQ(rows[3][5], "");
@@ -83,10 +84,10 @@ TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
 
 TEST(EventsCsv, HasTheSameColumnsWhetherErrorsAreKnownOrNot) {
   Result result = sample_result();
-  const Table without = parse_csv(events_csv(result));
+  const Table without = parse_csv(csv_of<SubImpact>(result));
   for (SubImpact& s : result.sub_impacts) s.start_error = s.end_error = s.error_mesh = 1e-9;
   result.error_estimate = ErrorEstimate{"the same, finer", 1, "they part", 1e-9, {}};
-  const Table with = parse_csv(events_csv(result));
+  const Table with = parse_csv(csv_of<SubImpact>(result));
   EXPECT_EQ(with[0], without[0]);
   ASSERT_EQ(with[0][11], "decided");
   for (std::size_t i = 1; i < 4; ++i) {
@@ -100,11 +101,11 @@ TEST(EventsCsv, HasTheSameColumnsWhetherErrorsAreKnownOrNot) {
 TEST(EventsCsv, OfARefinedRunWithMoreSubImpactsHaveOnlyDecidedOnes) {
   Result result = sample_result();
   result.error_estimate = ErrorEstimate{"the same, finer", 3, "the refined run has 4", 1e-9, {}};
-  for (const auto& row : parse_csv(events_csv(result))) EXPECT_NE(row[11], "0");
+  for (const auto& row : parse_csv(csv_of<SubImpact>(result))) EXPECT_NE(row[11], "0");
 }
 
 TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
-  const Table rows = parse_csv(transitions_csv(sample_result().transitions));
+  const Table rows = parse_csv(csv_of<Transition>(sample_result()));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0], (std::vector<std::string>{"time_s", "kind", "section", "value"}));
   EXPECT_EQ(rows[2][1], to_string(EventKind::contact_yields));
@@ -114,7 +115,7 @@ TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
 }
 
 TEST(HistoryCsv, HasTheAgreedColumnsAndAsManyInEveryRow) {
-  const Table rows = parse_csv(history_csv(sample_result().history));
+  const Table rows = parse_csv(csv_of<HistoryRow>(sample_result()));
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0],
             (std::vector<std::string>{
@@ -132,7 +133,7 @@ TEST(HistoryCsv, HasTheAgreedColumnsAndAsManyInEveryRow) {
 TEST(HistoryCsv, LeavesTheMomentumsErrorEmptyWhereSupportsTakeMomentumUp) {
   Result result = sample_result();
   result.history[1].momentum_error.reset();
-  const Table rows = parse_csv(history_csv(result.history));
+  const Table rows = parse_csv(csv_of<HistoryRow>(result));
   const std::size_t column = 17;
   ASSERT_EQ(rows[0].at(column), "momentum_error");
   EXPECT_NE(rows[1].at(column), "");
@@ -144,15 +145,14 @@ TEST(ColumnListing, NamesAndExplainsEveryColumnOfEveryTable) {
   const std::string listing = column_listing();
   Result result = sample_result();
   result.sub_impacts[0].start_error = 1e-9;
-  for (const std::string& table : {events_csv(result), transitions_csv({}), history_csv({}),
-                                   sections_csv({}), envelope_csv({})}) {
-    const Table rows = parse_csv(table);
+  for_each_run_table([&](const auto& table) {
+    const Table rows = parse_csv(csv_heading(table.columns));
     for (const std::string& column : rows[0]) {
       const std::size_t at = listing.find("\n  " + column + " ");
       ASSERT_NE(at, std::string::npos) << column;
       EXPECT_GT(listing.find('\n', at + 1), at + 32) << column << " is not explained";
     }
-  }
+  });
 }
 
 TEST(SummaryJson, EchoesEveryKeyOfTheCase) {
@@ -247,7 +247,7 @@ TEST(WriteResults, ReplacesAnEarlierRun) {
   Result later = sample_result();
   later.sub_impacts.clear();
   write_results(directory.path, sample_case(), later);
-  EXPECT_EQ(read_file(directory.path / "events.csv"), events_csv({}));
+  EXPECT_EQ(read_file(directory.path / "events.csv"), csv_of<SubImpact>({}));
   EXPECT_FALSE(fs::exists(directory.path / "sections.csv"));
 }
 

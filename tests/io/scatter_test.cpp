@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/run_tables.h"
 #include "print.h"
 #include "sample_result.h"
 #include "small_case.h"
@@ -120,7 +121,7 @@ TEST(Predictability, ReadsBackFromTheFilesOfARun) {
   const FinishedRun run = read_results(directory.path);
   EXPECT_EQ(run.input.scatter, input.scatter);
   EXPECT_EQ(summary_json(run.input, run.result), summary_json(input, result));
-  EXPECT_EQ(events_csv(run.result), events_csv(result));
+  EXPECT_EQ(csv_of<SubImpact>(run.result), csv_of<SubImpact>(result));
   EXPECT_EQ(run.result.sub_impacts[0].end_scatter, 1.63e-6);
 }
 

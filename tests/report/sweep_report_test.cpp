@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/run_tables.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
@@ -115,7 +116,7 @@ TEST(SweepReport, OfDamagedTablesIsAMessageOrAWholePage) {
     s.zone = s.subzone = 1;
     result.sub_impacts.push_back(s);
   }
-  const std::string events = events_csv(result);
+  const std::string events = csv_of<SubImpact>(result);
   std::string sub_impacts = "run," + events.substr(0, events.find('\n') + 1);
   for (const char run : {'0', '1', '2'}) {
     for (std::size_t at = events.find('\n') + 1; at < events.size();) {

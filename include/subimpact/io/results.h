@@ -16,13 +16,14 @@
 namespace subimpact {
 
 /// The version of the layout of summary.json, its key "layout": raised when a key is renamed, moved
-/// or removed. 1: files without that key; 4: manifest.json lies beside it.
+/// or removed. Files of other layouts are not read.
 constexpr int summary_layout = 4;
 
-/// Writes events.csv, transitions.csv, history.csv and summary.json; shapes.csv and envelope.csv
-/// unless output.shapes is 0; sections.csv and points.csv if output.sections and output.points are
-/// not empty. All files appear as one, with a manifest.json, or none does (see
-/// OutputDirectory). Throws OutputError.
+/// Writes the files of a run. Numbers in CSV carry 17 significant digits, enough to read the same
+/// double back; the columns are the same for every result. Files: events.csv, transitions.csv,
+/// history.csv and summary.json; shapes.csv and envelope.csv unless output.shapes is 0;
+/// sections.csv and points.csv if output.sections and output.points are not empty. All files appear
+/// as one, with a manifest.json, or none does (see OutputDirectory). Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
 /// Bytes that the files of a run take, roughly: those of its rows, with `n_shape_points` points in
@@ -62,6 +63,8 @@ class ResultWriter final : public RowSink {
  private:
   class RowFile;
   template <class Row>
+  static std::unique_ptr<RowFile> row_file();
+  template <class Row>
   void add_to(RowFile& file, const Row& row);
   void flush(RowFile& rows);
   void write_rows(RowFile& rows);
@@ -83,14 +86,6 @@ void write_comparison(const std::filesystem::path& directory, const Comparison& 
 std::string comparison_csv(const Comparison& comparison);
 std::string matches_csv(const Comparison& comparison);
 
-/// The contents of the files of a run. Numbers in CSV carry 17 significant digits, enough to read
-/// the same double back; a sub-impact that has not ended has empty end and duration columns. The
-/// columns are the same for every result.
-std::string events_csv(const Result& result);
-std::string transitions_csv(const std::vector<Transition>& transitions);
-std::string history_csv(const std::vector<HistoryRow>& history);
-std::string sections_csv(const std::vector<SectionRow>& sections);
-std::string envelope_csv(const std::vector<EnvelopeRow>& envelope);
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);

@@ -17,31 +17,7 @@ from ..case import Case
 from .plan import Plan
 
 #: Columns of runs.csv between the swept keys and the message.
-COLUMNS = (
-    "outcome",
-    "time_s",
-    "n_sub_impacts",
-    "n_zones",
-    "n_decided",
-    "all_decided",
-    "wish_met",
-    "horizon_s",
-    "n_predictable",
-    "predictable_until_s",
-    "first_separation_s",
-    "first_separation_error_s",
-    "first_section_yield_s",
-    "first_contact_yield_s",
-    "max_force_N",
-    "max_indentation_m",
-    "residual_indentation_m",
-    "impulse_Ns",
-    "striker_velocity_m_per_s",
-    "beam_mean_velocity_m_per_s",
-    "restitution",
-    "striker_energy_share",
-    "max_energy_error",
-)
+COLUMNS = tuple(_core.swept_columns())
 
 
 class Row(NamedTuple):
@@ -70,11 +46,7 @@ def cell(value: object) -> str:
 
 def events_heading() -> str:
     """The heading of events.csv."""
-    names = []
-    listing = _core.columns().split("\n\n")[0].splitlines()[1:]
-    for line in listing:
-        names.append(line.split()[0])
-    return ",".join(names)
+    return ",".join(_core.event_columns())
 
 
 def row_without_result(identity: str, outcome: str, message: str) -> Row:
@@ -112,40 +84,12 @@ def run_case(plan: Plan, number: int) -> Row:
 
 def row_of(identity: str, result: _core.Finished) -> Row:
     """What is kept of a result."""
-    heading, *lines = result.events_csv().splitlines()
-    first: dict[str, str] = {}
-    if lines:
-        first = dict(zip(heading.split(","), lines[0].split(",")))
-    initial: float = result.value("striker.velocity")
-    decided = result.n_decided
-    values = (
-        result.time,
-        result.n_sub_impacts,
-        result.n_zones,
-        decided,
-        None if decided is None else result.all_decided,
-        result.wish_met,
-        result.horizon,
-        result.n_predictable,
-        result.predictable_until,
-        first.get("end_s"),
-        first.get("end_error_s"),
-        result.first_section_yield,
-        result.first_contact_yield,
-        result.max_force,
-        result.max_indentation,
-        result.residual_indentation,
-        result.impulse,
-        result.striker_velocity,
-        result.beam_mean_velocity,
-        (result.beam_mean_velocity - result.striker_velocity) / initial,
-        (result.striker_velocity / initial) ** 2,
-        result.max_energy_error,
-        result.message if result.outcome != "completed" else "",
-    )
+    lines = result.events_csv().splitlines()[1:]
+    outcome, cells = result.swept_cells().split(",", 1)
+    message = result.message if outcome != "completed" else ""
     text = "".join(line + "\n" for line in lines)
-    cells = ",".join(cell(value) for value in values)
-    return Row(identity, result.outcome, cells, zlib.compress(text.encode(), 1))
+    return Row(outcome=outcome, identity=identity, cells=f"{cells},{cell(message)}",
+               sub_impacts=zlib.compress(text.encode(), 1))
 
 
 def run_chunk(plan: Plan, numbers: Sequence[int]) -> tuple[list[Row], float]:

@@ -1,0 +1,449 @@
+#include "io/run_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "case/case_choices.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+
+template <class Enum, std::size_t n>
+static std::array<Named<Enum>, n> named(const Enum (&kinds)[n]) {
+  std::array<Named<Enum>, n> names;
+  std::transform(kinds, kinds + n, names.begin(), [](Enum kind) {
+    return Named<Enum>{kind, to_string(kind).data(), ""};
+  });
+  return names;
+}
+
+std::span<const Named<OutcomeKind>> names_of(OutcomeKind) {
+  static const auto names = named(
+      {OutcomeKind::completed, OutcomeKind::stopped, OutcomeKind::inaccurate, OutcomeKind::unstable,
+       OutcomeKind::chattering, OutcomeKind::solver_failed, OutcomeKind::left_validity});
+  return names;
+}
+
+std::span<const Named<NearMissKind>> names_of(NearMissKind) {
+  static const auto names = named({NearMissKind::opening, NearMissKind::closing});
+  return names;
+}
+
+std::span<const Named<EventKind>> names_of(EventKind) {
+  static const auto names =
+      named({EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
+             EventKind::contact_ends, EventKind::section_reverses});
+  return names;
+}
+
+static Json json_of(const Interval& times, Form) { return {times.from, times.to}; }
+static void assign(Interval& times, const Json& json, const std::string& name, Form form) {
+  assign(times.from, json.at(0), name, form);
+  assign(times.to, json.at(1), name, form);
+}
+
+namespace {
+
+using RunEntry = Entry<DescribedRun>;
+
+// The member of a result, or of what it holds, that a path of pointers leads to.
+template <class... Members>
+auto result(Members... path) {
+  return [=](auto& run) -> auto& { return (*run.result.*....*path); };
+}
+
+template <class Member>
+auto used(Member member) {
+  return result(&Result::used, member);
+}
+
+// --- the case ------------------------------------------------------------------------------------
+
+Json json_of_setting(const KeyValue& value) {
+  if (const auto* real = std::get_if<double>(&value); real != nullptr && !std::isfinite(*real)) {
+    return to_text(value);
+  }
+  return std::visit([](const auto& x) { return Json(x); }, value);
+}
+
+KeyValue setting_of(const CaseKey& key, const Json& json) {
+  switch (key.type) {
+    case KeyType::flag:
+      return json.get<bool>();
+    case KeyType::count:
+      return integer<std::int64_t>(json);
+    case KeyType::number:
+      return json == "inf" ? std::numeric_limits<double>::infinity() : json.get<double>();
+    case KeyType::text:
+    case KeyType::choice:
+      return json.get<std::string>();
+    case KeyType::pair:
+      return json.get<std::vector<std::string>>();
+    case KeyType::numbers:
+      return json.get<std::vector<double>>();
+  }
+  throw std::logic_error("setting_of: a key of unknown type");
+}
+
+// One object per table of the case file; a key that was left open is null.
+RunEntry case_entry() {
+  RunEntry entry("case", "keys of the case as asked for");
+  entry.write = [](Json& object, const DescribedRun& run) {
+    for (const CaseKey& key : case_keys()) {
+      const std::optional<KeyValue> value = key.get(*run.input);
+      RunEntry::place_in(object["case"], key.name) =
+          value ? json_of_setting(*value) : Json(nullptr);
+    }
+  };
+  entry.read = [](const Json& object, DescribedRun& run) {
+    for (const CaseKey& key : case_keys()) {
+      const Json& json = RunEntry::found_in(object.at("case"), key.name);
+      if (!json.is_null()) assign(*run.input, key, setting_of(key, json));
+    }
+  };
+  return entry;
+}
+
+Json case_units(const DescribedRun&) {
+  Json json = Json::object();
+  for (const CaseKey& key : case_keys()) {
+    if (!key.unit.empty()) json[key.name] = key.unit;
+  }
+  return json;
+}
+
+RunEntry libraries_entry() {
+  RunEntry entry("libraries", "their versions");
+  entry.write = [](Json& object, const DescribedRun& run) {
+    for (const auto& [name, version] : run.libraries) object["libraries"][name] = version;
+  };
+  entry.read = [](const Json& object, DescribedRun& run) {
+    for (const auto& [name, version] : object.at("libraries").items()) {
+      run.libraries.emplace_back(name, version.template get<std::string>());
+    }
+  };
+  return entry;
+}
+
+// --- settings used -------------------------------------------------------------------------------
+
+// "contact_stiffness_N_per_m1.5": the exponent follows the unit, if it is not 1.
+RunEntry contact_stiffness_entry() {
+  static constexpr const char* start = "contact_stiffness_N_per_m";
+  RunEntry entry(std::string("used.") + start + "^n",
+                 "stiffness of the contact; n: the exponent of the indentation, left out if 1");
+  entry.write = [](Json& object, const DescribedRun& run) {
+    const ResolvedSettings& used = run.result->used;
+    const std::string power =
+        used.contact_exponent == 1.0 ? "" : fmt::format("{:.6g}", used.contact_exponent);
+    object["used"][start + power] = json_of(used.contact_stiffness, Form::plain);
+  };
+  entry.read = [](const Json& object, DescribedRun& run) {
+    ResolvedSettings& used = run.result->used;
+    for (const auto& [name, value] : object.at("used").items()) {
+      if (!name.starts_with(start)) continue;
+      const std::string exponent = name.substr(std::string_view(start).size());
+      used.contact_exponent = exponent.empty() ? 1.0 : std::stod(exponent);
+      return assign(used.contact_stiffness, value, name, Form::plain);
+    }
+    object.at("used").at(start);  // throws, naming the missing field
+  };
+  return entry;
+}
+
+// --- counts --------------------------------------------------------------------------------------
+
+const Record<ZoneSummary>& zone_record() {
+  static const Record<ZoneSummary> record = {
+      {"zone", "number of the zone, from 1", &ZoneSummary::zone},
+      {"sub_impacts", "their number", &ZoneSummary::n_sub_impacts},
+      {"subzones", "their number", &ZoneSummary::n_subzones},
+      {"start_s", "start of its first sub-impact", &ZoneSummary::start},
+      {"end_s", "end of its last one; null: still in contact", &ZoneSummary::end},
+      {"impulse_Ns", "sum over its sub-impacts", &ZoneSummary::impulse},
+      {"peak_force_N", "largest force", &ZoneSummary::peak_force}};
+  return record;
+}
+
+std::vector<ZoneSummary> zones_of(const DescribedRun& run) {
+  return summarise_zones(run.result->sub_impacts);
+}
+
+int count_subzones(const DescribedRun& run) {
+  int n_subzones = 0;
+  for (const ZoneSummary& zone : zones_of(run)) n_subzones += zone.n_subzones;
+  return n_subzones;
+}
+
+Json count_transitions(const DescribedRun& run) {
+  Json json;
+  for (const auto& [kind, name, note] : names_of(EventKind{})) {
+    json[name] = std::ranges::count(run.result->transitions, kind, &Transition::kind);
+  }
+  return json;
+}
+
+// --- what a run may have -------------------------------------------------------------------------
+
+const Record<NearMiss>& near_miss_record() {
+  static const Record<NearMiss> record = {
+      {"kind", "opening: a contact that nearly opened; closing: the reverse", &NearMiss::kind},
+      {"time_s", "instant of the smallest margin", &NearMiss::time, Form::from_zero},
+      {"margin_m", "distance between the indentation and the residual one", &NearMiss::margin,
+       Form::above_zero}};
+  return record;
+}
+
+const Record<WishOutcome>& wish_record() {
+  static const Record<WishOutcome> record = {
+      {"event_times_s", "error of event times that was asked for", &WishOutcome::wished,
+       Form::finite},
+      {"reached_error_s", "largest error before the horizon; null: not known",
+       &WishOutcome::reached},
+      {"horizon_s", "up to which event times are decided and within that error",
+       &WishOutcome::horizon, Form::finite},
+      {"reason", "why the horizon comes before the end", &WishOutcome::reason, Form::empty_is_null},
+      {"key_to_free", "key of the case that stands in the way", &WishOutcome::key,
+       Form::empty_is_null}};
+  return record;
+}
+
+RunEntry wish_met_entry() {
+  RunEntry entry("wish_met", "whether accuracy.event_times was met; null: none was asked for",
+                 [](const DescribedRun& run) {
+                   const std::optional<WishOutcome>& wish = run.result->wish;
+                   return wish ? std::optional(wish->met) : std::nullopt;
+                 });
+  entry.read = [](const Json& object, DescribedRun& run) {
+    const Json& met = object.at("wish_met");
+    if (!met.is_null()) run.result->wish.emplace().met = met.get<bool>();
+  };
+  return entry;
+}
+
+const Record<ErrorEstimate::Part>& error_part_record() {
+  using Part = ErrorEstimate::Part;
+  static const Record<Part> record = {
+      {"name", "time, mesh or layers", &Part::name},
+      {"refined_run", "the run compared with", &Part::refined_run},
+      {"max_error_s", "largest error before the first unresolved one", &Part::largest_error},
+      {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact",
+       &Part::first_unresolved, Form::from_one},
+      {"reason", "why it is uncertain", &Part::reason, Form::empty_is_null}};
+  return record;
+}
+
+const Record<ErrorEstimate>& error_record() {
+  static const Record<ErrorEstimate> record = {
+      {"refined_run", "the runs compared with", &ErrorEstimate::refined_run},
+      {"max_time_error_s", "largest error of a time before the first unresolved one",
+       &ErrorEstimate::largest_error},
+      {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact",
+       &ErrorEstimate::first_unresolved, Form::from_one},
+      {"reason", "why it is uncertain", &ErrorEstimate::reason, Form::empty_is_null},
+      list_entry<ErrorEstimate>("parts", "sources of error, one by one", &ErrorEstimate::parts,
+                                error_part_record())};
+  return record;
+}
+
+const Record<Predictability>& predictability_record() {
+  using Zone = Predictability::Zone;
+  static const Record<Zone> zone_record = {
+      {"start_scatter_s", "standard deviation of the zone's start", &Zone::start_scatter},
+      {"end_scatter_s", "that of its end", &Zone::end_scatter},
+      {"impulse_scatter_Ns", "that of its impulse", &Zone::impulse_scatter}};
+  static const Record<Predictability> record = {
+      {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon,
+       Form::finite},
+      {"first_unpredictable_index", "number, from 1, of the first sub-impact that cannot be",
+       &Predictability::first_unpredictable, Form::from_one},
+      {"reason", "why it cannot", &Predictability::reason, Form::empty_is_null},
+      {"max_time_scatter_s", "largest standard deviation up to the horizon",
+       &Predictability::largest_scatter, Form::finite},
+      list_entry<Predictability>("zones", "", &Predictability::zones, zone_record),
+      {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end",
+       &Predictability::striker_velocity_scatter}};
+  return record;
+}
+
+const Record<NeglectedShear>& shear_record() {
+  static const Record<NeglectedShear> record = {
+      {"first_contact_end_without_s", "on coarse cells", &NeglectedShear::without},
+      {"first_contact_end_with_s", "the same with shear; null: more than three times as late",
+       &NeglectedShear::with}};
+  return record;
+}
+
+// The beam at rest after the run, where shapes were computed and no check failed.
+struct BeamAtRest {
+  double largest_set = 0.0, position = 0.0;
+  std::vector<PlasticZone> plastic_zones;
+};
+
+std::optional<BeamAtRest> beam_at_rest(const DescribedRun& run) {
+  const Result& result = *run.result;
+  if (result.envelope.empty() || result.outcome.first_failure) return std::nullopt;
+  const EnvelopeRow& largest = *std::ranges::max_element(
+      result.envelope, {}, [](const EnvelopeRow& row) { return std::abs(row.permanent_set); });
+  return BeamAtRest{largest.permanent_set, largest.position, result.plastic_zones};
+}
+
+RunEntry rest_entry() {
+  static const Record<PlasticZone> zone_record = {
+      {"from_m", "where a plastic hinge begins", &PlasticZone::from},
+      {"to_m", "where it ends", &PlasticZone::to},
+      {"rotation_rad", "its rotation", &PlasticZone::rotation}};
+  static const Record<BeamAtRest> record = {
+      {"largest_permanent_set_m", "largest displacement, against the chord, of the beam at rest",
+       &BeamAtRest::largest_set},
+      {"position_m", "where that is", &BeamAtRest::position},
+      list_entry<BeamAtRest>("plastic_zones", "", &BeamAtRest::plastic_zones, zone_record)};
+  auto entry = object_entry<DescribedRun>("rest", "the beam after the run", &beam_at_rest, record);
+  entry.read = [](const Json& object, DescribedRun& run) {
+    BeamAtRest rest;
+    const Json& json = object.at("rest");
+    if (!json.is_null()) assign(record, json, rest);
+    run.result->plastic_zones = rest.plastic_zones;
+  };
+  return entry;
+}
+
+Record<DescribedRun> make_run_record() {
+  using Used = ResolvedSettings;
+  const auto outcome = [](auto member) { return result(&Result::outcome, member); };
+  const auto work = [](auto member) { return result(&Result::work, member); };
+  return {
+      {"layout", "version of the layout of this file",
+       [](const DescribedRun&) { return summary_layout; }},
+      {"program.name", "", [](const DescribedRun&) { return std::string("subimpact"); }},
+      {"program.version", "version of the program", &DescribedRun::program_version},
+      libraries_entry(),
+      case_entry(),
+      {"case_units", "units of the keys", &case_units},
+
+      {"used.method", "settings used, where the case left a choice open or it was derived",
+       [](const DescribedRun& run) { return run.input->solver.method; }},
+      {"used.table", "coefficients, of Runge-Kutta methods", used(&Used::table)},
+      {"used.half_model", "whether symmetry was used", used(&Used::half_model)},
+      {"used.mesh", "the mesh in words", used(&Used::mesh)},
+      {"used.contact_law", "its name", used(&Used::contact_law)},
+      {"used.section", "name of the bending law; elastic where the beam never yields",
+       used(&Used::section)},
+      {"used.n_unknowns", "unknowns of the beam", used(&Used::n_unknowns)},
+      {"used.n_sections", "sections modelled", used(&Used::n_sections)},
+      {"used.highest_frequency_rad_per_s", "upper bound, of the beam",
+       used(&Used::highest_frequency)},
+      {"used.largest_contact_slope_N_per_m", "that the energy of the strike allows",
+       used(&Used::largest_contact_slope)},
+      {"used.joined_frequency_rad_per_s", "of beam and striker joined by a spring of that slope",
+       used(&Used::joined_frequency)},
+      {"used.contact_time_s", "scale of the shortest contacts", used(&Used::contact_time)},
+      {"used.critical_step_s", "of central differences", used(&Used::critical_step)},
+      {"used.step_s", "of methods with fixed steps", used(&Used::step)},
+      {"used.position_tolerance_m", "of adaptive methods", used(&Used::position_tolerance),
+       Form::zero_is_null},
+      {"used.velocity_tolerance_m_per_s", "of adaptive methods", used(&Used::velocity_tolerance),
+       Form::zero_is_null},
+      {"used.events", "how events are found", used(&Used::events)},
+      {"used.reversals", "how reversals of sections are found", used(&Used::reversals)},
+      {"used.max_order", "of multistep methods", used(&Used::max_order)},
+      contact_stiffness_entry(),
+      {"used.yield_indentation_m", "at which a contact without history first yields",
+       used(&Used::yield_indentation)},
+      {"used.yield_curvature_per_m", "at which a section first yields",
+       used(&Used::yield_curvature)},
+      {"used.first_period_s", "first period of the beam in bending", used(&Used::first_period),
+       Form::finite},
+      {"used.initial_energy_J", "energy of the striker before the strike",
+       used(&Used::initial_energy), Form::finite},
+      {"used.energy_tolerance_relative", "error of the energy that is allowed",
+       used(&Used::energy_tolerance)},
+      {"used.shape_interval_s", "time between shapes; 0: none", used(&Used::shape_interval)},
+      {"used.n_shape_points", "points of a shape", used(&Used::n_shape_points)},
+
+      {"outcome.kind",
+       "completed, stopped, inaccurate, unstable, chattering, solver_failed or left_validity",
+       outcome(&Outcome::kind)},
+      {"outcome.time_s", "time reached", outcome(&Outcome::time), Form::from_zero},
+      {"outcome.message", "cause and what to do, of a run that did not complete",
+       outcome(&Outcome::message)},
+      {"outcome.first_failure_s",
+       "last time at which every check passed, first at which one failed",
+       outcome(&Outcome::first_failure), Form::finite},
+      wish_met_entry(),
+      object_entry<DescribedRun>("wish", "what became of accuracy.event_times",
+                                 result(&Result::wish), wish_record()),
+      {"choice", "why mesh and method are what they are", result(&Result::choice)},
+      object_entry<DescribedRun>("neglected_shear",
+                                 "end of the first contact without and with shear",
+                                 result(&Result::neglected_shear), shear_record()),
+      {"warnings", "reasons to doubt results that passed all checks", result(&Result::warnings)},
+
+      {"counts.sub_impacts", "number of sub-impacts",
+       [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
+      {"counts.zones", "number of zones",
+       [](const DescribedRun& run) { return zones_of(run).size(); }},
+      {"counts.subzones", "number of sub-zones", &count_subzones},
+      {"counts.transitions", "number of events of each kind", &count_transitions},
+      {"counts.yielded_sections", "of the sections modelled", result(&Result::n_yielded_sections)},
+      {"counts.history_rows", "rows of history.csv", result(&Result::n_history_rows)},
+      {"counts.shape_rows", "rows of shapes.csv", result(&Result::n_shape_rows)},
+      list_entry<DescribedRun>("zones", "", &zones_of, zone_record()),
+      list_entry<DescribedRun>("near_misses", "", result(&Result::near_misses), near_miss_record()),
+      {"first_yield.section_s", "when a section first yields; null: never",
+       result(&Result::first_section_yield)},
+      {"first_yield.contact_s", "when the contact first yields; null: never",
+       result(&Result::first_contact_yield)},
+      {"no_more_contact_s", "from when it is proven that no contact follows",
+       result(&Result::no_more_contact)},
+      {"maxima.force_N", "largest contact force", result(&Result::max_force), Form::finite},
+      {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation),
+       Form::finite},
+      {"final.striker_velocity_m_per_s", "velocity of the striker at the end",
+       result(&Result::striker_velocity), Form::finite},
+      {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass",
+       result(&Result::beam_mean_velocity), Form::finite},
+      {"dissipated_by_damping.contact_J", "energy dissipated by the damping of the contact",
+       result(&Result::contact_damping_loss)},
+      {"dissipated_by_damping.beam_J", "energy dissipated by the damping of the beam",
+       result(&Result::beam_damping_loss)},
+      rest_entry(),
+      {"conservation.max_energy_error_relative", "largest error of the energy",
+       result(&Result::max_energy_error)},
+      {"conservation.max_momentum_error_relative",
+       "largest error of the momentum; null where supports take momentum up",
+       result(&Result::max_momentum_error)},
+      {"conservation.max_impulse_error_relative",
+       "largest difference between an impulse and the integral of its force, over m v0",
+       result(&Result::max_impulse_error)},
+      object_entry<DescribedRun>("error_bars", "errors of event times; null: not estimated",
+                                 result(&Result::error_estimate), error_record()),
+      object_entry<DescribedRun>("predictability", "of a case with scatter",
+                                 result(&Result::predictability), predictability_record()),
+
+      {"work.steps", "steps of the method", work(&Work::steps)},
+      {"work.rejected_steps", "steps repeated with another length", work(&Work::rejected_steps)},
+      {"work.partial_steps", "steps made to compute states within a step",
+       work(&Work::partial_steps)},
+      {"work.right_hand_sides", "evaluations of the equations", work(&Work::right_hand_sides)},
+      {"work.mass_solves", "solutions with the mass matrix", work(&Work::mass_solves)},
+      {"work.jacobians", "evaluations of the Jacobian", work(&Work::jacobians)},
+      {"work.factorisations", "of matrices", work(&Work::factorisations)},
+      {"work.roots", "events located", work(&Work::roots)},
+      {"work.nonlinear_iterations", "of implicit methods", work(&Work::nonlinear_iterations)},
+      {"work.nonlinear_failures", "of implicit methods", work(&Work::nonlinear_failures)},
+      {"work.setup_s", "time spent before the first step", work(&Work::setup_seconds)},
+      {"work.wall_s", "time spent in all", work(&Work::wall_seconds)}};
+}
+
+}  // namespace
+
+const Record<DescribedRun>& run_record() {
+  static const Record<DescribedRun> record = make_run_record();
+  return record;
+}
+
+}  // namespace subimpact

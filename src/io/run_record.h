@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/record.h"
+#include "subimpact/io/results.h"
+
+namespace subimpact {
+
+// Enumerations of a result, under the names that to_string() gives them.
+std::span<const Named<OutcomeKind>> names_of(OutcomeKind);
+std::span<const Named<NearMissKind>> names_of(NearMissKind);
+std::span<const Named<EventKind>> names_of(EventKind);
+
+/// What summary.json describes: a run and the programs that made it.
+struct DescribedRun {
+  Case* input;
+  Result* result;
+  std::string program_version;
+  std::vector<std::pair<std::string, std::string>> libraries;  // name and version
+};
+
+/// All members of summary.json, in their order there.
+const Record<DescribedRun>& run_record();
+
+/// Reads what summary.json holds of a run; `path` is for messages. Throws ResultsError, also for
+/// numbers that no run can have written.
+void read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run);
+
+}  // namespace subimpact
