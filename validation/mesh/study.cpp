@@ -282,7 +282,10 @@ void draw(const std::string& directory, const std::vector<Point>& points) {
   plot("exact", "sections that yield (exact)");
   script += "unset multiplot\n";
   draw_figure(directory, "convergence", script, {1100, 480});
-  std::filesystem::remove(directory + "/convergence.gp");  // the study itself is the script
+  // The study itself is the script, and the page shows the SVG.
+  for (const char* other : {".gp", ".png"}) {
+    std::filesystem::remove(directory + "/convergence" + other);
+  }
 }
 
 }  // namespace

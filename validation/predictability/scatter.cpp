@@ -176,7 +176,7 @@ void draw(const std::vector<Study>& studies) {
       ms * end, studies.size(), panels);
   const std::filesystem::path directory = SUBIMPACT_PREDICTABILITY;
   draw_figure(directory, "scatter", script, {1100, 1150});
-  for (const char* other : {"scatter.gp", "scatter.png", "scatter.pdf"}) {
+  for (const char* other : {"scatter.gp", "scatter.svg", "scatter.pdf"}) {
     std::filesystem::remove(directory / other);
   }
 }
