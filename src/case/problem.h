@@ -1,14 +1,34 @@
 #pragma once
 
+/// The parts that a case stands for.
+
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {
 
+/// A bending law of sections that a case can name: its own row in problem.cpp and a factory of
+/// Fibres.
+struct SectionDescriptor {
+  SectionKind kind;
+  const char* name;  ///< in case files
+  const char* note;
+  bool has_layers;  ///< whether model.layers has an effect: an error that more layers reduce
+  /// Nothing: never yields.
+  std::optional<Fibres> (*make)(const ModelOptions& model);
+};
+
+std::span<const SectionDescriptor> sections();
+const SectionDescriptor& descriptor_of(SectionKind kind);
+
 /// Whether a section of the beam may ever yield.
 bool may_yield(const Case& input);
 
+/// Whether the scene is its own mirror image about mid-span, where it is struck.
+bool is_symmetric(const Case& input);
 /// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
 

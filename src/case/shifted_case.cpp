@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/problem.h"
 #include "subimpact/case/keys_without_effect.h"
 
 namespace subimpact {
@@ -26,20 +27,9 @@ double number_of(const Case& input, const CaseKey& key) {
   return std::get<double>(*key.get(input));
 }
 
-// The scene is its own mirror image, so that nothing distinguishes a shift to the left from one to
-// the right.
-bool is_at_centre_of_symmetry(const Case& input, const CaseKey& key) {
-  const auto& ends = input.scene.beam.ends;
-  return key.name == "striker.position" && number_of(input, key) == 0.5 && ends[0] == ends[1];
-}
-
 bool is_inside_range(const CaseKey& key, double x) {
   return key.limits.hold(x * std::exp(largest_shift)) &&
          key.limits.hold(x * std::exp(-largest_shift));
-}
-
-std::string names_of_shifted(const Case& input) {
-  return fmt::format("{}", fmt::join(shifted_keys(input), ", "));
 }
 
 }  // namespace
@@ -47,7 +37,7 @@ std::string names_of_shifted(const Case& input) {
 std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key) {
   if (!is_shifted(key)) {
     return fmt::format("is not a number of the scene or of its mesh; allowed here: {}",
-                       names_of_shifted(input));
+                       fmt::join(shifted_keys(input), ", "));
   }
   if (!key.get(input)) return "is not given, so that it has no value to vary; give it in the case";
   const double x = number_of(input, key);
@@ -55,7 +45,7 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
   if (x == 0.0 || !std::isfinite(x)) {
     return value + "which has no logarithm to derive by; give a finite value above 0";
   }
-  if (is_at_centre_of_symmetry(input, key)) {
+  if (key.name == "striker.position" && is_symmetric(input)) {
     return value +
            "where the scene is symmetric: shifts to either side have the same effect, so that a "
            "derivative is 0 or does not exist; allowed: other positions";

@@ -7,7 +7,7 @@
 #include "case/case_choices.h"
 #include "case/counted.h"
 #include "case/meshes.h"
-#include "case/sections.h"
+#include "case/problem.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -227,10 +227,13 @@ std::string key_listing() {
 std::string method_listing() {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "Methods (solver.method)\n");
-  for (const Choice& method : find_case_key("solver.method")->choices) {
-    fmt::format_to(out, "  {:<20} {}\n", method.name, method.note);
-  }
+  const auto list_choices = [&](const char* title, const char* key) {
+    fmt::format_to(out, "{} ({})\n", title, key);
+    for (const Choice& choice : find_case_key(key)->choices) {
+      fmt::format_to(out, "  {:<20} {}\n", choice.name, choice.note);
+    }
+  };
+  list_choices("Methods", "solver.method");
   fmt::format_to(
       out,
       "\nTables (solver.table): order(order of the error estimate), stages or right-hand "
@@ -240,10 +243,7 @@ std::string method_listing() {
                    fmt::format("{}({})", table.order, table.embedded_order), table.evaluations,
                    table.note);
   }
-  fmt::format_to(out, "\nTreatment of events (solver.events)\n");
-  for (const Choice& events : find_case_key("solver.events")->choices) {
-    fmt::format_to(out, "  {:<20} {}\n", events.name, events.note);
-  }
+  list_choices("\nTreatment of events", "solver.events");
   return fmt::to_string(text);
 }
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "case/case_choices.h"
-#include "case/other_names.h"
 #include "io/check_results.h"
 #include "io/csv_reader.h"
 #include "io/json_integer.h"
@@ -71,25 +70,12 @@ const Json* entry_of(const Json& json, const std::string& name) {
   return entry == place.end() ? nullptr : &*entry;
 }
 
-// The same under the names a key had before.
-const Json* find_entry(const Json& json, const std::string& name) {
-  if (const Json* entry = entry_of(json, name)) return entry;
-  for (const MovedKey& key : moved_keys()) {
-    if (key.new_name != name) continue;
-    if (const Json* entry = entry_of(json, key.old_name)) return entry;
-  }
-  return nullptr;
-}
-
 Case case_from(const Json& json) {
   Case input;
   for (const CaseKey& key : case_keys()) {
-    const Json* entry = find_entry(json, key.name);
+    const Json* entry = entry_of(json, key.name);
     if (entry == nullptr || entry->is_null()) continue;
-    // A choice may have had another name when the file was written.
-    const std::string now =
-        entry->is_string() ? own_name(key.name, entry->get<std::string>()) : std::string();
-    assign(input, key, now.empty() ? key_value(key, *entry) : KeyValue(now));
+    assign(input, key, key_value(key, *entry));
   }
   return input;
 }

@@ -10,7 +10,6 @@
 
 #include "case/meshes.h"
 #include "case/problem.h"
-#include "case/sections.h"
 #include "numerics/richardson.h"
 #include "simulate/methods.h"
 #include "study/error_part.h"
