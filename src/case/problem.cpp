@@ -6,6 +6,7 @@
 
 #include "case/meshes.h"
 #include "model/contact_laws.h"
+#include "simulate/methods.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
@@ -49,6 +50,16 @@ bool is_symmetric(const Case& input) {
 
 bool uses_symmetry(const Case& input) {
   return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input);
+}
+
+std::optional<double> step_of(const Case& input) {
+  const bool is_fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+  return is_fixed ? resolve(input).settings().step : input.solver.step;
+}
+
+double largest_stable_step(Case input) {
+  input.solver.step.reset();
+  return default_part_of_critical * resolve(input).settings().critical_step;
 }
 
 std::shared_ptr<const ContactLaw> contact_law_of(const Case& input) {

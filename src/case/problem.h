@@ -32,6 +32,12 @@ bool is_symmetric(const Case& input);
 /// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
 
+/// The fixed step of a run of the case, s; nothing for adaptive steps. Builds the model of the case
+/// only where the step follows from it.
+std::optional<double> step_of(const Case& input);
+/// The largest step that is left a margin to the critical step of the case, whatever its own step.
+double largest_stable_step(Case input);
+
 /// The contact law of a case: its own part, or the one that the scene names.
 std::shared_ptr<const ContactLaw> contact_law_of(const Case& input);
 
