@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "case/case_choices.h"
+#include "case/shifted_case.h"
 #include "simulate/methods.h"
 #include "subimpact/simulate/method_tables.h"
 
@@ -205,12 +206,6 @@ std::string default_step() {
 }
 
 // --- scatter -------------------------------------------------------------------------------------
-
-bool is_number_of_scene(const CaseKey& key) {
-  const std::string table = key.table().substr(0, key.table().find('.'));
-  return key.type == KeyType::number &&
-         (table == "beam" || table == "striker" || table == "contact");
-}
 
 CaseKey scatter_row(const CaseKey& of) {
   CaseKey key;

@@ -13,13 +13,10 @@ namespace subimpact {
 /// not fit: their conversion is undefined.
 template <class Int>
 Int integer(const nlohmann::json& json) {
-  if (json.is_number_unsigned()) {
-    const auto value = json.get<std::uint64_t>();
-    if (std::in_range<Int>(value)) return static_cast<Int>(value);
-  } else if (json.is_number_integer()) {
-    const auto value = json.get<std::int64_t>();
-    if (std::in_range<Int>(value)) return static_cast<Int>(value);
-  }
+  const bool fits = json.is_number_unsigned()
+                        ? std::in_range<Int>(json.get<std::uint64_t>())
+                        : json.is_number_integer() && std::in_range<Int>(json.get<std::int64_t>());
+  if (fits) return json.get<Int>();
   throw std::out_of_range(fmt::format("{} is not an integer that fits", json.dump()));
 }
 
