@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "numerics/units.h"
+
 namespace subimpact {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr double largest_rotation = 0.1;     // rad
 constexpr double largest_deflection = 0.5;   // over the thickness, of a beam held at both ends
 constexpr double deepest_indentation = 0.1;  // over the nose radius
 constexpr double highest_pressure = 1.6;     // over the yield stress
-
-constexpr double mm = 1e3;
 
 bool is_held(const Beam& beam) {
   return beam.ends[0] != EndSupport::free && beam.ends[1] != EndSupport::free;
@@ -59,7 +59,7 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
           pressure > highest_pressure * beam.yield_stress,
       "the contact pressure reaches {:.3g} MPa, {:.2g} times the beam's yield stress: a Hertz "
       "contact yields from {} times on, and contact.law = \"hertz\" leaves that out",
-      1e-6 * pressure, pressure / beam.yield_stress, highest_pressure);
+      MPa * pressure, pressure / beam.yield_stress, highest_pressure);
   return sentences;
 }
 
