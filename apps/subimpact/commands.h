@@ -1,15 +1,22 @@
 #pragma once
 
+/// What the commands share: exit statuses, printing, options. Each command has its own file.
+
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
+#include "subimpact/study/companion.h"
 
 namespace subimpact::app {
 
@@ -19,6 +26,22 @@ enum ExitStatus : int {
   refused = 2,  ///< bad command line or case, or a scene the model does not hold for
   failed = 3    ///< the solver failed, or its results could not be written
 };
+
+/// The exit status of a run that ended so.
+ExitStatus status_of(OutcomeKind outcome);
+
+/// Prints a text without control characters, for it may come from files, paths and arguments. A
+/// failure is left to the stream: main() checks stdout once.
+void print_to(std::FILE* stream, const std::string& text);
+
+template <class... Args>
+void print(fmt::format_string<Args...> format, Args&&... args) {
+  print_to(stdout, fmt::format(format, std::forward<Args>(args)...));
+}
+template <class... Args>
+void print_error(fmt::format_string<Args...> format, Args&&... args) {
+  print_to(stderr, fmt::format(format, std::forward<Args>(args)...));
+}
 
 /// The options of every command that reads a case.
 struct CaseOptions {
@@ -61,6 +84,22 @@ bool write_after_printing(OutputDirectory& directory,
 
 /// Prints on stderr what the figures of a run leave out, and how a run ended that did not complete.
 void print_figure_notes(const FinishedRun& run);
+
+/// The option --jobs of commands that run several simulations.
+struct JobsOption {
+  Jobs given = 0;  ///< 0: not given
+
+  void add_to(CLI::App& command);
+  Jobs number() const;
+};
+
+/// A time above 0 with its unit, in seconds: "1us", "0.5 ms", "20ns", "2e-7s". Nothing for any
+/// other text; a number alone has no unit.
+std::optional<double> seconds_of(const std::string& text);
+
+/// An option that takes such a time.
+CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,
+                             const std::string& meaning);
 
 /// A check of an option that is a time in seconds.
 std::string positive_seconds(const std::string& text);

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "interrupt.h"
-#include "print.h"
-#include "status_line.h"
+#include "progress.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "print.h"
+#include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
@@ -120,19 +120,12 @@ int run_command_line(int argc, char** argv) {
                            "Print the versions of program and libraries");
   program.require_subcommand(1);
   program.failure_message(usage_error);
-  app::add_run(program, status);
-  app::add_compare(program, status);
-  app::add_work_precision(program, status);
-  app::add_stability(program, status);
-  app::add_plan(program, status);
-  app::add_sensitivity(program, status);
-  app::add_explain(program, status);
-  app::add_plot(program, status);
-  app::add_report(program, status);
-  app::add_methods(program, status);
-  app::add_keys(program, status);
-  app::add_columns(program, status);
-
+  for (const auto add :
+       {app::add_run, app::add_compare, app::add_work_precision, app::add_stability, app::add_plan,
+        app::add_sensitivity, app::add_explain, app::add_plot, app::add_report, app::add_methods,
+        app::add_keys, app::add_columns}) {
+    add(program, status);
+  }
   if (const auto message = unknown_command(program, argc, argv)) {
     app::print_error("subimpact: {}\n", *message);
     return app::refused;
@@ -141,21 +134,12 @@ int run_command_line(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return checked_output(program.exit(error) == 0 ? app::done : app::refused);
-  } catch (const CaseFileError& error) {
-    app::print_error("{}\n", error.what());
-    return app::refused;
-  } catch (const ResultsError& error) {
-    app::print_error("{}\n", error.what());
-    return app::refused;
-  } catch (const GnuplotMissing& error) {
-    app::print_error("subimpact: {}\n", error.what());
-    return app::refused;
-  } catch (const FigureError& error) {
-    app::print_error("subimpact: {}\n", error.what());
-    return app::failed;
-  } catch (const OutputError& error) {
-    app::print_error("subimpact: {}\n", error.what());
-    return app::refused;
+  } catch (const Error& error) {
+    const bool names_file = error.kind == ErrorKind::case_file || error.kind == ErrorKind::results;
+    app::print_error("{}{}\n", names_file ? "" : "subimpact: ", error.what());
+    const bool has_failed =
+        error.kind == ErrorKind::figure || error.kind == ErrorKind::invalid_case;
+    return has_failed ? app::failed : app::refused;
   } catch (const std::bad_alloc&) {
     app::print_error(
         "subimpact: the memory does not suffice; `subimpact explain` shows what a case takes: use "

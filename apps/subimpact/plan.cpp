@@ -6,14 +6,10 @@
 #include <string>
 
 #include "commands.h"
-#include "interrupt.h"
-#include "jobs_option.h"
-#include "print.h"
 #include "progress.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/plan_chart.h"
-#include "time_option.h"
 
 namespace subimpact::app {
 namespace {

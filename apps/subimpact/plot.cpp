@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "commands.h"
-#include "print.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"

@@ -3,28 +3,75 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
+#include <csignal>
 #include <cstdio>
 
+#include "io/printable.h"
 #include "subimpact/io/report.h"
 
 namespace subimpact::app {
 namespace {
 
+// Those by which users, batch systems and limits of the shell end programs.
+constexpr std::array listened_to = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,  SIGXCPU,
+                                    SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM};
+
+volatile std::sig_atomic_t first_signal = 0;
+volatile std::sig_atomic_t is_held_back = 0;
+
+void note_signal(int number) {
+  const bool again = first_signal != 0 && number == SIGINT;
+  if (first_signal == 0) first_signal = number;
+  if (!again || is_held_back != 0) return;
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+void set_handler(int number, void (*handler)(int)) {
+  struct sigaction present {};
+  sigaction(number, nullptr, &present);
+  if (present.sa_handler == SIG_IGN) return;
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, nullptr);
+}
+
 constexpr std::chrono::milliseconds shortest_pause{100};
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)
-    : listener_(listener),
-      end_time_(end_time),
-      shown_(!quiet && isatty(STDERR_FILENO) != 0),
-      last_(std::chrono::steady_clock::now()) {}
+InterruptListener::InterruptListener() {
+  first_signal = 0;
+  is_held_back = 0;
+  for (const int number : listened_to) set_handler(number, note_signal);
+}
 
-ProgressDisplay::~ProgressDisplay() { clear_line(); }
+InterruptListener::~InterruptListener() {
+  for (const int number : listened_to) set_handler(number, SIG_DFL);
+}
+
+int InterruptListener::signal() const { return first_signal; }
+
+void InterruptListener::hold_back() { is_held_back = 1; }
+
+void StatusLine::write(const std::string& text) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  is_dirty_ = true;
+  fmt::print(stderr, "\r\033[K{}", printable(text));
+  std::fflush(stderr);
+}
+
+void StatusLine::clear() {
+  if (is_dirty_) fmt::print(stderr, "\r\033[K");
+  is_dirty_ = false;
+}
 
 void ProgressDisplay::show_run(const std::string& description) {
   run_ = description + ": ";
-  if (shown_) show(0.0);
+  show(0.0);
 }
 
 void ProgressDisplay::show_run(const std::string& description, double end_time) {
@@ -33,25 +80,18 @@ void ProgressDisplay::show_run(const std::string& description, double end_time) 
 }
 
 void ProgressDisplay::show(double time) {
-  line_is_dirty_ = true;
-  fmt::print(stderr, "\r\033[K{}{} of {} ({:.0f} %)", run_, duration_text(time),
-             duration_text(end_time_), 100.0 * time / end_time_);
-  std::fflush(stderr);
+  if (quiet_) return;
+  line_.write(fmt::format("{}{} of {} ({:.0f} %)", run_, duration_text(time),
+                          duration_text(end_time_), 100.0 * time / end_time_));
 }
 
 bool ProgressDisplay::operator()(double time) {
   const auto now = std::chrono::steady_clock::now();
-  if (shown_ && now - last_ >= shortest_pause) {
+  if (now - last_ >= shortest_pause) {
     last_ = now;
     show(time);
   }
   return !listener_.interrupted();
-}
-
-void ProgressDisplay::clear_line() {
-  if (!line_is_dirty_) return;
-  fmt::print(stderr, "\r\033[K");
-  line_is_dirty_ = false;
 }
 
 }  // namespace subimpact::app

@@ -1,19 +1,55 @@
 #pragma once
 
+/// What a command shows while it runs, and the signals that ask it to end.
+
 #include <chrono>
 #include <string>
 
-#include "interrupt.h"
-
 namespace subimpact::app {
 
-/// Shows how far a run has come on stderr, if that is a terminal.
+/// Listens while it exists for the signals that ask a program to end: Ctrl-C (SIGINT), SIGTERM,
+/// SIGHUP and SIGXCPU. Only one listener may exist at a time. A second Ctrl-C ends the program at
+/// once, unless hold_back() was called; a second signal of another kind changes nothing. A signal
+/// that was ignored when the program began (nohup) stays ignored.
+class InterruptListener {
+ public:
+  InterruptListener();
+  ~InterruptListener();
+  InterruptListener(const InterruptListener&) = delete;
+  InterruptListener& operator=(const InterruptListener&) = delete;
+
+  bool interrupted() const { return signal() != 0; }
+  /// The number of the signal that came first; 0: none came.
+  int signal() const;
+  /// The exit status by which shells report it.
+  int exit_status() const { return 128 + signal(); }
+
+  /// From here on a second Ctrl-C does not end the program: results are being written.
+  void hold_back();
+};
+
+/// What is running, on one line of stderr, if that is a terminal.
+class StatusLine {
+ public:
+  StatusLine() = default;
+  ~StatusLine() { clear(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  /// The text with three dots: what is going on.
+  void show(const std::string& text) { write(text + " ..."); }
+  void write(const std::string& text);
+  void clear();
+
+ private:
+  bool is_dirty_ = false;
+};
+
+/// How far a run has come, on a status line.
 class ProgressDisplay {
  public:
-  ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener);
-  ~ProgressDisplay();
-  ProgressDisplay(const ProgressDisplay&) = delete;
-  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+  ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)
+      : listener_(listener), end_time_(end_time), quiet_(quiet) {}
 
   /// What is running, shown before the time.
   void show_run(const std::string& description);
@@ -23,15 +59,14 @@ class ProgressDisplay {
   bool operator()(double time);
 
  private:
-  void clear_line();
   void show(double time);
 
   const InterruptListener& listener_;
   double end_time_;
+  bool quiet_;
   std::string run_;
-  bool shown_;
-  bool line_is_dirty_ = false;
-  std::chrono::steady_clock::time_point last_;
+  StatusLine line_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace subimpact::app

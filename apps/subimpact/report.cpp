@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "commands.h"
-#include "print.h"
 #include "subimpact/io/read_sweep.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/comparison_report.h"

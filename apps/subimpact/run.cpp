@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,16 +10,12 @@
 #include <vector>
 
 #include "commands.h"
-#include "jobs_option.h"
-#include "print.h"
 #include "progress.h"
-#include "status_line.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
-#include "time_option.h"
 
 namespace subimpact::app {
 namespace {
@@ -33,27 +28,6 @@ struct RunOptions {
   JobsOption jobs;
   bool quiet = false;
 };
-
-std::filesystem::path output_directory(const RunOptions& options) {
-  if (!options.directory.empty()) return options.directory;
-  return std::filesystem::path(options.input.file).stem().string() + "-results";
-}
-
-int exit_status(OutcomeKind kind) {
-  switch (kind) {
-    case OutcomeKind::completed:
-    case OutcomeKind::stopped:
-      return done;
-    case OutcomeKind::left_validity:
-      return refused;
-    case OutcomeKind::inaccurate:
-    case OutcomeKind::unstable:
-    case OutcomeKind::chattering:
-    case OutcomeKind::solver_failed:
-      return failed;
-  }
-  return failed;
-}
 
 // Nothing: those that a run has by default.
 std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOptions& options) {
@@ -136,7 +110,9 @@ int run(const RunOptions& options) {
   error_bars_of(loaded, options);
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = resolve_loaded(loaded);
-  ResultWriter files(output_directory(options), loaded.value);
+  ResultWriter files(
+      options.directory.empty() ? options.input.directory_with("-results") : options.directory,
+      loaded.value);
   const std::vector<std::string> doubts = doubtful_units(loaded.value);
   if (!options.quiet) print_notes(loaded);
   print_warnings(doubts);
@@ -167,7 +143,7 @@ int run(const RunOptions& options) {
   const bool lacks_scatter = !result.predictability && !scattering_keys(input).empty();
   const bool is_cut_short =
       result.outcome.kind == OutcomeKind::stopped || (lacks_scatter && listener.interrupted());
-  return is_cut_short ? listener.exit_status() : exit_status(result.outcome.kind);
+  return is_cut_short ? listener.exit_status() : status_of(result.outcome.kind);
 }
 
 }  // namespace

@@ -7,10 +7,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "interrupt.h"
-#include "jobs_option.h"
-#include "print.h"
-#include "status_line.h"
+#include "progress.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/output_directory.h"
@@ -70,11 +67,9 @@ int run_sensitivity(const SensitivityCommand& command) {
   });
   status.clear();
   listener.hold_back();
-  const OutcomeKind outcome = study.base.outcome.kind;
-  const bool failed_base = outcome != OutcomeKind::completed && outcome != OutcomeKind::stopped;
-  if (failed_base) {
+  if (const ExitStatus base = status_of(study.base.outcome.kind); base != done) {
     print_error("subimpact: {}\n", failure_message(study.input, study.base));
-    return outcome == OutcomeKind::left_validity ? refused : failed;
+    return base;
   }
   if (study.keys.empty() && study.interrupted) {
     print_error("subimpact: interrupted before the runs of a key had ended; nothing is written\n");

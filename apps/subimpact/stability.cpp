@@ -1,5 +1,4 @@
 #include "subimpact/report/stability.h"
-#include "print.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +9,7 @@
 #include <optional>
 
 #include "commands.h"
-#include "interrupt.h"
-#include "status_line.h"
+#include "progress.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/work_precision.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "case/other_names.h"
+#include "case/slips.h"
 #include "commands.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/method_tables.h"

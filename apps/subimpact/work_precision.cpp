@@ -1,5 +1,4 @@
 #include "subimpact/io/work_precision.h"
-#include "print.h"
 #include "subimpact/report/work_precision_chart.h"
 
 #include <fmt/format.h>
@@ -10,8 +9,7 @@
 
 #include "case/counted.h"
 #include "commands.h"
-#include "interrupt.h"
-#include "status_line.h"
+#include "progress.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/results.h"
 

@@ -7,7 +7,6 @@
 #include "bindings.h"
 #include "subimpact/case/cost.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/io/case_identity.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/companion.h"

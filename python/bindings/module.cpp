@@ -1,8 +1,6 @@
 #include <exception>
 
 #include "bindings.h"
-#include "subimpact/io/output_directory.h"
-#include "subimpact/io/read_results.h"
 #include "subimpact/io/versions.h"
 
 namespace subimpact::python {
@@ -19,12 +17,10 @@ void translate(std::exception_ptr failure) {
     if (failure) std::rethrow_exception(failure);
   } catch (const InvalidCase& error) {
     raise("CaseError", error.what(), error.key);
-  } catch (const CaseFileError& error) {
-    raise("CaseError", error.what());
-  } catch (const ResultsError& error) {
-    raise("ResultsError", error.what());
-  } catch (const OutputError& error) {
-    raise("OutputError", error.what());
+  } catch (const Error& error) {
+    const bool is_case = error.kind == ErrorKind::case_file;
+    const bool is_results = error.kind == ErrorKind::results;
+    raise(is_case ? "CaseError" : is_results ? "ResultsError" : "OutputError", error.what());
   }
 }
 

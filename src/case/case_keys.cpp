@@ -10,11 +10,8 @@
 #include <utility>
 
 #include "case/case_choices.h"
-#include "case/contact_checks.h"
-#include "case/meshes.h"
-#include "case/scale_checks.h"
+#include "case/shifted_case.h"
 #include "simulate/methods.h"
-#include "subimpact/case/doubtful_units.h"
 #include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
@@ -208,14 +205,7 @@ std::string default_step() {
                      default_part_of_critical);
 }
 
-// --- scatter
-// --------------------------------------------------------------------------------------
-
-bool is_number_of_scene(const CaseKey& key) {
-  const std::string table = key.table().substr(0, key.table().find('.'));
-  return key.type == KeyType::number &&
-         (table == "beam" || table == "striker" || table == "contact");
-}
+// --- scatter -------------------------------------------------------------------------------------
 
 CaseKey scatter_row(const CaseKey& of) {
   CaseKey key;
@@ -333,98 +323,6 @@ std::vector<CaseKey> make_case_keys() {
 // clang-format on
 #undef AT
 
-// --- checks across keys -------------------------------------------------------------------------
-
-// A row takes some 345 bytes in the file.
-constexpr double most_history_rows = 5e6;
-constexpr double most_shape_rows = 2e7;
-
-// "; time.end is 8 s, ...", if its unit is doubtful.
-std::string doubt_of_end_time(const Case& input) {
-  for (const std::string& doubt : doubtful_units(input)) {
-    if (doubt.starts_with("time.end ")) return "; " + doubt;
-  }
-  return {};
-}
-
-void check_history_size(const Case& input) {
-  const double rows = input.end_time / input.output.interval;
-  if (input.output.interval == 0.0 || rows <= most_history_rows) return;
-  throw InvalidCase(
-      "output.interval",
-      fmt::format(
-          "is {} s, which gives {:.2g} history rows up to time.end = {} s; allowed: at most "
-          "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
-          input.output.interval, rows, input.end_time, most_history_rows,
-          input.end_time / most_history_rows) +
-          doubt_of_end_time(input));
-}
-
-void check_sections(const Case& input) {
-  if (input.output.interval > 0.0) return;
-  const auto check_list = [](const char* key, const std::vector<double>& list) {
-    if (list.empty()) return;
-    throw InvalidCase(key,
-                      "is given, but output.interval = 0 keeps no rows of them; leave it out, or "
-                      "set an output.interval above 0");
-  };
-  check_list("output.sections", input.output.sections);
-  check_list("output.points", input.output.points);
-}
-
-void check_shapes(const Case& input) {
-  const double interval = input.output.shapes.value_or(0.0);
-  if (interval == 0.0) return;
-  const double rows = input.end_time / interval * input.output.shape_points;
-  if (rows <= most_shape_rows) return;
-  throw InvalidCase(
-      "output.shapes",
-      fmt::format("is {} s, which gives {:.2g} rows up to time.end = {} s, up to {} per shape; "
-                  "allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 for none; use a longer "
-                  "interval or a smaller output.shape_points",
-                  interval, rows, input.end_time, input.output.shape_points, most_shape_rows,
-                  input.end_time * input.output.shape_points / most_shape_rows) +
-          doubt_of_end_time(input));
-}
-
-void check_shear(const Case& input) {
-  const Beam& beam = input.scene.beam;
-  const std::optional<double>& other = input.scene.contact.beam_poisson;
-  if (beam.poisson && other && *beam.poisson != *other) {
-    throw InvalidCase(
-        "contact.beam_poisson",
-        fmt::format("is {}, but beam.poisson is {}; the beam has one Poisson's ratio: "
-                    "leave contact.beam_poisson out",
-                    *other, *beam.poisson));
-  }
-  if (beam.shears() && !beam.poisson) {
-    throw InvalidCase("beam.poisson",
-                      "is missing, and beam.theory = \"timoshenko\" needs it for the shear modulus "
-                      "E/(2 (1 + nu)); allowed: from 0 to 0.5; give it (metals: 0.25 to 0.35)");
-  }
-}
-
-// Where the scene is symmetric, first derivatives show nothing of a strike that is off its centre.
-void check_scatter(const Case& input) {
-  const auto scatter = input.scatter.find("striker.position");
-  const auto& ends = input.scene.beam.ends;
-  const bool is_symmetric = input.scene.striker.position == 0.5 && ends[0] == ends[1];
-  if (scatter == input.scatter.end() || scatter->second == 0.0 || !is_symmetric) return;
-  throw InvalidCase("scatter.striker.position",
-                    fmt::format("is {}, but the scene is symmetric about striker.position = 0.5, "
-                                "and standard deviations follow from first derivatives, which are "
-                                "0 or do not exist there; allowed: 0; leave it out",
-                                scatter->second));
-}
-
-void check_gaps(const Case& input) {
-  if (input.output.subzone_gap <= input.output.zone_gap) return;
-  throw InvalidCase("output.subzone_gap",
-                    fmt::format("is {}, above output.zone_gap = {}, but sub-zones divide zones; "
-                                "allowed: above 0, up to output.zone_gap; reduce it",
-                                input.output.subzone_gap, input.output.zone_gap));
-}
-
 }  // namespace
 
 bool Limits::hold(double x) const {
@@ -450,23 +348,6 @@ const CaseKey* find_case_key(std::string_view name) {
 void assign(Case& target, const CaseKey& key, const KeyValue& value) {
   if (const auto problem = problem_with(key, value)) throw InvalidCase(key.name, *problem);
   key.set(target, value);
-}
-
-void check(const Case& input) {
-  for (const CaseKey& key : case_keys()) {
-    const std::optional<KeyValue> value = key.get(input);
-    if (!value) continue;
-    if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
-  }
-  check_scales(input);
-  check_contact(input);
-  if (!input.parts.mesh) check_mesh(input);
-  check_history_size(input);
-  check_shear(input);
-  check_gaps(input);
-  check_sections(input);
-  check_shapes(input);
-  check_scatter(input);
 }
 
 }  // namespace subimpact

@@ -7,6 +7,7 @@
 #include <initializer_list>
 
 #include "model/flexural_frequencies.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -55,36 +56,28 @@ std::string proposal(double value, std::initializer_list<OtherUnit> units, Usual
   return text;
 }
 
-std::string given(const char* key, double value, const char* unit) {
-  return fmt::format("{} is {:.6g} {}", key, value, unit);
-}
-
 class Doubts {
  public:
   explicit Doubts(const Case& input)
-      : case_(input), beam_(input.scene.beam), striker_(input.scene.striker) {}
-
-  std::vector<std::string> all() {
-    if (case_.model.mesh != MeshKind::rigid) {  // a rigid body may have any shape and mass
+      : case_(input), beam_(input.scene.beam), is_rigid_(input.model.mesh == MeshKind::rigid) {
+    if (!is_rigid_) {  // a rigid body may have any shape and mass
       lengths();
       times();
     }
-    density();
-    modulus("beam.youngs_modulus", beam_.youngs_modulus);
-    if (const auto& E = case_.scene.contact.striker_modulus; E && std::isfinite(*E)) {
-      modulus("contact.striker_modulus", *E);
-    }
-    yield_stress();
-    mass();
-    velocity();
-    return std::move(sentences_);
+    materials();
+    striker();
   }
 
- private:
-  void add(std::string sentence) { sentences_.push_back(std::move(sentence)); }
+  std::vector<std::string> sentences;
 
-  void add_length(const char* key, double value, const std::string& reason) {
-    add(given(key, value, "m") + reason + proposal(value, {{"mm", 1e-3}}, {}));
+ private:
+  // "beam.length is 201 m", the reason and what to write if one of the units was meant.
+  void doubt(const char* name, const std::string& reason, std::initializer_list<OtherUnit> units,
+             UsualRange usual = {}) {
+    const CaseKey& key = *find_case_key(name);
+    const double value = std::get<double>(*key.get(case_));
+    sentences.push_back(fmt::format("{} is {:.6g} {}{}{}", name, value, key.unit, reason,
+                                    proposal(value, units, usual)));
   }
 
   // A length that is out of proportion to another length of the beam, or doubtful because all
@@ -92,10 +85,10 @@ class Doubts {
   void length(const char* key, double value, bool out_of_proportion, double other,
               const char* other_name, bool because_of_all) {
     if (out_of_proportion) {
-      add_length(key, value,
-                 fmt::format(", {:.3g} times the beam's {}", value / other, other_name));
+      doubt(key, fmt::format(", {:.3g} times the beam's {}", value / other, other_name),
+            {{"mm", 1e-3}});
     } else if (because_of_all) {
-      add_length(key, value, ": " + size_and_mass());
+      doubt(key, ": " + size_and_mass(), {{"mm", 1e-3}});
     }
   }
 
@@ -125,92 +118,78 @@ class Doubts {
     length("beam.length", l, slender, h, "thickness", large || l > longest);
     length("beam.width", b, wide, l, "length", large || doubtful_beside(b));
     length("beam.thickness", h, deep, l, "length", large || doubtful_beside(h));
-    const double nose = striker_.nose_radius.value_or(0.0);
+    const double nose = case_.scene.striker.nose_radius.value_or(0.0);
     const bool blunt = nose > largest_nose * l && nose > one_metre;
-    if (blunt || !doubtful_beside(nose)) {
-      length("striker.nose_radius", nose, blunt, l, "length", false);
-    } else {
-      add_length("striker.nose_radius", nose, ", like the lengths of the beam");
+    length("striker.nose_radius", nose, blunt, l, "length", false);
+    if (!blunt && doubtful_beside(nose)) {
+      doubt("striker.nose_radius", ", like the lengths of the beam", {{"mm", 1e-3}});
     }
-  }
-
-  void longer_than_run(const char* key, const std::optional<double>& time) {
-    const double end = case_.end_time;
-    if (!time || *time <= end) return;
-    add(given(key, *time, "s") + ", longer than the whole run" +
-        proposal(*time, {{"ms", 1e-3}, {"us", 1e-6}}, {0.0, 1e-2 * end}));
   }
 
   void times() {
     const double end = case_.end_time;
+    const auto longer_than_run = [&](const char* key, const std::optional<double>& time) {
+      if (!time || *time <= end) return;
+      doubt(key, ", longer than the whole run", {{"ms", 1e-3}, {"us", 1e-6}}, {0.0, 1e-2 * end});
+    };
     longer_than_run("solver.step", case_.solver.step);
     longer_than_run("accuracy.event_times", case_.accuracy.event_times);
-    if (case_.stop != StopRule::end_time) return;  // its end time is only a limit
-    if (end <= long_run) return;
+    if (case_.stop != StopRule::end_time || end <= long_run) return;  // only a limit, or short
     const double period = 2.0 * M_PI / flexural_frequencies(beam_, 1).front();
     if (end <= most_periods * period) return;
-    add(given("time.end", end, "s") +
-        fmt::format(", {:.3g} periods of the beam's slowest vibration, {:.3g} s each", end / period,
-                    period) +
-        proposal(end, {{"ms", 1e-3}, {"us", 1e-6}}, {1e-2 * period, most_periods * period}));
-  }
-
-  void density() {
-    const double rho = beam_.density;
-    const bool light = rho < lightest;
-    const bool heavy = rho > heaviest && case_.model.mesh != MeshKind::rigid;
-    if (!light && !heavy) return;
-    add(given("beam.density", rho, "kg/m3") +
-        (light ? ", lighter than packing foam (some 25 kg/m3)"
-               : ", heavier than osmium (22600 kg/m3)") +
-        proposal(rho, {{"g/cm3", 1e3}, {"t/mm3", 1e12}, {"g/m3", 1e-3}}, {50.0, heaviest}));
+    doubt("time.end",
+          fmt::format(", {:.3g} periods of the beam's slowest vibration, {:.3g} s each",
+                      end / period, period),
+          {{"ms", 1e-3}, {"us", 1e-6}}, {1e-2 * period, most_periods * period});
   }
 
   void modulus(const char* key, double E) {
     if (E >= softest && E <= stiffest) return;
-    add(given(key, E, "Pa") +
-        (E < softest ? ", softer than soft rubber (some 1e6 Pa)"
-                     : ", stiffer than diamond (1.2e12 Pa)") +
-        proposal(E, {{"MPa", 1e6}, {"GPa", 1e9}, {"mPa", 1e-3}}, {1e8, stiffest}));
+    doubt(key,
+          E < softest ? ", softer than soft rubber (some 1e6 Pa)"
+                      : ", stiffer than diamond (1.2e12 Pa)",
+          {{"MPa", 1e6}, {"GPa", 1e9}, {"mPa", 1e-3}}, {1e8, stiffest});
   }
 
-  void yield_stress() {
-    const double Y = beam_.yield_stress;
-    const bool by_strain =
-        beam_.youngs_modulus <= stiffest && Y < smallest_yield * beam_.youngs_modulus;
-    if (Y >= weakest && !by_strain) return;
-    add(given("beam.yield_stress", Y, "Pa") +
-        (Y < weakest ? std::string(", far weaker than lead (some 1e7 Pa)")
-                     : fmt::format(", reached at a strain of {:.1e} (metals: some 1e-3)",
-                                   Y / beam_.youngs_modulus)) +
-        proposal(Y, {{"MPa", 1e6}, {"GPa", 1e9}}, {1e6, 2e10}));
+  void materials() {
+    const double rho = beam_.density, E = beam_.youngs_modulus, Y = beam_.yield_stress;
+    if (rho < lightest || (rho > heaviest && !is_rigid_)) {
+      doubt("beam.density",
+            rho < lightest ? ", lighter than packing foam (some 25 kg/m3)"
+                           : ", heavier than osmium (22600 kg/m3)",
+            {{"g/cm3", 1e3}, {"t/mm3", 1e12}, {"g/m3", 1e-3}}, {50.0, heaviest});
+    }
+    modulus("beam.youngs_modulus", E);
+    const double striker = case_.scene.contact.striker_modulus.value_or(INFINITY);
+    if (std::isfinite(striker)) modulus("contact.striker_modulus", striker);
+    if (Y < weakest || (E <= stiffest && Y < smallest_yield * E)) {
+      doubt("beam.yield_stress",
+            Y < weakest ? std::string(", far weaker than lead (some 1e7 Pa)")
+                        : fmt::format(", reached at a strain of {:.1e} (metals: some 1e-3)", Y / E),
+            {{"MPa", 1e6}, {"GPa", 1e9}}, {1e6, 2e10});
+    }
   }
 
-  void mass() {
-    const double m = striker_.mass;
-    if (case_.model.mesh == MeshKind::rigid) return;
-    if (m <= heavy_striker || m > heaviest_in_grams) return;
-    if (m <= most_beam_masses * beam_.mass()) return;
-    add(given("striker.mass", m, "kg") +
-        fmt::format(", {:.3g} times the beam's {:.3g} kg", m / beam_.mass(), beam_.mass()) +
-        proposal(m, {{"g", 1e-3}}, {}));
-  }
-
-  void velocity() {
-    const double v = striker_.velocity;
-    if (v <= fastest) return;
-    add(given("striker.velocity", v, "m/s") + ", faster than a rifle bullet" +
-        proposal(v, {{"mm/s", 1e-3}}, {}));
+  void striker() {
+    const double m = case_.scene.striker.mass;
+    const bool is_heavy = m > std::max(heavy_striker, most_beam_masses * beam_.mass());
+    if (!is_rigid_ && is_heavy && m <= heaviest_in_grams) {
+      doubt("striker.mass",
+            fmt::format(", {:.3g} times the beam's {:.3g} kg", m / beam_.mass(), beam_.mass()),
+            {{"g", 1e-3}});
+    }
+    if (case_.scene.striker.velocity > fastest) {
+      doubt("striker.velocity", ", faster than a rifle bullet", {{"mm/s", 1e-3}});
+    }
   }
 
   const Case& case_;
   const Beam& beam_;
-  const Striker& striker_;
-  std::vector<std::string> sentences_;
+  bool is_rigid_;
 };
 
 }  // namespace
 
-std::vector<std::string> doubtful_units(const Case& input) { return Doubts(input).all(); }
+std::vector<std::string> doubtful_units(const Case& input) { return Doubts(input).sentences; }
 
 }  // namespace subimpact

@@ -7,10 +7,9 @@
 #include <ranges>
 #include <string_view>
 
-#include "case/contact_checks.h"
+#include "case/checks.h"
 #include "case/meshes.h"
 #include "case/problem.h"
-#include "case/sections.h"
 #include "simulate/methods.h"
 #include "subimpact/case/case_keys.h"
 
@@ -20,14 +19,14 @@ namespace {
 // --- what makes a key idle -----------------------------------------------------------------------
 
 bool is_rigid(const Case& c) { return !descriptor_of(c.model.mesh).bends; }
-bool is_not_layered(const Case& c) { return !descriptor_of(c.model.section).has_layers; }
 bool has_elastic_sections(const Case& c) { return c.model.section == SectionKind::elastic; }
 bool never_yields(const Case& c) { return std::isinf(c.scene.beam.yield_stress); }
-bool is_equal_mesh(const Case& c) { return c.model.strike_refinement == 1.0; }
+bool does_not_shear(const Case& c) { return !c.scene.beam.shears(); }
 
 bool is_central(const Case& c) {
   return descriptor_of(c.solver.method).steps == MethodDescriptor::Steps::fixed;
 }
+bool is_not_central(const Case& c) { return !is_central(c); }
 bool has_fixed_step(const Case& c) { return c.solver.step.has_value(); }
 bool interpolates_events(const Case& c) { return events_of(c) == EventHandling::interpolated; }
 bool central_interpolates(const Case& c) { return is_central(c) && !c.solver.events; }
@@ -35,27 +34,15 @@ bool central_interpolates(const Case& c) { return is_central(c) && !c.solver.eve
 bool locates_reversals(const Case& c) {
   return may_yield(c) && !interpolates_events(c) && reversals_of(c) == ReversalHandling::located;
 }
-bool central_needs_no_tolerance(const Case& c) { return is_central(c) && !locates_reversals(c); }
-// Implicit methods solve their equations to the tolerance, whatever the step.
-bool fixed_step_needs_no_tolerance(const Case& c) {
-  return has_fixed_step(c) && !descriptor_of(c.solver.method).implicit && !locates_reversals(c);
-}
-bool is_not_sundials(const Case& c) { return !descriptor_of(c.solver.method).sundials; }
-bool is_not_central(const Case& c) { return !is_central(c); }
+
 constexpr const char* nose_radius = "striker.nose_radius";
 bool law_ignores_the_nose(const Case& c) {
-  const auto ways = built_in_contact_law(c.scene.contact.kind).ways;
-  return std::none_of(ways.begin(), ways.end(),
-                      [](const ContactConstants& way) { return uses_key(way, nose_radius); });
+  return std::ranges::none_of(
+      built_in_contact_law(c.scene.contact.kind).ways,
+      [](const ContactConstants& way) { return uses_key(way, nose_radius); });
 }
-bool stiffness_replaces_the_nose(const Case& c) {
-  return !uses_key(constants_given(c, built_in_contact_law(c.scene.contact.kind)), nose_radius);
-}
-
-bool uses_poisson(const Case& c) {
-  return c.scene.beam.shears() ||
-         uses_key(constants_given(c, built_in_contact_law(c.scene.contact.kind)),
-                  "contact.beam_poisson");
+bool contact_uses(const Case& c, const char* key) {
+  return uses_key(constants_given(c, built_in_contact_law(c.scene.contact.kind)), key);
 }
 
 /// A key that is idle where `is_idle` holds, because of the value of the key `because_of`.
@@ -67,23 +54,32 @@ struct IdleKey {
 
 // The first row that holds gives the reason.
 constexpr IdleKey idle_keys[] = {
-    {"beam.poisson", "beam.theory", [](const Case& c) { return !uses_poisson(c); }},
-    {"beam.shear_coefficient", "beam.theory", [](const Case& c) { return !c.scene.beam.shears(); }},
+    {"beam.poisson", "beam.theory",
+     [](const Case& c) { return does_not_shear(c) && !contact_uses(c, "contact.beam_poisson"); }},
+    {"beam.shear_coefficient", "beam.theory", does_not_shear},
     {nose_radius, "contact.law", law_ignores_the_nose},
-    {nose_radius, "contact.stiffness", stiffness_replaces_the_nose},
+    {nose_radius, "contact.stiffness", [](const Case& c) { return !contact_uses(c, nose_radius); }},
     {"beam.damping.ratio", "model.mesh", is_rigid},
     {"beam.damping.stiffness", "model.mesh", is_rigid},
     {"model.hinges", "model.section", has_elastic_sections},
     {"model.hinges", "beam.yield_stress", never_yields},
-    {"model.refined_length", "model.strike_refinement", is_equal_mesh},
+    {"model.refined_length", "model.strike_refinement",
+     [](const Case& c) { return c.model.strike_refinement == 1.0; }},
     {"model.section", "model.mesh", is_rigid},
     {"model.section", "beam.yield_stress",
      [](const Case& c) { return never_yields(c) && !has_elastic_sections(c); }},
     {"model.layers", "model.mesh", is_rigid},
-    {"model.layers", "model.section", is_not_layered},
+    {"model.layers", "model.section",
+     [](const Case& c) { return !descriptor_of(c.model.section).has_layers; }},
     {"model.layers", "beam.yield_stress", never_yields},
-    {"solver.rtol", "solver.method", central_needs_no_tolerance},
-    {"solver.rtol", "solver.step", fixed_step_needs_no_tolerance},
+    {"solver.rtol", "solver.method",
+     [](const Case& c) { return is_central(c) && !locates_reversals(c); }},
+    // Implicit methods solve their equations to the tolerance, whatever the step.
+    {"solver.rtol", "solver.step",
+     [](const Case& c) {
+       return has_fixed_step(c) && !descriptor_of(c.solver.method).implicit &&
+              !locates_reversals(c);
+     }},
     {"solver.max_step", "solver.method", is_central},
     {"solver.max_step", "solver.step", has_fixed_step},
     {"solver.reversals", "model.mesh", is_rigid},
@@ -93,7 +89,8 @@ constexpr IdleKey idle_keys[] = {
     {"solver.reversals", "solver.events", interpolates_events},
     {"study.pair_detection", "solver.method", central_interpolates},
     {"study.pair_detection", "solver.events", interpolates_events},
-    {"study.vector_operations", "solver.method", is_not_sundials},
+    {"study.vector_operations", "solver.method",
+     [](const Case& c) { return !descriptor_of(c.solver.method).sundials; }},
     {"study.beyond_critical", "solver.method", is_not_central},
     {"study.striker_update", "solver.method", is_not_central},
 };
@@ -104,19 +101,15 @@ bool is_given(const GivenKeys& given, const std::string& name) {
   return given.in_file.contains(name) || given.in_settings.contains(name);
 }
 
-// The key because of which a scatter has no effect: one that is not given, 0 or infinite, or that
-// has no effect itself.
-const char* reason_of(const CaseKey& key, const Case& input);
-const char* reason_of_scatter(const CaseKey& key, const Case& input) {
-  const CaseKey* of = find_case_key(std::string_view(key.name).substr(scatter_table.size()));
-  const std::optional<KeyValue> value = of->get(input);
-  const double number = value ? std::get<double>(*value) : 0.0;
-  return number == 0.0 || std::isinf(number) ? of->name.c_str() : reason_of(*of, input);
-}
-
-// The key because of which another one has no effect; nullptr if it has one.
+// The key because of which another one has no effect; nullptr if it has one. A scatter has none if
+// its key is not given, 0 or infinite, or has no effect itself.
 const char* reason_of(const CaseKey& key, const Case& input) {
-  if (key.name.starts_with(scatter_table)) return reason_of_scatter(key, input);
+  if (key.name.starts_with(scatter_table)) {
+    const CaseKey* of = find_case_key(std::string_view(key.name).substr(scatter_table.size()));
+    const std::optional<KeyValue> value = of->get(input);
+    const double number = value ? std::get<double>(*value) : 0.0;
+    return number == 0.0 || std::isinf(number) ? of->name.c_str() : reason_of(*of, input);
+  }
   const bool of_some_mesh = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
     return std::ranges::find(mesh.keys, key.name) != mesh.keys.end();
   });

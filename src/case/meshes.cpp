@@ -31,6 +31,32 @@ CellMesh::Spacing spacing_of(const Case& input) {
                                                     : CellMesh::Spacing::cells;
 }
 
+// Where a mesh of `count` equal parts cannot be struck.
+[[noreturn]] void refuse_position(const Case& input, const char* why, int count, const char* parts,
+                                  const char* also) {
+  const double nearest = 0.5 / count;
+  throw InvalidCase("striker.position",
+                    fmt::format("is {}, {}; allowed with {} {}: from {:.6g} to {:.6g}{}; move the "
+                                "strike inwards or use more {}",
+                                input.scene.striker.position, why, count, parts, nearest,
+                                1.0 - nearest, also, parts));
+}
+
+bool strikes_end(const Case& input) {
+  return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
+}
+
+// Of a strike at an end.
+bool strikes_support(const Case& input) {
+  const int end = input.scene.striker.position == 0.0 ? 0 : 1;
+  return input.scene.beam.ends[end] != EndSupport::free;
+}
+
+bool has_end(const Case& input, EndSupport support) {
+  const auto& ends = input.scene.beam.ends;
+  return ends[0] == support || ends[1] == support;
+}
+
 void check_points(const Case& input) {
   if (input.scene.beam.shears()) {
     throw InvalidCase("model.spacing",
@@ -42,63 +68,6 @@ void check_points(const Case& input) {
       "model.spacing",
       "is \"points\", which is for free ends; allowed with supports: \"cells\"; leave "
       "it out, or set beam.ends = [\"free\", \"free\"]");
-}
-
-void check_cells(const Case& input) {
-  if (input.model.spacing == CellSpacing::points) return check_points(input);
-  const double cells = input.model.segments;
-  const double at = input.scene.striker.position;
-  if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
-    throw InvalidCase(
-        "striker.position",
-        fmt::format(
-            "is {}, closer to an end than half a cell; allowed with {} segments: from {:.6g} to "
-            "{:.6g}, the outermost cell centres; move the strike inwards or use more segments",
-            at, input.model.segments, 0.5 / cells, 1.0 - 0.5 / cells));
-  }
-  const auto& ends = input.scene.beam.ends;
-  const bool clamped = ends[0] == EndSupport::clamped || ends[1] == EndSupport::clamped;
-  const auto fewest = static_cast<int>(CellMesh::fewest_cells_if_clamped);
-  if (clamped && input.model.segments < fewest) {
-    throw InvalidCase("model.segments",
-                      fmt::format("is {}; allowed with a clamped end: {} or more; use more "
-                                  "segments",
-                                  input.model.segments, fewest));
-  }
-}
-
-// There is a node at the strike, and an element much shorter than the others would determine the
-// time step.
-void check_elements(const Case& input) {
-  const double elements = input.model.elements;
-  const double at = input.scene.striker.position;
-  const double length = input.scene.beam.length;
-  const auto& ends = input.scene.beam.ends;
-  if (at == 0.0 || at == 1.0) {
-    if (ends[at == 0.0 ? 0 : 1] == EndSupport::free) return;
-    throw InvalidCase("striker.position",
-                      fmt::format("is {}, on a support; allowed: strictly between the supports; "
-                                  "move the strike inwards",
-                                  at));
-  }
-  const ElementGrading grading = grading_of(input);
-  const double before = grading.elements_within(at * length);
-  const double after = grading.elements_within((1.0 - at) * length);
-  if (elements * std::min(before, after) >= 0.5 * (before + after)) return;
-  if (grading.refinement != 1.0) {
-    throw InvalidCase("striker.position",
-                      fmt::format("is {}, closer to an end than half an element, of {} graded "
-                                  "towards the strike; move the strike inwards or use more "
-                                  "elements",
-                                  at, input.model.elements));
-  }
-  const bool has_free_end = ends[0] == EndSupport::free || ends[1] == EndSupport::free;
-  throw InvalidCase(
-      "striker.position",
-      fmt::format("is {}, closer to an end than half an element; allowed with {} elements: from "
-                  "{:.6g} to {:.6g}{}; move the strike inwards or use more elements",
-                  at, input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements,
-                  has_free_end ? ", or a free end itself" : ""));
 }
 
 void check_has_no_points(const Case& input) {
@@ -116,9 +85,68 @@ void check_is_not_graded(const Case& input) {
                                 input.model.strike_refinement));
 }
 
+void check_cells(const Case& input) {
+  check_is_not_graded(input);
+  if (input.model.spacing == CellSpacing::points) return check_points(input);
+  const int cells = input.model.segments;
+  const double at = input.scene.striker.position;
+  if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
+    refuse_position(input, "closer to an end than half a cell", cells, "segments",
+                    ", the outermost cell centres");
+  }
+  const auto fewest = static_cast<int>(CellMesh::fewest_cells_if_clamped);
+  if (has_end(input, EndSupport::clamped) && cells < fewest) {
+    throw InvalidCase("model.segments",
+                      fmt::format("is {}; allowed with a clamped end: {} or more; use more "
+                                  "segments",
+                                  cells, fewest));
+  }
+}
+
+// There is a node at the strike, and an element much shorter than the others would determine the
+// time step.
+void check_elements(const Case& input) {
+  check_has_no_points(input);
+  const int elements = input.model.elements;
+  const double at = input.scene.striker.position;
+  const double length = input.scene.beam.length;
+  if (strikes_end(input)) {
+    if (!strikes_support(input)) return;
+    throw InvalidCase("striker.position",
+                      fmt::format("is {}, on a support; allowed: strictly between the supports; "
+                                  "move the strike inwards",
+                                  at));
+  }
+  const ElementGrading grading = grading_of(input);
+  const double before = grading.elements_within(at * length);
+  const double after = grading.elements_within((1.0 - at) * length);
+  if (elements * std::min(before, after) >= 0.5 * (before + after)) return;
+  if (grading.refinement != 1.0) {
+    throw InvalidCase("striker.position",
+                      fmt::format("is {}, closer to an end than half an element, of {} graded "
+                                  "towards the strike; move the strike inwards or use more "
+                                  "elements",
+                                  at, elements));
+  }
+  refuse_position(input, "closer to an end than half an element", elements, "elements",
+                  has_end(input, EndSupport::free) ? ", or a free end itself" : "");
+}
+
+void check_spectral(const Case& input) {
+  check_is_not_graded(input);
+  check_has_no_points(input);
+  const double at = input.scene.striker.position;
+  const int elements = input.model.elements;
+  const bool is_refused =
+      strikes_end(input) ? strikes_support(input) : std::min(at, 1.0 - at) * elements < 0.5;
+  if (!is_refused) return;
+  refuse_position(input,
+                  strikes_end(input) ? "on a support" : "closer to an end than half an element",
+                  elements, "elements", ", or a free end itself");
+}
+
 Mesh make_rigid_mesh(const Case& input) {
-  for (const EndSupport end : input.scene.beam.ends) {
-    if (end == EndSupport::free) continue;
+  if (!input.scene.beam.is_free()) {
     throw InvalidCase("model.mesh",
                       "is \"rigid\", but a rigid beam moves only with free ends; set beam.ends = "
                       "[\"free\", \"free\"] (a heavy beam stands for a fixed one), or use another "
@@ -128,67 +156,50 @@ Mesh make_rigid_mesh(const Case& input) {
 }
 
 // Whether one half is modelled, which needs an odd count of cells or an even one of elements.
-bool uses_half(const Case& input, const char* key, int count, bool odd, const char* what) {
+bool uses_half(const Case& input) {
+  const MeshDescriptor::Refinement& refinement = *descriptor_of(input.model.mesh).refinement;
+  const int count = input.model.*refinement.count;
+  const bool odd = refinement.odd_in_half;
   if (!uses_symmetry(input)) return false;
   if ((count % 2 != 0) == odd) return true;
   throw InvalidCase(
-      key,
+      refinement.key,
       fmt::format("is {}, but the half model of a scene struck at mid-span needs an {} number, "
                   "so that a {} lies under the striker; use {} or {}, or set model.symmetry = "
                   "\"off\"",
-                  count, odd ? "odd" : "even", what, count - 1, count + 1));
+                  count, odd ? "odd" : "even", odd ? "cell" : "node", count - 1, count + 1));
+}
+
+// A mesh of `count` parts, of the whole beam or of one half.
+template <class M, class... Details>
+Mesh make_mesh(const Case& input, int count, const Details&... details) {
+  return std::make_shared<M>(input.scene.beam, input.scene.striker.position,
+                             static_cast<std::size_t>(count), details...);
+}
+
+template <class M>
+typename M::Extent extent_of(const Case& input) {
+  return uses_half(input) ? M::Extent::half : M::Extent::whole;
 }
 
 Mesh make_cell_mesh(const Case& input) {
   const int segments = input.model.segments;
-  const bool half = uses_half(input, "model.segments", segments, true, "cell");
   if (input.scene.beam.shears()) {
-    return std::make_shared<TimoshenkoMesh>(
-        input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(segments),
-        half ? TimoshenkoMesh::Extent::half : TimoshenkoMesh::Extent::whole);
+    return make_mesh<TimoshenkoMesh>(input, segments, extent_of<TimoshenkoMesh>(input));
   }
-  return std::make_shared<CellMesh>(
-      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(segments),
-      half ? CellMesh::Extent::half : CellMesh::Extent::whole, spacing_of(input));
+  return make_mesh<CellMesh>(input, segments, extent_of<CellMesh>(input), spacing_of(input));
 }
 
 Mesh make_hermite_mesh(const Case& input) {
-  const int elements = input.model.elements;
-  const bool half = uses_half(input, "model.elements", elements, false, "node");
-  return std::make_shared<HermiteMesh>(
-      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
-      static_cast<std::size_t>(input.model.sections_per_element),
-      half ? HermiteMesh::Extent::half : HermiteMesh::Extent::whole,
-      HermiteMesh::Options{grading_of(input),
-                           input.model.hinges == HingeUse::automatic && may_yield(input)});
-}
-
-void check_spectral(const Case& input) {
-  check_is_not_graded(input);
-  check_has_no_points(input);
-  const double at = input.scene.striker.position;
-  const double elements = input.model.elements;
-  const bool on_support =
-      (at == 0.0 || at == 1.0) && input.scene.beam.ends[at == 0.0 ? 0 : 1] != EndSupport::free;
-  const bool near_end = at > 0.0 && at < 1.0 && std::min(at, 1.0 - at) * elements < 0.5;
-  if (!on_support && !near_end) return;
-  throw InvalidCase(
-      "striker.position",
-      fmt::format("is {}, {}; allowed with {} elements: from {:.6g} to {:.6g}, or a "
-                  "free end itself; move the strike inwards or use more elements",
-                  at, on_support ? "on a support" : "closer to an end than half an element",
-                  input.model.elements, 0.5 / elements, 1.0 - 0.5 / elements));
+  const bool has_hinges = input.model.hinges == HingeUse::automatic && may_yield(input);
+  return make_mesh<HermiteMesh>(
+      input, input.model.elements, static_cast<std::size_t>(input.model.sections_per_element),
+      extent_of<HermiteMesh>(input), HermiteMesh::Options{grading_of(input), has_hinges});
 }
 
 Mesh make_spectral_mesh(const Case& input) {
-  const int elements = input.model.elements;
-  const bool half = uses_half(input, "model.elements", elements, false, "node");
-  return std::make_shared<SpectralMesh>(
-      input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(elements),
-      half ? SpectralMesh::Extent::half : SpectralMesh::Extent::whole);
+  return make_mesh<SpectralMesh>(input, input.model.elements, extent_of<SpectralMesh>(input));
 }
-
-int order_of_spectral_elements(const Case&) { return 2; }
 
 double size_of_cells(const Case& input) {
   return CellMesh::spacing_of(input.scene.beam, static_cast<std::size_t>(input.model.segments),
@@ -206,6 +217,8 @@ int order_of_elements(const Case& input) {
   return input.model.hinges == HingeUse::off ? 1 : 2;
 }
 
+int order_of_spectral_elements(const Case&) { return 2; }
+
 constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "model.symmetry"};
 constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
                                             "model.hinges",         "model.strike_refinement",
@@ -218,11 +231,7 @@ constexpr MeshDescriptor rows[] = {
      .name = "cells",
      .note = "equal cells, second order",
      .keys = keys_of_cells,
-     .check =
-         [](const Case& input) {
-           check_is_not_graded(input);
-           check_cells(input);
-         },
+     .check = check_cells,
      .make = make_cell_mesh,
      .refinement = {{&ModelOptions::segments, "model.segments", "cells",
                      static_cast<int>(CellMesh::fewest_cells_if_clamped), true, size_of_cells,
@@ -232,11 +241,7 @@ constexpr MeshDescriptor rows[] = {
      .note = "cubic Hermite elements, fourth order, for beams that do not shear",
      .keys = keys_of_elements,
      .suits = [](const Beam& beam) { return !beam.shears(); },
-     .check =
-         [](const Case& input) {
-           check_has_no_points(input);
-           check_elements(input);
-         },
+     .check = check_elements,
      .make = make_hermite_mesh,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(HermiteMesh::fewest_elements), false, size_of_elements,
@@ -292,9 +297,7 @@ void check_mesh(const Case& input) {
 }
 
 MeshKind default_mesh(const Case& input) {
-  const double at = input.scene.striker.position;
-  const bool is_at_an_end = at == 0.0 || at == 1.0;
-  if (!is_at_an_end || input.model.spacing == CellSpacing::points) return MeshKind::cells;
+  if (!strikes_end(input) || input.model.spacing == CellSpacing::points) return MeshKind::cells;
   return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
 }
 

@@ -1,12 +1,41 @@
 #include "case/problem.h"
 
+#include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "case/meshes.h"
-#include "case/sections.h"
 #include "model/contact_laws.h"
+#include "simulate/methods.h"
+#include "simulate/run_parts.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/validity.h"
 
 namespace subimpact {
+namespace {
+
+using Section = std::optional<Fibres>;
+
+constexpr SectionDescriptor section_rows[] = {
+    {SectionKind::elastic, "elastic", "the beam never yields (the contact still may)", false,
+     [](const ModelOptions&) -> Section { return std::nullopt; }},
+    {SectionKind::layers, "layers", "elastic-perfectly plastic layers, stress at mid-layer", true,
+     [](const ModelOptions& model) -> Section { return Fibres::layered(model.layers); }},
+    {SectionKind::exact, "exact", "the limit of infinitely many layers, in closed form", false,
+     [](const ModelOptions&) -> Section { return Fibres::continuous(); }},
+};
+
+}  // namespace
+
+std::span<const SectionDescriptor> sections() { return section_rows; }
+
+const SectionDescriptor& descriptor_of(SectionKind kind) {
+  for (const SectionDescriptor& row : section_rows) {
+    if (row.kind == kind) return row;
+  }
+  throw std::logic_error("a section has no descriptor: add a row in problem.cpp");
+}
 
 bool may_yield(const Case& input) {
   return input.model.section != SectionKind::elastic &&
@@ -14,10 +43,23 @@ bool may_yield(const Case& input) {
          std::isfinite(input.scene.beam.yield_stress);
 }
 
-bool uses_symmetry(const Case& input) {
+bool is_symmetric(const Case& input) {
   const auto& ends = input.scene.beam.ends;
-  return input.model.symmetry == SymmetryUse::automatic && input.scene.striker.position == 0.5 &&
-         ends[0] == ends[1];
+  return input.scene.striker.position == 0.5 && ends[0] == ends[1];
+}
+
+bool uses_symmetry(const Case& input) {
+  return input.model.symmetry == SymmetryUse::automatic && is_symmetric(input);
+}
+
+std::optional<double> step_of(const Case& input) {
+  const bool is_fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+  return is_fixed ? resolve(input).settings().step : input.solver.step;
+}
+
+double largest_stable_step(Case input) {
+  input.solver.step.reset();
+  return default_part_of_critical * resolve(input).settings().critical_step;
 }
 
 std::shared_ptr<const ContactLaw> contact_law_of(const Case& input) {
@@ -38,6 +80,23 @@ Problem problem_of(const Case& input) {
     problem.section = descriptor_of(input.model.section).make(input.model);
   }
   return problem;
+}
+
+ResolvedRun resolve(const Case& input) {
+  const auto start = std::chrono::steady_clock::now();
+  check(input);
+  ResolvedRun run = resolve(problem_of(input), input);
+  run.parts().warnings = doubtful_units(input);
+  run.parts().warnings_of_result = [input](const Result& result) {
+    return beyond_the_model(input, result);
+  };
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  run.parts().setup_seconds = taken.count();
+  return run;
+}
+
+Result simulate(const Case& input, const Progress& progress, Observer* observer, RowSink* rows) {
+  return simulate(resolve(input), progress, observer, rows);
 }
 
 }  // namespace subimpact

@@ -1,16 +1,42 @@
 #pragma once
 
+/// The parts that a case stands for.
+
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {
 
+/// A bending law of sections that a case can name: its own row in problem.cpp and a factory of
+/// Fibres.
+struct SectionDescriptor {
+  SectionKind kind;
+  const char* name;  ///< in case files
+  const char* note;
+  bool has_layers;  ///< whether model.layers has an effect: an error that more layers reduce
+  /// Nothing: never yields.
+  std::optional<Fibres> (*make)(const ModelOptions& model);
+};
+
+std::span<const SectionDescriptor> sections();
+const SectionDescriptor& descriptor_of(SectionKind kind);
+
 /// Whether a section of the beam may ever yield.
 bool may_yield(const Case& input);
 
+/// Whether the scene is its own mirror image about mid-span, where it is struck.
+bool is_symmetric(const Case& input);
 /// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
+
+/// The fixed step of a run of the case, s; nothing for adaptive steps. Builds the model of the case
+/// only where the step follows from it.
+std::optional<double> step_of(const Case& input);
+/// The largest step that is left a margin to the critical step of the case, whatever its own step.
+double largest_stable_step(Case input);
 
 /// The contact law of a case: its own part, or the one that the scene names.
 std::shared_ptr<const ContactLaw> contact_law_of(const Case& input);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/problem.h"
 #include "subimpact/case/keys_without_effect.h"
 
 namespace subimpact {
@@ -13,24 +14,8 @@ namespace {
 
 constexpr double largest_shift = 1e-3;  // that the range of a key must leave room for
 
-bool is_of_scene(const CaseKey& key) {
-  return key.name.starts_with("beam.") || key.name.starts_with("striker.") ||
-         key.name.starts_with("contact.");
-}
-
-bool is_shifted(const CaseKey& key) {
-  return key.type == KeyType::number && (is_of_scene(key) || key.table() == "model");
-}
-
 double number_of(const Case& input, const CaseKey& key) {
   return std::get<double>(*key.get(input));
-}
-
-// The scene is its own mirror image, so that nothing distinguishes a shift to the left from one to
-// the right.
-bool is_at_centre_of_symmetry(const Case& input, const CaseKey& key) {
-  const auto& ends = input.scene.beam.ends;
-  return key.name == "striker.position" && number_of(input, key) == 0.5 && ends[0] == ends[1];
 }
 
 bool is_inside_range(const CaseKey& key, double x) {
@@ -38,16 +23,19 @@ bool is_inside_range(const CaseKey& key, double x) {
          key.limits.hold(x * std::exp(-largest_shift));
 }
 
-std::string names_of_shifted(const Case& input) {
-  return fmt::format("{}", fmt::join(shifted_keys(input), ", "));
-}
-
 }  // namespace
 
+bool is_number_of_scene(const CaseKey& key) {
+  return key.type == KeyType::number &&
+         (key.name.starts_with("beam.") || key.name.starts_with("striker.") ||
+          key.name.starts_with("contact."));
+}
+
 std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key) {
-  if (!is_shifted(key)) {
+  const bool is_of_mesh = key.type == KeyType::number && key.table() == "model";
+  if (!is_number_of_scene(key) && !is_of_mesh) {
     return fmt::format("is not a number of the scene or of its mesh; allowed here: {}",
-                       names_of_shifted(input));
+                       fmt::join(shifted_keys(input), ", "));
   }
   if (!key.get(input)) return "is not given, so that it has no value to vary; give it in the case";
   const double x = number_of(input, key);
@@ -55,7 +43,7 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
   if (x == 0.0 || !std::isfinite(x)) {
     return value + "which has no logarithm to derive by; give a finite value above 0";
   }
-  if (is_at_centre_of_symmetry(input, key)) {
+  if (key.name == "striker.position" && is_symmetric(input)) {
     return value +
            "where the scene is symmetric: shifts to either side have the same effect, so that a "
            "derivative is 0 or does not exist; allowed: other positions";
@@ -74,7 +62,7 @@ std::vector<std::string> shifted_keys(const Case& input) {
   std::vector<std::string> names;
   for (const CaseKey& key : case_keys()) {
     const bool is_second_name = key.name == "contact.beam_poisson" && input.scene.beam.poisson;
-    if (!is_of_scene(key) || !is_shifted(key) || is_second_name) continue;
+    if (!is_number_of_scene(key) || is_second_name) continue;
     if (!why_not_shifted(input, key)) names.push_back(key.name);
   }
   return names;

@@ -8,6 +8,9 @@
 
 namespace subimpact {
 
+/// Whether a key is a number of beam, striker or contact.
+bool is_number_of_scene(const CaseKey& key);
+
 /// Why results have no derivative by the logarithm of a key of the case, as a message that begins
 /// with "is"; nothing if they have one. A key has one if it is a finite number of the scene or of
 /// the mesh, other than 0 and inside its range, and if it takes effect.

@@ -12,10 +12,8 @@
 #include <utility>
 
 #include "case/meshes.h"
-#include "io/decimal_comma.h"
-#include "io/toml_depth.h"
-#include "io/toml_value.h"
-#include "io/unknown_name.h"
+#include "case/slips.h"
+#include "io/toml_parts.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -30,7 +28,8 @@ class Reader {
  public:
   explicit Reader(std::string name) : name_(std::move(name)) {}
 
-  void read(const toml::table& root);
+  /// The keys of a table, those within it too; empty: outside all tables.
+  void read(const toml::table& content, const std::string& table = {});
   void apply(const Override& setting);
   LoadedCase finish();
 
@@ -49,7 +48,6 @@ class Reader {
   }
   // Further problems are not looked for: their messages take longer than reading the file.
   bool is_full() const { return problems_.size() >= most_problems; }
-  void read_table(const std::string& table, const toml::table& content);
   void read_value(const CaseKey& key, const toml::node& node, const std::string& where);
   void complain_of_missing_keys();
   bool is_given(const char* key, bool in_file) const;
@@ -63,44 +61,28 @@ class Reader {
   std::vector<std::string> problems_;
 };
 
-void Reader::read(const toml::table& root) {
-  for (const auto& [key, node] : root) {
-    if (is_full()) return;
-    const std::string name(key.str());
-    const std::string where = place(key.source().begin);
-    if (const CaseKey* known = find_case_key(name)) {
-      read_value(*known, node, where);
-    } else if (is_case_table(name)) {
-      tables_[name] = where;
-      if (const toml::table* table = node.as_table()) {
-        read_table(name, *table);
-      } else {
-        complain(where,
-                 fmt::format("\"{0}\" is {1}; allowed: a table; write [{0}] on a line of its "
-                             "own, and its keys below it",
-                             name, node.is_array() ? "a list" : describe_type(node)));
-      }
-    } else if (node.is_table()) {
-      complain(where, unknown_table(name));
-    } else {
-      complain(where, unknown_key("", name));
-    }
-  }
-}
-
-void Reader::read_table(const std::string& table, const toml::table& content) {
+void Reader::read(const toml::table& content, const std::string& table) {
   for (const auto& [key, node] : content) {
     if (is_full()) return;
     const std::string leaf(key.str());
     const std::string where = place(key.source().begin);
     const std::string name = full_key_name(table, leaf);
     const toml::table* inner = node.as_table();
-    if (const CaseKey* known = find_case_key(name)) {
+    const bool is_outermost = table.empty();
+    const CaseKey* known = find_case_key(name);
+    const bool is_table = known == nullptr && is_case_table(name);
+    if (is_outermost && is_table) tables_[name] = where;
+    if (known != nullptr) {
       read_value(*known, node, where);
-    } else if (inner != nullptr && is_case_table(name)) {
-      read_table(name, *inner);  // [beam.damping]
+    } else if (is_table && inner != nullptr) {
+      read(*inner, name);
+    } else if (is_table && is_outermost) {
+      complain(where, fmt::format("\"{0}\" is {1}; allowed: a table; write [{0}] on a line of its "
+                                  "own, and its keys below it",
+                                  name, node.is_array() ? "a list" : describe_type(node)));
     } else {
-      complain(where, unknown_key(table, leaf));
+      complain(where,
+               is_outermost && inner != nullptr ? unknown_table(name) : unknown_key(table, leaf));
     }
   }
 }
@@ -144,11 +126,9 @@ void Reader::apply(const Override& setting) {
   if (key == nullptr) {
     const auto dot = setting.key.rfind('.');
     const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
-    if (!table.empty() && !is_case_table(table)) {
-      complain(setting.origin, unknown_table(table));
-    } else {
-      complain(setting.origin, unknown_key(table, setting.key.substr(dot + 1)));
-    }
+    const bool has_table = table.empty() || is_case_table(table);
+    complain(setting.origin,
+             has_table ? unknown_key(table, setting.key.substr(dot + 1)) : unknown_table(table));
     return;
   }
   const bool wants_number = key->type == KeyType::number;

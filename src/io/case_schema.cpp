@@ -1,6 +1,4 @@
-#include "subimpact/io/case_schema.h"
-
-#include <fmt/format.h>
+#include "subimpact/io/case_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;  // editors list the keys in the order of the table
 
-void add_limits(Json& schema, const Limits& limits) {
+Json number_schema(const char* type, const Limits& limits) {
+  Json schema = {{"type", limits.infinity ? Json{type, "null"} : Json(type)}};
   if (limits.minimum) schema["minimum"] = *limits.minimum;
   if (limits.exclusive_minimum) schema["exclusiveMinimum"] = *limits.exclusive_minimum;
   if (limits.maximum) schema["maximum"] = *limits.maximum;
   if (limits.multiple_of) schema["multipleOf"] = *limits.multiple_of;
-}
-
-Json number_schema(const Limits& limits) {
-  Json schema;
-  schema["type"] = limits.infinity ? Json{"number", "null"} : Json("number");
-  add_limits(schema, limits);
   return schema;
 }
 
@@ -44,12 +37,9 @@ Json value_schema(const CaseKey& key) {
     case KeyType::flag:
       return {{"type", "boolean"}};
     case KeyType::number:
-      return number_schema(key.limits);
-    case KeyType::count: {
-      Json schema = {{"type", "integer"}};
-      add_limits(schema, key.limits);
-      return schema;
-    }
+      return number_schema("number", key.limits);
+    case KeyType::count:
+      return number_schema("integer", key.limits);
     case KeyType::choice:
       return choice_schema(key.choices);
     case KeyType::pair:
@@ -58,17 +48,15 @@ Json value_schema(const CaseKey& key) {
               {"minItems", 2},
               {"maxItems", 2}};
     case KeyType::numbers:
-      return {{"type", "array"}, {"items", number_schema(key.limits)}};
+      return {{"type", "array"}, {"items", number_schema("number", key.limits)}};
   }
   return Json::object();
 }
 
 std::string description(const CaseKey& key) {
-  const std::string unit = key.unit.empty() ? "" : fmt::format(" ({})", key.unit);
-  const std::string range = key.range.empty() ? "" : fmt::format("; {}", key.range);
-  const std::string otherwise =
-      key.required ? "; required" : fmt::format("; default: {}", key.default_text);
-  return key.meaning + unit + range + otherwise;
+  return key.meaning + (key.unit.empty() ? "" : " (" + key.unit + ")") +
+         (key.range.empty() ? "" : "; " + key.range) +
+         (key.required ? "; required" : "; default: " + key.default_text);
 }
 
 // Nothing where the default follows from other keys or has no form in JSON.
@@ -109,11 +97,6 @@ Json& object_of(Json& outer, const std::string& table) {
                                   : object_of(objects[first], table.substr(dot + 1));
 }
 
-void add_key(Json& object, const CaseKey& key) {
-  object["properties"][key.leaf()] = key_schema(key);
-  if (key.required) require(object, key.leaf());
-}
-
 }  // namespace
 
 std::string case_schema() {
@@ -122,12 +105,12 @@ std::string case_schema() {
                  {"description", "A strike of a rigid mass on a beam, in SI units"}};
   schema.update(object_schema());
   for (const CaseKey& key : case_keys()) {
-    if (key.table().empty()) {
-      add_key(schema, key);
-      continue;
-    }
-    add_key(object_of(schema, key.table()), key);
-    if (key.required) require(schema, key.table());
+    const std::string table = key.table();
+    Json& object = table.empty() ? schema : object_of(schema, table);
+    object["properties"][key.leaf()] = key_schema(key);
+    if (!key.required) continue;
+    require(object, key.leaf());
+    if (!table.empty()) require(schema, table);
   }
   return schema.dump(2) + "\n";
 }

@@ -7,7 +7,8 @@
 #include "case/case_choices.h"
 #include "case/counted.h"
 #include "case/meshes.h"
-#include "case/sections.h"
+#include "case/problem.h"
+#include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -15,8 +16,6 @@
 
 namespace subimpact {
 namespace {
-
-constexpr double us = 1e6;  // per second
 
 std::string key_text(const Case& input, const char* name) {
   const CaseKey* key = find_case_key(name);
@@ -36,7 +35,7 @@ std::string symmetry_text(const Case& input, const ResolvedSettings& used) {
 std::string mesh_text(const Case& input, const ResolvedSettings& used) {
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
   if (input.parts.mesh || !refinement || input.model.strike_refinement != 1.0) return used.mesh;
-  const double size = 1e3 * refinement->size(input);
+  const double size = mm * refinement->size(input);
   const bool longer = input.model.spacing == CellSpacing::points;
   return fmt::format(
       "{}; {} of {:.6g} mm{}", used.mesh, refinement->parts, size,
@@ -122,7 +121,7 @@ std::string files_text(const Case& input, const ResolvedSettings& used) {
       has_shapes ? fmt::format("{} shapes of {} points and one per event",
                                count_text(foreseen_shapes(input)), used.n_shape_points)
                  : "no shapes";
-  return fmt::format("about {:.2g} MB: {}, {}", 1e-6 * foreseen_bytes(input, used.n_shape_points),
+  return fmt::format("about {:.2g} MB: {}, {}", MB * foreseen_bytes(input, used.n_shape_points),
                      history, shapes);
 }
 
@@ -147,7 +146,7 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   if (scene.striker.gap > 0.0) {
     line("first touch",
          fmt::format("at {}, after a gap of {:.6g} mm", duration_text(scene.striker.first_touch()),
-                     1e3 * scene.striker.gap));
+                     mm * scene.striker.gap));
   }
   line("first bending period", duration_text(used.first_period));
   line("zones", fmt::format("end after {} of separation, sub-zones after {}",
@@ -164,7 +163,7 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
                                used.largest_contact_slope, duration_text(used.contact_time)));
   line("yield indentation", std::isinf(used.yield_indentation)
                                 ? "infinite: the contact never yields"
-                                : fmt::format("{:.6g} mm", used.yield_indentation * 1e3));
+                                : fmt::format("{:.6g} mm", mm * used.yield_indentation));
   head("Model");
   line("mesh", mesh_text(input, used));
   line("symmetry", symmetry_text(input, used));
@@ -201,7 +200,7 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   } else {
     line("steps", "not predicted for this method and mesh");
   }
-  line("memory", fmt::format("about {:.2g} MB", 1e-6 * used.memory));
+  line("memory", fmt::format("about {:.2g} MB", MB * used.memory));
   line("files", files_text(input, used));
   return fmt::to_string(text);
 }
@@ -227,10 +226,13 @@ std::string key_listing() {
 std::string method_listing() {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "Methods (solver.method)\n");
-  for (const Choice& method : find_case_key("solver.method")->choices) {
-    fmt::format_to(out, "  {:<20} {}\n", method.name, method.note);
-  }
+  const auto list_choices = [&](const char* title, const char* key) {
+    fmt::format_to(out, "{} ({})\n", title, key);
+    for (const Choice& choice : find_case_key(key)->choices) {
+      fmt::format_to(out, "  {:<20} {}\n", choice.name, choice.note);
+    }
+  };
+  list_choices("Methods", "solver.method");
   fmt::format_to(
       out,
       "\nTables (solver.table): order(order of the error estimate), stages or right-hand "
@@ -240,10 +242,7 @@ std::string method_listing() {
                    fmt::format("{}({})", table.order, table.embedded_order), table.evaluations,
                    table.note);
   }
-  fmt::format_to(out, "\nTreatment of events (solver.events)\n");
-  for (const Choice& events : find_case_key("solver.events")->choices) {
-    fmt::format_to(out, "  {:<20} {}\n", events.name, events.note);
-  }
+  list_choices("\nTreatment of events", "solver.events");
   return fmt::to_string(text);
 }
 

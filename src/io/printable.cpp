@@ -32,39 +32,29 @@ std::size_t utf8_length(std::string_view text) {
   return n;
 }
 
-// Of characters that are not plain.
-bool is_control(std::string_view character) {
-  if (character.size() == 2) return byte_at(character, 0) == 0xc2 && byte_at(character, 1) < 0xa0;
-  return character.size() == 1;
-}
-
-// Characters at the start of the text that are ASCII and no control characters.
-std::size_t plain_length(std::string_view text) {
-  const auto is_plain = [](char c) { return (c >= 0x20 && c < 0x7f) || c == '\n' || c == '\t'; };
-  return static_cast<std::size_t>(
-      std::distance(text.begin(), std::find_if_not(text.begin(), text.end(), is_plain)));
+// Whether a character, or a byte that is none, is shown as it is.
+bool is_plain(std::string_view character) {
+  const unsigned first = byte_at(character, 0);
+  if (character.size() == 2) return first != 0xc2 || byte_at(character, 1) >= 0xa0;
+  return character.size() > 2 || (first >= 0x20 && first < 0x7f) || first == '\n' || first == '\t';
 }
 
 }  // namespace
 
 std::string printable(std::string_view text) {
   std::string result;
-  for (;;) {
-    const std::size_t n_plain = plain_length(text);
-    result += text.substr(0, n_plain);
-    text.remove_prefix(n_plain);
-    if (text.empty()) return result;
-    const std::size_t n = utf8_length(text);
-    const std::string_view character = text.substr(0, n == 0 ? 1 : n);
-    if (n > 0 && !is_control(character)) {
-      result += character;
-    } else {
-      for (std::size_t i = 0; i < character.size(); ++i) {
-        fmt::format_to(std::back_inserter(result), "\\x{:02x}", byte_at(character, i));
-      }
-    }
+  while (!text.empty()) {
+    const auto character = text.substr(0, std::max<std::size_t>(1, utf8_length(text)));
     text.remove_prefix(character.size());
+    if (is_plain(character)) {
+      result += character;
+      continue;
+    }
+    for (const char byte : character) {
+      fmt::format_to(std::back_inserter(result), "\\x{:02x}", static_cast<unsigned char>(byte));
+    }
   }
+  return result;
 }
 
 }  // namespace subimpact

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "case/problem.h"
 #include "report/figure_script.h"
 
 namespace subimpact {
@@ -24,7 +24,7 @@ std::vector<Point> loop(const Result& result, std::size_t section, std::size_t n
 
 FigureScript bending_figure(const Case& input, const Result& result) {
   const Beam& beam = input.scene.beam;
-  const bool yields = std::isfinite(beam.yield_stress);
+  const bool yields = may_yield(input);
   const std::size_t n = input.output.sections.size();
   const std::size_t n_panels = std::min(n, most_bending_panels);
   const std::size_t n_columns = n_panels > 4 ? 3 : std::min<std::size_t>(n_panels, 2);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "case/problem.h"
 #include "io/row_thinning.h"
 #include "report/figure_script.h"
 #include "report/packing.h"
@@ -267,8 +268,6 @@ PageData page_data(const Case& input, const Result& result) {
         "Of {} rows the charts have {}, with the largest and smallest values of each span.", n_rows,
         history.size());
   }
-  const bool yields =
-      std::isfinite(beam.yield_stress) && input.model.section != SectionKind::elastic;
   Json json = {{"end", result.outcome.time},
                {"time_unit", unit_json(result.outcome.time)},
                {"length", beam.length},
@@ -276,7 +275,7 @@ PageData page_data(const Case& input, const Result& result) {
                {"ends", Json::array({name_of(beam.ends[0]), name_of(beam.ends[1])})},
                {"struck_at", input.scene.striker.position * beam.length},
                {"nose_radius", input.scene.striker.nose_radius.value_or(0.0)},
-               {"yield_moment", yields ? Json(beam.yield_moment()) : Json(nullptr)},
+               {"yield_moment", may_yield(input) ? Json(beam.yield_moment()) : Json(nullptr)},
                {"yields", !result.plastic_zones.empty()},
                {"max_force", result.max_force},
                {"max_indentation", result.max_indentation},

@@ -49,21 +49,18 @@ double error_factor(const Companion& companion, bool yielded) {
 double doubled_step(const Case& coarser, double step) {
   const bool bounded = descriptor_of(coarser.solver.method).steps == MethodDescriptor::Steps::fixed;
   if (!bounded) return 2.0 * step;
-  Case by_default = coarser;
-  by_default.solver.step.reset();
-  const double critical = resolve(by_default).settings().critical_step;
-  return std::max(step, std::min(2.0 * step, default_part_of_critical * critical));
+  return std::max(step, std::min(2.0 * step, largest_stable_step(coarser)));
 }
 
 // What the method does in time, coarser; in words where it is not the default of the mesh.
 std::string coarsen_time(const Case& input, Case& coarser) {
-  const std::optional<double> step = resolve(input).settings().step;
+  const std::optional<double> step = step_of(input);
   if (!step) {
     coarser.solver.rtol = std::min(looser * input.solver.rtol, loosest);
     return fmt::format("rtol = {:.3g}", coarser.solver.rtol);
   }
   if (!input.solver.step) {
-    const std::optional<double> by_default = resolve(coarser).settings().step;
+    const std::optional<double> by_default = step_of(coarser);
     if (by_default && *by_default >= least_step_ratio * *step) {
       return fmt::format("a step of {:.4g} us", 1e6 * *by_default);
     }

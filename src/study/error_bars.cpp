@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "case/problem.h"
 #include "study/error_part.h"
 
 namespace subimpact {
@@ -17,7 +18,7 @@ RefinedRun refined_run_of(const Case& input) {
   RefinedRun refined_run{input, {}};
   refined_run.input.output.keep_no_rows();
   SolverOptions& solver = refined_run.input.solver;
-  if (const std::optional<double> step = resolve(input).settings().step) {
+  if (const std::optional<double> step = step_of(input)) {
     solver.step = 0.5 * *step;
     refined_run.description =
         fmt::format("the same with half the step, {:.6g} us", 1e6 * *solver.step);

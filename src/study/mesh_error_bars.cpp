@@ -10,7 +10,6 @@
 
 #include "case/meshes.h"
 #include "case/problem.h"
-#include "case/sections.h"
 #include "numerics/richardson.h"
 #include "simulate/methods.h"
 #include "study/error_part.h"
@@ -103,9 +102,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   refined_run.description = fmt::format("the same with {} {}", count, refinement->parts);
   const bool fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
   if (fixed && input.solver.step) {
-    other.solver.step.reset();
-    const double largest = default_part_of_critical * resolve(other).settings().critical_step;
-    other.solver.step = std::min(*input.solver.step, largest);
+    other.solver.step = std::min(*input.solver.step, largest_stable_step(other));
     if (*other.solver.step < *input.solver.step) {
       refined_run.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
     }

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
-#include "case/other_names.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
@@ -337,12 +337,25 @@ TEST(BadOverride, OfAMovedKeyIsToldItsNewName) {
                 {"--set solver.tolerance=1e-9: ", "has moved to \"solver.rtol\""});
 }
 
-TEST(MovedKeys, LeadToKeysThatThereAreFromNamesThatThereAreNot) {
-  ASSERT_FALSE(moved_keys().empty());
-  for (const MovedKey& key : moved_keys()) {
-    EXPECT_NE(find_case_key(key.new_name), nullptr) << key.new_name;
-    EXPECT_EQ(find_case_key(key.old_name), nullptr) << key.old_name;
+TEST(KeysOfOtherPrograms, LeadToKeysThatThereAreFromNamesThatThereAreNot) {
+  for (const auto& [other, own] : {std::pair("beam.height", "beam.thickness"),
+                                   {"beam.modulus", "beam.youngs_modulus"},
+                                   {"beam.supports", "beam.ends"},
+                                   {"striker.radius", "striker.nose_radius"},
+                                   {"striker.speed", "striker.velocity"},
+                                   {"model.cells", "model.segments"},
+                                   {"time.end_time", "time.end"},
+                                   {"solver.dt", "solver.step"}}) {
+    EXPECT_NE(find_case_key(own), nullptr) << own;
+    EXPECT_EQ(find_case_key(other), nullptr) << other;
+    expect_all_in(refusal_of(small_case_text(), {parse_override(std::string(other) + "=1")}),
+                  {other, std::string("has moved to \"") + own + '"'});
   }
+}
+
+TEST(BadOverride, OfAKeyInItsFormerTableIsToldThePresentOne) {
+  expect_all_in(refusal_of(small_case_text(), {parse_override("solver.pair_detection=false")}),
+                {"did you mean \"study.pair_detection\"?"});
 }
 
 TEST(BadOverride, CannotSmuggleInASecondKey) {

@@ -1,5 +1,3 @@
-#include "subimpact/io/case_identity.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

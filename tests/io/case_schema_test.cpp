@@ -1,4 +1,4 @@
-#include "subimpact/io/case_schema.h"
+#include "subimpact/io/case_file.h"
 
 #include <gtest/gtest.h>
 

@@ -82,10 +82,6 @@ std::string refusal(const CaseKey& key, const std::string& found);
 /// Why the key cannot take the value, as a message that begins with "is"; nothing if it can.
 std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& value);
 
-/// The end of a message about a text that is a number with a decimal comma ("0,201"): how to write
-/// it; empty for other texts.
-std::string decimal_comma_hint(const std::string& text);
-
 /// Checks and stores a value. Throws InvalidCase.
 void assign(Case& target, const CaseKey& key, const KeyValue& value);
 

@@ -1,10 +1,9 @@
 #pragma once
 
-/// Case files (TOML) and the settings that override them.
+/// Case files (TOML), the settings that override them, and what identifies and describes a case.
 
 #include <filesystem>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,13 +22,6 @@ struct Override {
 
 /// Takes "table.key=value" apart. Throws CaseFileError.
 Override parse_override(const std::string& setting);
-
-/// A case that cannot be read. `what()` is one line a problem, each with place, key, what is wrong,
-/// what is allowed and what to do.
-class CaseFileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// A case and where each of its values came from.
 class LoadedCase {
@@ -63,5 +55,16 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
 /// A case as the text of a case file: every key that has a value, under its table, with its unit.
 /// read_case_text() reads the same case back.
 std::string case_file_text(const Case& input);
+
+/// Identifies the results of a case: a hash, 32 hexadecimal digits, of the program's version, the
+/// values of all keys but the title, what the case leaves to the program (open_choices), and `how`
+/// it is run, in words of the caller. Cases that give other results have other identities.
+std::string case_identity(const Case& input, const GivenKeys& given, const std::string& how = {});
+
+/// The JSON schema (draft 2020-12) of a case file, made from case_keys(): for editors that complete
+/// and check TOML, and for programs that write case files. It expresses what each key accepts by
+/// itself; checks across keys stay with check(). A key that may be infinite also accepts null,
+/// since JSON has no infinity and editors hand TOML's inf to the schema as null.
+std::string case_schema();
 
 }  // namespace subimpact

@@ -13,23 +13,12 @@
 
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "subimpact/simulate/error.h"
+
 namespace subimpact {
-
-/// A file or directory that cannot be written; `what()` names it, the cause and what to do.
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Another process writes into the directory.
-class DirectoryInUse : public OutputError {
- public:
-  using OutputError::OutputError;
-};
 
 /// A random identity of a run: 32 hexadecimal digits.
 std::string new_identity();

@@ -3,7 +3,6 @@
 /// A finished run, read back from its files.
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,13 +11,6 @@
 #include "subimpact/simulate/result.h"
 
 namespace subimpact {
-
-/// Thrown if files of a run are missing or do not have the format of write_results(); `what()`
-/// names file and line, what was found, and what to do.
-class ResultsError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 struct FinishedRun {
   Case input;

@@ -12,18 +12,6 @@
 
 namespace subimpact {
 
-/// A figure that gnuplot does not draw. Tables and other figures are not affected.
-class FigureError : public OutputError {
- public:
-  using OutputError::OutputError;
-};
-
-/// gnuplot cannot be started, for this figure or any other.
-class GnuplotMissing : public FigureError {
- public:
-  using FigureError::FigureError;
-};
-
 struct DrawnFigure {
   std::string name;     ///< of its files, without ending: name.svg, .png, .pdf, .gp
   std::string caption;  ///< one or two sentences

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "subimpact/simulate/error.h"
 
 namespace subimpact {
 
@@ -115,15 +115,6 @@ struct Options {
   AccuracyOptions accuracy;
   OutputOptions output;
   StudyOptions study;
-};
-
-/// Settings that cannot be run as given. `key` is the key of the case file ("solver.step");
-/// `what()` says what is wrong, what is allowed and what to do.
-class InvalidCase : public std::runtime_error {
- public:
-  InvalidCase(std::string key, const std::string& message)
-      : std::runtime_error(message), key(std::move(key)) {}
-  std::string key;
 };
 
 }  // namespace subimpact

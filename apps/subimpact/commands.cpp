@@ -1,11 +1,12 @@
 #include "commands.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+#include <thread>
 
-#include <cstdio>
-#include <filesystem>
-
-#include "print.h"
+#include "io/printable.h"
 #include "subimpact/io/report.h"
 #include "subimpact/report/figures.h"
 
@@ -19,6 +20,16 @@ std::string not_empty(const std::string& text) {
 }
 
 }  // namespace
+
+ExitStatus status_of(OutcomeKind outcome) {
+  if (outcome == OutcomeKind::completed || outcome == OutcomeKind::stopped) return done;
+  return outcome == OutcomeKind::left_validity ? refused : failed;
+}
+
+void print_to(std::FILE* stream, const std::string& text) {
+  const std::string shown = printable(text);
+  std::fwrite(shown.data(), 1, shown.size(), stream);
+}
 
 CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
                                   const std::string& meaning) {
@@ -53,6 +64,40 @@ LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
 
 std::string CaseOptions::directory_with(const std::string& ending) const {
   return std::filesystem::path(file).stem().string() + ending;
+}
+
+void JobsOption::add_to(CLI::App& command) {
+  command
+      .add_option("--jobs", given,
+                  "Runs beside one another at most; results do not depend on it. Default: the "
+                  "number of processors")
+      ->check(CLI::Range(1u, 1024u));
+}
+
+Jobs JobsOption::number() const {
+  return given > 0 ? given : std::max(1u, std::thread::hardware_concurrency());
+}
+
+std::optional<double> seconds_of(const std::string& text) {
+  char* rest = nullptr;
+  const double value = std::strtod(text.c_str(), &rest);
+  if (rest == text.c_str() || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
+  while (*rest == ' ') ++rest;
+  constexpr std::pair<std::string_view, double> units[] = {
+      {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+  for (const auto& [unit, seconds] : units) {
+    if (rest == unit) return value * seconds;
+  }
+  return std::nullopt;
+}
+
+CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,
+                             const std::string& meaning) {
+  return command.add_option(names, text, meaning)->check([](const std::string& given) {
+    if (seconds_of(given)) return std::string();
+    return fmt::format(
+        "is \"{}\"; allowed: a time above 0 with its unit, such as 1us, 0.5ms or 20ns", given);
+  });
 }
 
 void print_notes(const LoadedCase& loaded) {

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace subimpact {
+
+/// What an error is about; each kind has its type below.
+enum class ErrorKind {
+  invalid_case,
+  case_file,
+  results,
+  output,
+  directory_in_use,
+  figure,
+  gnuplot_missing
+};
+
+/// An error that a user can mend. `what()` says what is wrong, what is allowed and what to do.
+class Error : public std::runtime_error {
+ public:
+  Error(const std::string& message, ErrorKind kind) : std::runtime_error(message), kind(kind) {}
+  ErrorKind kind;
+};
+
+/// The errors of one kind, and of the kinds derived from it, to be caught by type.
+template <ErrorKind of, class Base = Error>
+class ErrorOf : public Base {
+ public:
+  explicit ErrorOf(const std::string& message, ErrorKind kind = of) : Base(message, kind) {}
+};
+
+/// Settings that cannot be run as given. `key` is the key of the case file ("solver.step").
+class InvalidCase : public Error {
+ public:
+  InvalidCase(std::string key, const std::string& message)
+      : Error(message, ErrorKind::invalid_case), key(std::move(key)) {}
+  std::string key;
+};
+
+/// A case that cannot be read. `what()` is one line a problem, each with place, key, what is wrong,
+/// what is allowed and what to do.
+using CaseFileError = ErrorOf<ErrorKind::case_file>;
+
+/// Files of a run that are missing or do not have the format of write_results(); `what()` names
+/// file and line, what was found, and what to do.
+using ResultsError = ErrorOf<ErrorKind::results>;
+
+/// A file or directory that cannot be written; `what()` names it, the cause and what to do.
+using OutputError = ErrorOf<ErrorKind::output>;
+
+/// Another process writes into the directory.
+using DirectoryInUse = ErrorOf<ErrorKind::directory_in_use, OutputError>;
+
+/// A figure that gnuplot does not draw. Tables and other figures are not affected.
+using FigureError = ErrorOf<ErrorKind::figure, OutputError>;
+
+/// gnuplot cannot be started, for this figure or any other.
+using GnuplotMissing = ErrorOf<ErrorKind::gnuplot_missing, FigureError>;
+
+}  // namespace subimpact

@@ -1,0 +1,269 @@
+// Checks of a case across its keys.
+
+#include "case/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/doubtful_units.h"
+
+namespace subimpact {
+namespace {
+
+// --- scales: numbers that are possible one by one but not together ------------------------------
+
+// Squares and quotients of two such numbers are finite, on the finest mesh too.
+constexpr double most_decades = 60.0;
+
+/// A key to a power.
+struct Factor {
+  const char* key;
+  double power;
+};
+
+/// A product of powers of keys.
+struct Quantity {
+  const char* name;
+  const char* unit;
+  std::vector<Factor> factors;
+};
+
+// clang-format off
+const std::vector<Quantity> quantities = {
+    {"mass of the beam", "kg",
+     {{"beam.density", 1}, {"beam.width", 1}, {"beam.thickness", 1}, {"beam.length", 1}}},
+    {"moment of inertia of the beam", "kg m2",
+     {{"beam.density", 1}, {"beam.width", 1}, {"beam.thickness", 1}, {"beam.length", 3}}},
+    {"rotary inertia of the sections", "kg m",
+     {{"beam.density", 1}, {"beam.width", 1}, {"beam.thickness", 3}}},
+    {"bending stiffness", "N m2",
+     {{"beam.youngs_modulus", 1}, {"beam.width", 1}, {"beam.thickness", 3}}},
+    {"stiffness of the beam", "N/m",
+     {{"beam.youngs_modulus", 1}, {"beam.width", 1}, {"beam.thickness", 3}, {"beam.length", -3}}},
+    {"square of the beam's lowest frequency", "1/s2",
+     {{"beam.youngs_modulus", 1}, {"beam.density", -1}, {"beam.thickness", 2}, {"beam.length", -4}}},
+    {"slenderness of the beam", "", {{"beam.thickness", 1}, {"beam.length", -1}}},
+    {"yield curvature", "1/m",
+     {{"beam.yield_stress", 1}, {"beam.youngs_modulus", -1}, {"beam.thickness", -1}}},
+    {"yield moment", "N m", {{"beam.yield_stress", 1}, {"beam.width", 1}, {"beam.thickness", 2}}},
+    {"energy of the strike", "J", {{"striker.mass", 1}, {"striker.velocity", 2}}},
+};
+// clang-format on
+
+// log10 of a key's value; 0 for a value that is not given, zero or infinite.
+double decades_of(const Case& input, const char* name) {
+  const std::optional<KeyValue> value = find_case_key(name)->get(input);
+  const double number = value ? std::abs(std::get<double>(*value)) : 1.0;
+  return number > 0.0 && std::isfinite(number) ? std::log10(number) : 0.0;
+}
+
+[[noreturn]] void refuse_scale(const Case& input, const char* name,
+                               const std::string& consequence) {
+  const CaseKey& key = *find_case_key(name);
+  throw InvalidCase(name,
+                    fmt::format("is {}{}{}{}; allowed: from 1e-{:.0f} to 1e{:.0f}; check the units",
+                                to_text(*key.get(input)), key.unit.empty() ? "" : " ", key.unit,
+                                consequence, most_decades, most_decades));
+}
+
+// Refuses, for the key that is farthest from one, numbers whose products overflow, vanish or lose
+// all digits: each number of a case, and mass, stiffness, frequency and energy of its bodies.
+void check_scales(const Case& input) {
+  for (const CaseKey& key : case_keys()) {
+    if (key.type != KeyType::number || !key.get(input)) continue;
+    if (std::abs(decades_of(input, key.name.c_str())) > most_decades) {
+      refuse_scale(input, key.name.c_str(), ", beyond what a run can follow");
+    }
+  }
+  for (const Quantity& quantity : quantities) {
+    double decades = 0.0;
+    const Factor* farthest = &quantity.factors.front();
+    const auto share = [&](const Factor& factor) {
+      return factor.power * decades_of(input, factor.key);
+    };
+    for (const Factor& factor : quantity.factors) {
+      decades += share(factor);
+      if (std::abs(share(factor)) > std::abs(share(*farthest))) farthest = &factor;
+    }
+    if (std::abs(decades) <= most_decades) continue;
+    refuse_scale(input, farthest->key,
+                 fmt::format(", with which the {} is some 1e{:+.0f}{}{}", quantity.name, decades,
+                             *quantity.unit == '\0' ? "" : " ", quantity.unit));
+  }
+}
+
+// --- contact: what its law needs is there, and nothing is given that the law would not use ------
+
+// The keys of which a law may be given more than it uses. The nose's radius describes the striker,
+// whether or not the law depends on it.
+constexpr const char* keys_of_contact[] = {"contact.stiffness", "contact.striker_modulus",
+                                           "contact.striker_poisson", "contact.beam_poisson"};
+
+bool is_given(const Case& input, const char* key) {
+  return find_case_key(key)->get(input).has_value();
+}
+
+// Under its own name or another one.
+bool is_known(const Case& input, std::string_view key) {
+  if (key == "contact.beam_poisson" && input.scene.beam.poisson) return true;
+  return is_given(input, key.data());
+}
+
+void check_contact(const Case& input) {
+  if (input.parts.contact_law) return;
+  const BuiltInContactLaw& law = built_in_contact_law(input.scene.contact.kind);
+  if (input.scene.contact.damping > 0.0 && input.scene.contact.kind == ContactKind::foundation) {
+    throw InvalidCase("contact.damping",
+                      fmt::format("is {:g} s/m, but contact.law = \"foundation\" loses its energy "
+                                  "by yielding; allowed: 0; leave it out, or choose \"hertz\" or "
+                                  "\"linear\"",
+                                  input.scene.contact.damping));
+  }
+  const ContactConstants& way = constants_given(input, law);
+  for (const char* name : way.keys) {
+    if (is_known(input, name)) continue;
+    const CaseKey& key = *find_case_key(name);
+    throw InvalidCase(
+        name, fmt::format("is missing, and contact.law = \"{}\" needs it: {}; allowed: {}; {}",
+                          law.name, key.meaning, allowed_values(key), way.remedy));
+  }
+  for (const char* name : keys_of_contact) {
+    if (uses_key(way, name) || !is_given(input, name)) continue;
+    throw InvalidCase(name,
+                      fmt::format("is given, but {}; leave it out, or choose another contact.law",
+                                  way.why_unused));
+  }
+}
+
+// --- output --------------------------------------------------------------------------------------
+
+// A row takes some 345 bytes in the file.
+constexpr double most_history_rows = 5e6;
+constexpr double most_shape_rows = 2e7;
+
+// "; time.end is 8 s, ...", if its unit is doubtful.
+std::string doubt_of_end_time(const Case& input) {
+  for (const std::string& doubt : doubtful_units(input)) {
+    if (doubt.starts_with("time.end ")) return "; " + doubt;
+  }
+  return {};
+}
+
+void check_history_size(const Case& input) {
+  const double rows = input.end_time / input.output.interval;
+  if (input.output.interval == 0.0 || rows <= most_history_rows) return;
+  throw InvalidCase(
+      "output.interval",
+      fmt::format(
+          "is {} s, which gives {:.2g} history rows up to time.end = {} s; allowed: at most "
+          "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
+          input.output.interval, rows, input.end_time, most_history_rows,
+          input.end_time / most_history_rows) +
+          doubt_of_end_time(input));
+}
+
+void check_shapes(const Case& input) {
+  const double interval = input.output.shapes.value_or(0.0);
+  if (interval == 0.0) return;
+  const double rows = input.end_time / interval * input.output.shape_points;
+  if (rows <= most_shape_rows) return;
+  throw InvalidCase(
+      "output.shapes",
+      fmt::format("is {} s, which gives {:.2g} rows up to time.end = {} s, up to {} per shape; "
+                  "allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 for none; use a longer "
+                  "interval or a smaller output.shape_points",
+                  interval, rows, input.end_time, input.output.shape_points, most_shape_rows,
+                  input.end_time * input.output.shape_points / most_shape_rows) +
+          doubt_of_end_time(input));
+}
+
+void check_sections_and_points(const Case& input) {
+  if (input.output.interval > 0.0) return;
+  for (const auto& [key, list] : {std::pair("output.sections", &input.output.sections),
+                                  std::pair("output.points", &input.output.points)}) {
+    if (list->empty()) continue;
+    throw InvalidCase(key,
+                      "is given, but output.interval = 0 keeps no rows of them; leave it out, or "
+                      "set an output.interval above 0");
+  }
+}
+
+void check_gaps(const Case& input) {
+  if (input.output.subzone_gap <= input.output.zone_gap) return;
+  throw InvalidCase("output.subzone_gap",
+                    fmt::format("is {}, above output.zone_gap = {}, but sub-zones divide zones; "
+                                "allowed: above 0, up to output.zone_gap; reduce it",
+                                input.output.subzone_gap, input.output.zone_gap));
+}
+
+// --- the rest ------------------------------------------------------------------------------------
+
+void check_shear(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  const std::optional<double>& other = input.scene.contact.beam_poisson;
+  if (beam.poisson && other && *beam.poisson != *other) {
+    throw InvalidCase(
+        "contact.beam_poisson",
+        fmt::format("is {}, but beam.poisson is {}; the beam has one Poisson's ratio: "
+                    "leave contact.beam_poisson out",
+                    *other, *beam.poisson));
+  }
+  if (beam.shears() && !beam.poisson) {
+    throw InvalidCase("beam.poisson",
+                      "is missing, and beam.theory = \"timoshenko\" needs it for the shear modulus "
+                      "E/(2 (1 + nu)); allowed: from 0 to 0.5; give it (metals: 0.25 to 0.35)");
+  }
+}
+
+// Where the scene is symmetric, first derivatives show nothing of a strike that is off its centre.
+void check_scatter(const Case& input) {
+  const auto scatter = input.scatter.find("striker.position");
+  if (scatter == input.scatter.end() || scatter->second == 0.0 || !is_symmetric(input)) return;
+  throw InvalidCase("scatter.striker.position",
+                    fmt::format("is {}, but the scene is symmetric about striker.position = 0.5, "
+                                "and standard deviations follow from first derivatives, which are "
+                                "0 or do not exist there; allowed: 0; leave it out",
+                                scatter->second));
+}
+
+}  // namespace
+
+const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law) {
+  for (const ContactConstants& way : law.ways) {
+    const bool complete = std::all_of(way.keys.begin(), way.keys.end(),
+                                      [&](const char* key) { return is_known(input, key); });
+    if (complete) return way;
+  }
+  return law.ways.back();
+}
+
+bool uses_key(const ContactConstants& way, const char* key) {
+  return std::any_of(way.keys.begin(), way.keys.end(),
+                     [&](const char* used) { return std::string_view(used) == key; });
+}
+
+void check(const Case& input) {
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(input);
+    if (!value) continue;
+    if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
+  }
+  check_scales(input);
+  check_contact(input);
+  if (!input.parts.mesh) check_mesh(input);
+  check_history_size(input);
+  check_shear(input);
+  check_gaps(input);
+  check_sections_and_points(input);
+  check_shapes(input);
+  check_scatter(input);
+}
+
+}  // namespace subimpact
