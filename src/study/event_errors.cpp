@@ -61,4 +61,27 @@ EventErrors event_errors(const Result& run, const Reference& reference) {
   return errors;
 }
 
+std::string_view to_string(Verdict verdict) {
+  constexpr std::string_view names[] = {"right",  "wrong count", "inaccurate", "unstable",
+                                        "failed", "refused",     "not run"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+Verdict judge(const Result& run, const EventErrors& errors) {
+  switch (run.outcome.kind) {
+    case OutcomeKind::completed:
+      return errors.all_correspond() ? Verdict::right : Verdict::wrong_count;
+    case OutcomeKind::inaccurate:
+    case OutcomeKind::chattering:
+      return Verdict::inaccurate;
+    case OutcomeKind::unstable:
+    case OutcomeKind::left_validity:  // of a scene whose reference stays within it
+      return Verdict::unstable;
+    case OutcomeKind::solver_failed:
+    case OutcomeKind::stopped:
+      return Verdict::failed;
+  }
+  return Verdict::failed;
+}
+
 }  // namespace subimpact

@@ -4,7 +4,6 @@
 
 #include "subimpact/study/error_bars.h"
 #include "subimpact/study/mesh_error_bars.h"
-#include "subimpact/study/neglected_shear.h"
 
 namespace subimpact {
 namespace {

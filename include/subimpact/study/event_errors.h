@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include "subimpact/study/match.h"
 #include "subimpact/study/reference.h"
@@ -37,5 +38,22 @@ EventErrors event_errors(const Result& run, const Reference& reference);
 /// The same against any list of sub-impacts; velocities are left at 0.
 EventErrors event_errors(const std::vector<SubImpact>& run,
                          const std::vector<SubImpact>& reference);
+
+/// The verdict on a run compared with a reference.
+enum class Verdict {
+  right,        ///< completed, and every sub-impact corresponds
+  wrong_count,  ///< completed, but sub-impacts are missing, merged or invented
+  inaccurate,   ///< ended by one of its own checks, and the outcome reports it
+  unstable,     ///< the solution grew without bound, and the outcome reports it
+  failed,       ///< the solver could not continue, and the outcome reports it
+  refused,      ///< the setting was not accepted
+  not_run       ///< not run: it would have taken longer than allowed
+};
+
+/// "right", "wrong count", ...
+std::string_view to_string(Verdict verdict);
+
+/// The verdict on a run that was accepted.
+Verdict judge(const Result& run, const EventErrors& errors);
 
 }  // namespace subimpact

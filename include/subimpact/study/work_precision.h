@@ -10,7 +10,6 @@
 #include "subimpact/study/event_errors.h"
 #include "subimpact/study/reference.h"
 #include "subimpact/study/sweep.h"
-#include "subimpact/study/verdict.h"
 
 namespace subimpact {
 
