@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "case/counted.h"
-#include "study/leading_words.h"
 #include "study/method_choice.h"
 #include "subimpact/study/error_bars.h"
+#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "case/counted.h"
-#include "study/leading_words.h"
+#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "study/counterparts.h"
 #include "study/parallel.h"
+#include "subimpact/study/match.h"
 
 namespace subimpact::predictability {
 namespace {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <string>
 
 #include "subimpact/case/keys_without_effect.h"
 #include "subimpact/case/simulate.h"
@@ -17,17 +15,10 @@ enum class ErrorBars {
   all    ///< refined runs of time, mesh and layers (study/mesh_error_bars.h)
 };
 
-struct RunRequest {
+struct RunRequest : WithinOptions {
   /// Empty: from a companion; and what a case that fixes nothing leaves open is chosen
   /// (study/within.h). Must be empty if the case has accuracy.event_times.
   std::optional<ErrorBars> error_bars;
-  Jobs jobs = 1;
-  Progress progress;  ///< of the run in hand; returning false ends all with what there is
-  /// Called before each run of several, with its description.
-  std::function<void(const std::string& what)> announce;
-  /// Called before each run whose rows are kept: where they go. Those of the run before are to be
-  /// discarded. Empty: rows stay in the result.
-  std::function<RowSink*()> rows;
   /// The case resolved already; taken by a run without error bars.
   std::optional<ResolvedRun> resolved;
 };

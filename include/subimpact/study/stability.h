@@ -8,7 +8,6 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/reference.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact {
