@@ -1,5 +1,6 @@
 #include "subimpact/report/studies.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -61,7 +62,7 @@ TEST(TheFigureOfCriticalSteps, ShowsWhateverNumbersOfCellsThereAre) {
     }
     write(directory.path, part_of(steps));
     expect_in(directory.path / "critical_steps.svg",
-              {">" + std::to_string(segments) + "<", ">" + std::to_string(2 * segments - 1) + "<"});
+              {fmt::format(">{}<", segments), fmt::format(">{}<", 2 * segments - 1)});
   }
 }
 
