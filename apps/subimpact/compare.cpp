@@ -1,14 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+<<<<<<< HEAD
 #include "commands.h"
 #include "progress.h"
+=======
+#include "study_options.h"
+>>>>>>> cut-study
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -17,13 +19,20 @@
 namespace subimpact::app {
 namespace {
 
-struct CompareOptions {
-  CaseOptions input;
-  std::vector<std::string> methods;
+struct CompareOptions : StudyOptions {
   std::vector<std::string> theories;
-  std::string directory;
-  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
 };
+
+int status_of(const auto& runs) {
+  const bool all_completed =
+      std::ranges::all_of(runs, [](const auto& run) { return run.result.outcome.completed(); });
+  return all_completed ? done : failed;
+}
+
+void print_doubts(const LoadedCase& loaded) {
+  print_notes(loaded);
+  print_warnings(doubtful_units(loaded.value));
+}
 
 int run_theories(const CompareOptions& options) {
   const auto with_theory = [&](const std::string& theory) {
@@ -34,99 +43,73 @@ int run_theories(const CompareOptions& options) {
   const LoadedCase loaded = with_theory(options.theories.front());
   std::vector<Case> cases;
   for (const std::string& theory : options.theories) cases.push_back(with_theory(theory).value);
-  print_notes(loaded);
-  print_warnings(doubtful_units(loaded.value));
-  InterruptListener listener;
-  StatusLine status;
+  print_doubts(loaded);
+  StudySession session;
   const auto runs = with_places(loaded, [&] {
     return compare_theories(
-        cases, options.jobs, [&](std::size_t i) { status.show("running " + options.theories[i]); },
-        [&](double) { return !listener.interrupted(); });
+        cases, options.jobs.number(),
+        [&](std::size_t i) { session.status.show("running " + options.theories[i]); },
+        session.progress());
   });
-  status.clear();
-  if (!runs.empty()) {
-    print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-          theory_table(runs));
+  session.status.clear();
+  if (!runs.empty()) print("{}\n\n{}", title_of(loaded.value), theory_table(runs));
+  if (session.listener.interrupted()) {
+    return session.end_interrupted("; the theories above are those that had ended");
   }
-  if (listener.interrupted()) {
-    print_error("subimpact: interrupted; the theories above are those that had ended\n");
-    return listener.exit_status();
-  }
-  for (const TheoryRun& run : runs) {
-    if (!run.result.outcome.completed()) return failed;
-  }
-  return done;
+  return status_of(runs);
 }
 
-int run_comparison(const CompareOptions& options) {
+int run_comparison(CompareOptions options) {
   if (!options.theories.empty()) return run_theories(options);
   if (options.methods.empty()) {
     throw CaseFileError("compare needs --methods or --theories, with names separated by commas");
   }
   const LoadedCase loaded = options.input.load();
   check_method_names(options.methods);
-  print_notes(loaded);
-  print_warnings(doubtful_units(loaded.value));
+  print_doubts(loaded);
   std::optional<OutputDirectory> directory;
   if (!options.directory.empty()) directory.emplace(options.directory, "compare");
-  InterruptListener listener;
-  StatusLine status;
+  StudySession session;
   const Comparison comparison = with_places(loaded, [&] {
     return compare(
         loaded.value, options.methods,
-        [&](const std::string& name) { status.show("running " + name); },
-        [&](double) { return !listener.interrupted(); });
+        [&](const std::string& name) { session.status.show("running " + name); },
+        session.progress());
   });
-  status.clear();
+  session.status.clear();
   if (comparison.runs.empty()) {
-    print_error("subimpact: interrupted before a method was compared; nothing is written\n");
-    return listener.exit_status();
+    return session.end_interrupted(" before a method was compared; nothing is written");
   }
-  listener.hold_back();
-  print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-        comparison_table(comparison));
+  session.listener.hold_back();
+  print("{}\n\n{}", title_of(loaded.value), comparison_table(comparison));
   if (directory) {
-    if (!write_after_printing(*directory, [&](const std::filesystem::path& place) {
-          write_comparison(place, comparison);
-        })) {
-      return failed;
-    }
+    const auto write = [&](const std::filesystem::path& place) {
+      write_comparison(place, comparison);
+    };
+    if (!write_after_printing(*directory, write)) return failed;
     print("\ncomparison.csv and matches.csv in {}\n", options.directory);
   }
   if (comparison.interrupted) {
-    print_error("subimpact: interrupted; the methods above are those that had ended\n");
-    return listener.exit_status();
+    return session.end_interrupted("; the methods above are those that had ended");
   }
-  for (const ComparedRun& run : comparison.runs) {
-    if (!run.result.outcome.completed()) return failed;
-  }
-  return done;
+  return status_of(comparison.runs);
 }
 
-}  // namespace
-
-void add_compare(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand(
-      "compare", "Run one scene by several methods, or by several beam theories");
-  auto options = std::make_shared<CompareOptions>();
-  options->input.add_to(*command);
-  command
-      ->add_option("--methods", options->methods,
-                   "Methods to compare, separated by commas; a method's table after a colon, "
-                   "its solver.events after a plus sign")
-      ->delimiter(',');
-  command
-      ->add_option("--theories", options->theories,
-                   "Beam theories to compare instead, separated by commas: event times of each, "
-                   "with their errors, and how much later they come than by the first")
-      ->delimiter(',')
+void add_options(CLI::App& command, CompareOptions& options) {
+  options.input.add_to(command);
+  add_list_option(command, "--methods", options.methods,
+                  "Methods to compare, separated by commas; a method's table after a colon, "
+                  "its solver.events after a plus sign");
+  add_list_option(command, "--theories", options.theories,
+                  "Beam theories to compare instead, separated by commas: event times of each, "
+                  "with their errors, and how much later they come than by the first")
       ->excludes("--methods");
-  add_directory_option(*command, options->directory,
+  add_directory_option(command, options.directory,
                        "Directory for comparison.csv and matches.csv; made if missing. Without it "
                        "nothing is written")
       ->excludes("--theories");
-  command->get_option("--method")->excludes("--methods");
-  command->footer(
+  command.get_option("--method")->excludes("--methods");
+  command.footer(
       "Every method runs at the case's solver.rtol, fixed-step methods at their default step or "
       "solver.step. They are compared with nystrom at rtol 1e-11, whose own error is stated; "
       "sub-impacts are matched one to one.\n"
@@ -138,7 +121,14 @@ void add_compare(CLI::App& program, int& status) {
       "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed; "
       "128 and the signal's number: stopped (130 by Ctrl-C), with the methods that had ended.");
-  command->callback([options, &status] { status = run_comparison(*options); });
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, int& status) {
+  add_command(program, status, "compare",
+              "Run one scene by several methods, or by several beam theories", add_options,
+              run_comparison);
 }
 
 }  // namespace subimpact::app

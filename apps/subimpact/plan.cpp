@@ -1,33 +1,34 @@
-#include <fmt/format.h>
-
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 
+<<<<<<< HEAD
 #include "commands.h"
 #include "progress.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/plan_chart.h"
+=======
+#include "progress.h"
+#include "study_options.h"
+#include "subimpact/report/studies.h"
+#include "time_option.h"
+>>>>>>> cut-study
 
 namespace subimpact::app {
 namespace {
 
-struct PlanCommand {
-  CaseOptions input;
+struct PlanCommand : StudyOptions {
   std::string error;
-  std::string directory;
-  JobsOption jobs;
 };
 
-int run_plan(const PlanCommand& command) {
+int run_plan(PlanCommand command) {
   const LoadedCase loaded = command.input.load();
   std::optional<OutputDirectory> directory;
   if (!command.directory.empty()) directory.emplace(command.directory, "plan");
-  InterruptListener listener;
+  StudySession session;
   const Plan result = with_places(loaded, [&] {
-    ProgressDisplay progress(loaded.value.end_time, false, listener);
+    ProgressDisplay progress(loaded.value.end_time, false, session.listener);
     PlanOptions how;
     how.jobs = command.jobs.number();
     how.announce = [&](const std::string& what, double end_time) {
@@ -37,39 +38,30 @@ int run_plan(const PlanCommand& command) {
     return plan(loaded.value, *seconds_of(command.error), how);
   });
   if (result.interrupted && result.points.empty()) {
-    print_error("subimpact: interrupted before a mesh was tried; nothing is written\n");
-    return listener.exit_status();
+    return session.end_interrupted(" before a mesh was tried; nothing is written");
   }
-  print("{}\n{}\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-        plan_reference_table(result), plan_table(result));
+  print("{}\n{}\n{}", title_of(loaded.value), plan_reference_table(result), plan_table(result));
   if (directory) {
     write_plan(directory->staging(), result);
-    draw_plan(directory->staging(), result);
     directory->commit();
     print_warnings(directory->notes());
     print("reference.csv, plan.csv, plan.svg and .png in {}\n", command.directory);
   }
   if (!result.interrupted) return done;
-  print_error("subimpact: interrupted; the combinations above are those that were tried\n");
-  return listener.exit_status();
+  return session.end_interrupted("; the combinations above are those that were tried");
 }
 
-}  // namespace
-
-void add_plan(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand(
-      "plan", "Find the cheapest mesh, method and setting for a wanted total error");
-  auto options = std::make_shared<PlanCommand>();
-  options->input.add_case_to(*command);
-  add_time_option(*command, "--within,--error", options->error,
+void add_options(CLI::App& command, PlanCommand& options) {
+  options.input.add_case_to(command);
+  add_time_option(command, "--within,--error", options.error,
                   "Wanted bound on the error of every event time, from mesh, layers and time "
                   "together, with its unit: 1us")
       ->required();
-  add_directory_option(*command, options->directory,
+  add_directory_option(command, options.directory,
                        "Directory for reference.csv, plan.csv and a chart; made if missing. "
                        "Without it nothing is written");
-  options->jobs.add_to(*command);
-  command->footer(
+  options.jobs.add_to(command);
+  command.footer(
       "The reference is the run that run --within chooses for a fifth of the wanted error. "
       "Sequences of meshes and methods are judged by it; a mesh is admitted only if all finer ones "
       "of its sequence are within the error too.\n"
@@ -78,7 +70,14 @@ void add_plan(CLI::App& program, int& status) {
       "  subimpact plan case.toml --within 0.05us --set model.section=elastic --out out/plan\n"
       "Exit status: 0 done; 2 bad command line or case file; 128 and the signal's number: stopped "
       "(130 by Ctrl-C).");
-  command->callback([options, &status] { status = run_plan(*options); });
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program, int& status) {
+  add_command(program, status, "plan",
+              "Find the cheapest mesh, method and setting for a wanted total error", add_options,
+              run_plan);
 }
 
 }  // namespace subimpact::app

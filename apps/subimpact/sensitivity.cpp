@@ -1,16 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+<<<<<<< HEAD
 #include "commands.h"
 #include "progress.h"
+=======
+#include "study_options.h"
+>>>>>>> cut-study
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/io/output_directory.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/sensitivity.h"
 #include "subimpact/study/run_as_asked.h"
@@ -18,12 +20,9 @@
 namespace subimpact::app {
 namespace {
 
-struct SensitivityCommand {
-  CaseOptions input;
+struct SensitivityCommand : StudyOptions {
   std::vector<std::string> keys;
-  std::string directory;
   bool quiet = false;
-  JobsOption jobs;
 };
 
 void check_keys(const std::vector<std::string>& names) {
@@ -38,42 +37,46 @@ void check_keys(const std::vector<std::string>& names) {
   }
 }
 
-int run_sensitivity(const SensitivityCommand& command) {
+int run_sensitivity(SensitivityCommand command) {
   const LoadedCase loaded = command.input.load();
   check_keys(command.keys);
   std::optional<OutputDirectory> directory;
   if (!command.directory.empty()) directory.emplace(command.directory, "sensitivity");
   if (!command.quiet) print_notes(loaded);
   print_warnings(doubtful_units(loaded.value));
-  InterruptListener listener;
-  StatusLine status;
+  StudySession session;
   const auto show = [&](const std::string& text) {
-    if (!command.quiet) status.show(text);
+    if (!command.quiet) session.status.show(text);
   };
   const Sensitivity study = with_places(loaded, [&] {
     show("choosing the mesh");
-    const Jobs jobs = command.jobs.number();
-    const auto goes_on = [&](double) { return !listener.interrupted(); };
-    const Case input = case_as_chosen(loaded.value, loaded.given, jobs, goes_on);
-    show("base run");
     SensitivityOptions options;
     options.keys = command.keys;
-    options.jobs = jobs;
+    options.jobs = command.jobs.number();
+    options.progress = session.progress();
     options.finished = [&](std::size_t n_done, std::size_t n_all) {
       show(fmt::format("{} of {} runs", n_done, n_all));
     };
-    options.progress = goes_on;
+    const Case input = case_as_chosen(loaded.value, loaded.given, options.jobs, options.progress);
+    show("base run");
     return sensitivity(input, options);
   });
+<<<<<<< HEAD
   status.clear();
   listener.hold_back();
   if (const ExitStatus base = status_of(study.base.outcome.kind); base != done) {
+=======
+  session.status.clear();
+  session.listener.hold_back();
+  const OutcomeKind outcome = study.base.outcome.kind;
+  const bool failed_base = outcome != OutcomeKind::completed && outcome != OutcomeKind::stopped;
+  if (failed_base) {
+>>>>>>> cut-study
     print_error("subimpact: {}\n", failure_message(study.input, study.base));
     return base;
   }
   if (study.keys.empty() && study.interrupted) {
-    print_error("subimpact: interrupted before the runs of a key had ended; nothing is written\n");
-    return listener.exit_status();
+    return session.end_interrupted(" before the runs of a key had ended; nothing is written");
   }
   const bool only_first_touch =
       std::ranges::all_of(study.rows, [](const SensitivityRow& row) { return row.value == 0.0; });
@@ -82,46 +85,32 @@ int run_sensitivity(const SensitivityCommand& command) {
         {"no number of a sub-impact can be derived before time.end: the first contact "
          "lasts to the end; use a later time.end"});
   }
-  if (!command.quiet) {
-    print("{}\n\n{}", loaded.value.title.empty() ? "untitled case" : loaded.value.title,
-          sensitivity_table(study));
-  }
+  if (!command.quiet) print("{}\n\n{}", title_of(loaded.value), sensitivity_table(study));
   if (directory) {
-    if (!write_after_printing(*directory, [&](const std::filesystem::path& place) {
-          write_sensitivity(place, study);
-        })) {
-      return failed;
-    }
+    const auto write = [&](const std::filesystem::path& place) { write_sensitivity(place, study); };
+    if (!write_after_printing(*directory, write)) return failed;
     if (!command.quiet) print("\nsensitivity.csv in {}\n", command.directory);
   }
   if (study.interrupted) {
-    print_error("subimpact: interrupted; the keys above are those whose runs had ended\n");
-    return listener.exit_status();
+    return session.end_interrupted("; the keys above are those whose runs had ended");
   }
   return study.keys.empty() ? failed : done;
 }
 
-}  // namespace
-
-void add_sensitivity(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand(
-      "sensitivity", "Show how event times, forces and velocities depend on the numbers of a case");
-  auto options = std::make_shared<SensitivityCommand>();
-  options->input.add_to(*command);
-  command
-      ->add_option("--by", options->keys,
-                   "Keys to derive by, separated by commas. Default: all numbers of beam, striker "
-                   "and contact that take effect")
-      ->delimiter(',');
+void add_options(CLI::App& command, SensitivityCommand& options) {
+  options.input.add_to(command);
+  add_list_option(command, "--by", options.keys,
+                  "Keys to derive by, separated by commas. Default: all numbers of beam, striker "
+                  "and contact that take effect");
   add_directory_option(
-      *command, options->directory,
+      command, options.directory,
       "Directory for sensitivity.csv: derivatives, by the logarithm of each key, of "
       "start, end, peak force, impulse, indentation and striker velocity of every "
       "sub-impact, with their errors; made if missing. Without it nothing is "
       "written");
-  options->jobs.add_to(*command);
-  command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
-  command->footer(
+  options.jobs.add_to(command);
+  command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+  command.footer(
       "Each key takes four runs, two shifts to either side, at rtol 1e-13 on the mesh of the case; "
       "their differences give the derivative, the mismatch of the shifts its error. Rows of "
       "contacts that are about to merge, to split or to vanish are flagged.\n"
@@ -132,7 +121,14 @@ void add_sensitivity(CLI::App& program, int& status) {
       "Exit status: 0 done; 2 bad command line or case file, or a key without a derivative; 3 a "
       "run failed; 128 and the signal's number: stopped (130 by Ctrl-C), with the keys whose runs "
       "had ended.");
-  command->callback([options, &status] { status = run_sensitivity(*options); });
+}
+
+}  // namespace
+
+void add_sensitivity(CLI::App& program, int& status) {
+  add_command(program, status, "sensitivity",
+              "Show how event times, forces and velocities depend on the numbers of a case",
+              add_options, run_sensitivity);
 }
 
 }  // namespace subimpact::app

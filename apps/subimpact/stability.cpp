@@ -1,144 +1,124 @@
+<<<<<<< HEAD
 #include "subimpact/report/stability.h"
 
+=======
+>>>>>>> cut-study
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
-#include <memory>
 #include <optional>
 
+<<<<<<< HEAD
 #include "commands.h"
 #include "progress.h"
 #include "subimpact/io/results.h"
 #include "subimpact/io/work_precision.h"
+=======
+#include "study_options.h"
+#include "subimpact/report/studies.h"
+>>>>>>> cut-study
 
 namespace subimpact::app {
 namespace {
 
-struct StabilityCommand {
-  CaseOptions input;
-  std::vector<std::string> methods;
+struct StabilityCommand : StudyOptions {
   std::vector<std::string> parts;
-  std::string directory;
   double run_seconds = 20.0;
 };
 
 struct Part {
   const char* name;
   const char* title;
-  std::function<void()> run;
+  std::function<StabilityPart()> run;
 };
 
-class Session {
+class Session : StudySession {
  public:
-  Session(const Case& input, const StabilityCommand& command) : input_(input), command_(command) {
+  Session(const Case& input, const StabilityCommand& command) : command_(command), input_(input) {
+    const std::vector<std::string>& methods = command.methods;
+    const auto asked = [&methods](const char* method) { return asked_for(methods, method); };
     parts_ = {
-        {"critical", "Explicit methods: largest stable step, elastic beam", [&] { critical(); }},
+        {"critical", "Explicit methods: largest stable step, elastic beam",
+         [&] { return part_of(critical_steps(input, methods)); }},
         {"contact", "Central differences: largest stable step in stiff contact",
-         [&] { contact(); }},
-        {"damping", "Implicit methods: what one step leaves of an oscillation", [&] { damping(); }},
-        {"map", "How runs of the case come out", [&] { map(); }},
-        {"pairs", "Sub-impacts within one step, elastic beam at several speeds", [&] { pairs(); }},
-        {"layers", "Layers against the exact section", [&] { layers(); }},
+         [=, &input] {
+           return asked("central-difference") ? part_of(stiff_contact(input)) : StabilityPart();
+         }},
+        {"damping", "Implicit methods: what one step leaves of an oscillation",
+         [=, &input] {
+           if (!asked("dirk") && !asked("bdf")) return StabilityPart();
+           return part_of(damping_of_implicit_tables(input), bdf_growths());
+         }},
+        {"map", "How runs of the case come out",
+         [&] {
+           return part_of(outcome_map(input, methods, command.run_seconds, counter("runs")));
+         }},
+        {"pairs", "Sub-impacts within one step, elastic beam at several speeds",
+         [=, this, &input] {
+           return asked("exponential") ? part_of(missed_pairs(input, counter("strikes")))
+                                       : StabilityPart();
+         }},
+        {"layers", "Layers against the exact section",
+         [&] { return part_of(layers_against_exact(input, counter("numbers of layers"))); }},
     };
-  }
-
-  std::vector<std::string> names() const {
-    std::vector<std::string> list;
-    for (const Part& part : parts_) list.push_back(part.name);
-    return list;
+    for (const std::string& part : command.parts) {
+      if (std::ranges::find(parts_, part, &Part::name) != parts_.end()) continue;
+      std::vector<std::string> names;
+      for (const Part& known : parts_) names.push_back(known.name);
+      throw CaseFileError(
+          fmt::format("--parts {}: unknown part; allowed: {}", part, fmt::join(names, ", ")));
+    }
   }
 
   int run() {
-    directory_.emplace(command_.directory, "stability", case_id(input_));
+    OutputDirectory directory(command_.directory, "stability", case_id(input_));
     for (const Part& part : parts_) {
       if (!asked_for(command_.parts, part.name)) continue;
-      if (listener_.interrupted()) break;
-      status_.show(part.name);
-      run(part);
-      directory_->commit();
+      if (listener.interrupted()) break;
+      status.show(part.name);
+      run(part, directory.staging());
+      directory.commit();
     }
-    print_warnings(directory_->notes());
-    app::print("CSV files and figures in {}\n", command_.directory);
-    if (!listener_.interrupted()) return all_done_ ? done : failed;
-    app::print_error("subimpact: interrupted; the parts that were finished are in {}\n",
-                     command_.directory);
-    return listener_.exit_status();
+    print_warnings(directory.notes());
+    print("CSV files and figures in {}\n", command_.directory);
+    if (!listener.interrupted()) return all_done_ ? done : failed;
+    return end_interrupted("; the parts that were finished are in " + command_.directory);
   }
 
  private:
-  void complain(const Part& part, const std::string& message) {
-    status_.clear();
-    app::print_error("subimpact: {}: {}\n", part.name, message);
-    all_done_ = false;
-  }
   // A part that fails leaves the others as they are.
-  void run(const Part& part) {
+  void run(const Part& part, const std::filesystem::path& directory) {
+    std::string failure;
     try {
-      part.run();
+      const StabilityPart result = part.run();
+      if (result.text.empty()) return;
+      status.clear();
+      print("{}\n\n{}\n", part.title, result.text);
+      std::fflush(stdout);
+      write(directory, result);
       return;
     } catch (const InvalidCase& error) {
-      complain(part, error.key + " " + error.what());
+      failure = error.key + " " + error.what();
     } catch (const std::exception& error) {
-      complain(part, error.what());
+      failure = error.what();
     }
-  }
-  void print(std::size_t part, const std::string& table) {
-    status_.clear();
-    app::print("{}\n\n{}\n", parts_[part].title, table);
-    std::fflush(stdout);
+    status.clear();
+    print_error("subimpact: {}: {}\n", part.name, failure);
+    all_done_ = false;
   }
   Count counter(const char* what) {
     return [this, what](std::size_t n, std::size_t all) {
-      status_.show(fmt::format("{}: {} of {}", what, n, all));
-      return !listener_.interrupted();
+      status.show(fmt::format("{}: {} of {}", what, n, all));
+      return !listener.interrupted();
     };
   }
 
-  void critical() {
-    const auto rows = critical_steps(input_, command_.methods);
-    if (rows.empty()) return;
-    print(0, critical_step_table(rows));
-    write_critical_steps(directory_->staging(), rows);
-  }
-  void contact() {
-    if (!asked_for(command_.methods, "central-difference")) return;
-    const auto rows = stiff_contact(input_);
-    print(1, stiff_contact_table(rows));
-    write_stiff_contact(directory_->staging(), rows);
-  }
-  void damping() {
-    if (!asked_for(command_.methods, "dirk") && !asked_for(command_.methods, "bdf")) return;
-    const auto rows = damping_of_implicit_tables(input_);
-    print(2, damping_table(rows));
-    write_damping(directory_->staging(), rows, bdf_growths());
-  }
-  void map() {
-    const OutcomeMap result =
-        outcome_map(input_, command_.methods, command_.run_seconds, counter("runs"));
-    print(3, outcome_table(result));
-    write_outcomes(directory_->staging(), result);
-  }
-  void pairs() {
-    if (!asked_for(command_.methods, "exponential")) return;
-    const auto rows = missed_pairs(input_, counter("strikes"));
-    print(4, missed_pairs_table(rows));
-    write_missed_pairs(directory_->staging(), rows);
-  }
-  void layers() {
-    const LayerStudy study = layers_against_exact(input_, counter("numbers of layers"));
-    print(5, layer_table(study));
-    write_layers(directory_->staging(), study);
-  }
-
-  const Case& input_;
   const StabilityCommand& command_;
-  std::optional<OutputDirectory> directory_;
+  const Case& input_;
   std::vector<Part> parts_;
   bool all_done_ = true;
-  InterruptListener listener_;
-  StatusLine status_;
 };
 
 // All parts but the map let the beam vibrate.
@@ -155,47 +135,29 @@ int run_stability(StabilityCommand command) {
   return with_places(loaded, [&] {
     check_methods(loaded.value, command.methods);
     Session session(loaded.value, command);
-    const auto names = session.names();
-    for (const std::string& part : command.parts) {
-      if (std::find(names.begin(), names.end(), part) != names.end()) continue;
-      throw CaseFileError(
-          fmt::format("--parts {}: unknown part; allowed: {}", part, fmt::join(names, ", ")));
-    }
     check_beam(loaded.value, command.parts);
     return session.run();
   });
 }
 
-}  // namespace
-
-void add_stability(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand(
-      "stability", "Find where each method fails, and how; as tables, CSV and figures");
-  auto options = std::make_shared<StabilityCommand>();
-  options->input.add_case_to(*command);
-  command
-      ->add_option("--methods", options->methods,
-                   "Only these methods, separated by commas; one without a table stands for all "
-                   "its tables. Default: all")
-      ->delimiter(',');
-  command
-      ->add_option(
-          "--parts", options->parts,
-          "Only these parts, separated by commas: critical (largest stable steps), contact "
-          "(the same in stiff contact), damping (of implicit methods), map (right, wrong "
-          "count, inaccurate, unstable, refused, failed), pairs (sub-impacts within one step), "
-          "layers "
-          "(against the exact section)")
-      ->delimiter(',');
-  add_directory_option(*command, options->directory,
+void add_options(CLI::App& command, StabilityCommand& options) {
+  options.input.add_case_to(command);
+  add_list_option(command, "--methods", options.methods,
+                  "Only these methods, separated by commas; one without a table stands for all "
+                  "its tables. Default: all");
+  add_list_option(
+      command, "--parts", options.parts,
+      "Only these parts, separated by commas: critical (largest stable steps), contact "
+      "(the same in stiff contact), damping (of implicit methods), map (right, wrong "
+      "count, inaccurate, unstable, refused, failed), pairs (sub-impacts within one step), "
+      "layers "
+      "(against the exact section)");
+  add_directory_option(command, options.directory,
                        "Directory for CSV and figures; made if missing. Default: the case file's "
                        "name without its ending, and -stability, in the current directory");
-  command
-      ->add_option("--run-seconds", options->run_seconds,
-                   "Runs of the map that take longer are left out")
-      ->check(positive_seconds)
-      ->capture_default_str();
-  command->footer(
+  add_seconds_option(command, "--run-seconds", options.run_seconds,
+                     "Runs of the map that take longer are left out");
+  command.footer(
       "All cores are used, since nothing is timed. Parts are printed and written one by one; after "
       "Ctrl-C the finished parts remain.\n"
       "Examples:\n"
@@ -206,7 +168,14 @@ void add_stability(CLI::App& program, int& status) {
       "not be drawn, "
       "the other parts are complete; 130 "
       "stopped by Ctrl-C.");
-  command->callback([options, &status] { status = run_stability(*options); });
+}
+
+}  // namespace
+
+void add_stability(CLI::App& program, int& status) {
+  add_command(program, status, "stability",
+              "Find where each method fails, and how; as tables, CSV and figures", add_options,
+              run_stability);
 }
 
 }  // namespace subimpact::app

@@ -1,3 +1,5 @@
+#include "study_options.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -5,20 +7,17 @@
 #include <cmath>
 #include <cstdlib>
 
+<<<<<<< HEAD
 #include "case/slips.h"
 #include "commands.h"
+=======
+#include "case/other_names.h"
+>>>>>>> cut-study
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {
-
-std::string positive_seconds(const std::string& text) {
-  const double value = std::strtod(text.c_str(), nullptr);
-  if (value > 0.0 && std::isfinite(value)) return {};
-  return fmt::format("is {}; allowed: seconds, finite and above 0", text);
-}
-
 namespace {
 
 std::vector<std::string> names_of_choices(const char* key) {
@@ -35,54 +34,46 @@ std::vector<std::string> table_names(const std::string& method) {
   return names;
 }
 
-std::string did_you_mean(const std::string& name) {
-  return name.empty() ? "see `subimpact methods`" : fmt::format("did you mean \"{}\"?", name);
-}
-
-std::string unknown_method(const std::string& option, const std::string& method) {
-  const std::vector<std::string> names = names_of_choices("solver.method");
-  const std::string own = own_name("solver.method", method);
-  return fmt::format("--methods {}: unknown method \"{}\"; allowed: {}; {}", option, method,
-                     fmt::join(names, ", "),
-                     did_you_mean(own.empty() ? nearest_name(method, names) : own));
-}
-
-std::string unknown_table(const std::string& option, const std::string& method,
-                          const std::string& table) {
-  const std::vector<std::string> names = table_names(method);
-  if (names.empty()) {
-    return fmt::format("--methods {}: {} has no tables; write --methods {}", option, method,
-                       method);
-  }
-  const std::string near = nearest_name(table, names);
-  return fmt::format("--methods {}: unknown table \"{}\"; allowed for {}: {}; {}", option, table,
-                     method, fmt::join(names, ", "),
-                     did_you_mean(near.empty() ? near : method + ":" + near));
-}
-
-std::string unknown_events(const std::string& option, const std::string& events) {
-  const std::vector<std::string> names = names_of_choices("solver.events");
-  return fmt::format("--methods {}: unknown treatment of events \"{}\"; allowed: {}; {}", option,
-                     events, fmt::join(names, ", "), did_you_mean(nearest_name(events, names)));
-}
-
-template <class List>
-bool contains(const List& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
+// Refuses a part of an `option` that is not one of `names`. `method`: to which the names belong;
+// `meant`: a name that is known to stand for the unknown one.
+void check_name(const std::string& option, const char* what, const std::string& name,
+                const std::vector<std::string>& names, const std::string& method = {},
+                std::string meant = {}) {
+  if (std::ranges::find(names, name) != names.end()) return;
+  if (meant.empty()) meant = nearest_name(name, names);
+  throw CaseFileError(fmt::format(
+      "--methods {}: unknown {} \"{}\"; allowed{}: {}; {}", option, what, name,
+      method.empty() ? "" : " for " + method, fmt::join(names, ", "),
+      meant.empty()
+          ? "see `subimpact methods`"
+          : fmt::format("did you mean \"{}{}\"?", method.empty() ? "" : method + ":", meant)));
 }
 
 }  // namespace
 
+CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, double& seconds,
+                                const std::string& meaning) {
+  const auto check = [](const std::string& text) {
+    const double value = std::strtod(text.c_str(), nullptr);
+    if (value > 0.0 && std::isfinite(value)) return std::string();
+    return fmt::format("is {}; allowed: seconds, finite and above 0", text);
+  };
+  return command.add_option(name, seconds, meaning)->check(check)->capture_default_str();
+}
+
 void check_method_names(const std::vector<std::string>& methods) {
   for (const std::string& option : methods) {
     const auto [method, table, events] = parse_method_name(option);
-    if (!contains(names_of_choices("solver.method"), method))
-      throw CaseFileError(unknown_method(option, method));
-    if (table && !contains(table_names(method), *table)) {
-      throw CaseFileError(unknown_table(option, method, *table));
+    check_name(option, "method", method, names_of_choices("solver.method"), {},
+               own_name("solver.method", method));
+    const std::vector<std::string> tables = table_names(method);
+    if (table && tables.empty()) {
+      throw CaseFileError(fmt::format("--methods {}: {} has no tables; write --methods {}", option,
+                                      method, method));
     }
-    if (events && !contains(names_of_choices("solver.events"), *events)) {
-      throw CaseFileError(unknown_events(option, *events));
+    if (table) check_name(option, "table", *table, tables, method);
+    if (events) {
+      check_name(option, "treatment of events", *events, names_of_choices("solver.events"));
     }
   }
 }

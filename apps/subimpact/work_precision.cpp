@@ -1,26 +1,18 @@
-#include "subimpact/io/work_precision.h"
-#include "subimpact/report/work_precision_chart.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cstdio>
-#include <memory>
 
 #include "case/counted.h"
-#include "commands.h"
-#include "progress.h"
+#include "study_options.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/results.h"
+#include "subimpact/report/studies.h"
 
 namespace subimpact::app {
 namespace {
 
-struct WorkPrecisionCommand {
-  CaseOptions input;
-  std::vector<std::string> methods;
+struct WorkPrecisionCommand : StudyOptions {
   std::vector<std::string> sections;
-  std::string directory;
   double point_seconds = 10.0;
 };
 
@@ -51,7 +43,7 @@ std::vector<LabelledCase> cases_of(const LoadedCase& loaded,
   return cases;
 }
 
-class Session {
+class Session : StudySession {
  public:
   Session(const WorkPrecisionCommand& command, const std::vector<LabelledCase>& cases)
       : command_(command),
@@ -68,9 +60,9 @@ class Session {
     std::vector<WorkPrecision> studies;
     for (const LabelledCase& entry : cases_) {
       studies.push_back(study(entry));
-      status_.clear();
-      print("{}: {}\n{}\n", entry.input.title.empty() ? "untitled case" : entry.input.title,
-            entry.label, work_precision_table(studies.back()));
+      status.clear();
+      print("{}: {}\n{}\n", title_of(entry.input), entry.label,
+            work_precision_table(studies.back()));
       print("cheapest setting whose event times are all within\n{}\n",
             recommendation_text(recommendations_from(studies.back().points)));
       std::fflush(stdout);
@@ -84,10 +76,7 @@ class Session {
         "and .png in {}\n",
         command_.directory);
     if (!studies.back().interrupted) return done;
-    print_error(
-        "subimpact: interrupted; finished points are kept, and the same command "
-        "continues from there\n");
-    return listener_.exit_status();
+    return end_interrupted("; finished points are kept, and the same command continues from there");
   }
 
  private:
@@ -106,8 +95,8 @@ class Session {
     options.finished = [&](const WorkPrecisionPoint& point) {
       log_.append(id, entry.label, point);
     };
-    options.announce = [&](const std::string& what) { status_.show(entry.label + ": " + what); };
-    options.progress = [&](double) { return !listener_.interrupted(); };
+    options.announce = [&](const std::string& what) { status.show(entry.label + ": " + what); };
+    options.progress = progress();
     WorkPrecision result = work_precision(entry.input, options);
     result.label = entry.label;
     return result;
@@ -117,8 +106,6 @@ class Session {
   const std::vector<LabelledCase>& cases_;
   OutputDirectory directory_;
   PointLog log_;
-  InterruptListener listener_;
-  StatusLine status_;
 };
 
 int run_work_precision(WorkPrecisionCommand command) {
@@ -132,33 +119,21 @@ int run_work_precision(WorkPrecisionCommand command) {
   });
 }
 
-}  // namespace
-
-void add_work_precision(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand(
-      "work-precision", "Chart cost against error for every method, and recommend settings");
-  auto options = std::make_shared<WorkPrecisionCommand>();
-  options->input.add_case_to(*command);
-  command
-      ->add_option("--methods", options->methods,
-                   "Methods to sweep, separated by commas; a method's table after a colon, "
-                   "its solver.events after a plus sign. "
-                   "Default: all that can run the case")
-      ->delimiter(',');
-  command
-      ->add_option("--sections", options->sections,
-                   "Section laws, separated by commas, each in a panel of its own. Default: the "
-                   "case's")
-      ->delimiter(',');
-  add_directory_option(*command, options->directory,
+void add_options(CLI::App& command, WorkPrecisionCommand& options) {
+  options.input.add_case_to(command);
+  add_list_option(command, "--methods", options.methods,
+                  "Methods to sweep, separated by commas; a method's table after a colon, "
+                  "its solver.events after a plus sign. "
+                  "Default: all that can run the case");
+  add_list_option(command, "--sections", options.sections,
+                  "Section laws, separated by commas, each in a panel of its own. Default: the "
+                  "case's");
+  add_directory_option(command, options.directory,
                        "Directory for CSV and figures; made if missing. Default: the case file's "
                        "name without its ending, and -work-precision, in the current directory");
-  command
-      ->add_option("--point-seconds", options->point_seconds,
-                   "A setting that would take longer is reported as not run")
-      ->check(positive_seconds)
-      ->capture_default_str();
-  command->footer(
+  add_seconds_option(command, "--point-seconds", options.point_seconds,
+                     "A setting that would take longer is reported as not run");
+  command.footer(
       "Each method is swept from coarse to fine, rtol in decades or fixed steps in halves, against "
       "a reference computed by two methods at rtol 1e-12. Runs end at the horizon, up to which the "
       "error of the reference is below 1e-4 us. Runs are timed one at a time: leave the machine "
@@ -170,7 +145,14 @@ void add_work_precision(CLI::App& program, int& status) {
       "  subimpact work-precision case.toml --sections elastic,exact,layers --set time.end=2e-3\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a figure could not be drawn; 130 "
       "stopped by Ctrl-C.");
-  command->callback([options, &status] { status = run_work_precision(*options); });
+}
+
+}  // namespace
+
+void add_work_precision(CLI::App& program, int& status) {
+  add_command(program, status, "work-precision",
+              "Chart cost against error for every method, and recommend settings", add_options,
+              run_work_precision);
 }
 
 }  // namespace subimpact::app

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "case/case_choices.h"
 #include "case/counted.h"
-#include "io/csv_columns.h"
+#include "io/study_columns.h"
+#include "io/sub_impact_rows.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -20,126 +23,163 @@ std::string setting_of(const ComparedRun& run) {
   return fmt::format("rtol {:.1e}", run.input.solver.rtol);
 }
 
-// The sub-impact at `index` of a list, or null.
-const SubImpact* at(const std::vector<SubImpact>& list, const std::optional<std::size_t>& index) {
-  return index ? &list[*index] : nullptr;
+template <auto count>
+constexpr auto work = member<&ComparedRun::result, &Result::work, count>;
+
+StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
+  std::size_t width = narrowest_name;
+  for (const ComparedRun& run : comparison.runs) width = std::max(width, run.name.size());
+  const auto time = [](const char* heading) { return Print{heading, ">10", ".2e", us}; };
+  const auto share = [](const char* heading) { return Print{heading, ">9", ".1e"}; };
+  const auto n_sub_impacts = [](const ComparedRun& run) { return run.result.sub_impacts.size(); };
+  const auto wall_time = [](const ComparedRun& run) {
+    return duration_text(run.result.work.wall_seconds);
+  };
+  const auto rtol = [](const ComparedRun& run) {
+    return run.result.used.step ? std::nullopt : std::optional(run.input.solver.rtol);
+  };
+  return {
+      {"method", &ComparedRun::name, {"method", fmt::format("<{}", width)}},
+      {"", setting_of, {"setting", "<14"}},
+      {"outcome", [](const ComparedRun& run) { return run.result.outcome.kind; }},
+      {"sub_impacts", n_sub_impacts, {"sub-\nimp.", ">6"}},
+      {"reference_sub_impacts",
+       [&](const ComparedRun&) { return comparison.reference.sub_impacts.size(); }},
+      {"corresponding", &ComparedRun::n_corresponding, {"corre-\nspond", ">6"}},
+      {"max_start_difference_s", &ComparedRun::max_start_difference, time("start\nmax, us")},
+      {"max_end_difference_s", &ComparedRun::max_end_difference, time("end\nmax, us")},
+      {"max_peak_difference_relative", &ComparedRun::max_peak_difference, share("peak\nmax, rel.")},
+      {"max_impulse_difference_relative", &ComparedRun::max_impulse_difference,
+       share("impulse\nmax, rel.")},
+      {"steps", work<&Work::steps>},
+      {"rejected_steps", work<&Work::rejected_steps>},
+      {"right_hand_sides", work<&Work::right_hand_sides>, {"right-hand\nsides", ">10"}},
+      {"mass_solves", work<&Work::mass_solves>},
+      {"jacobians", work<&Work::jacobians>},
+      {"factorisations", work<&Work::factorisations>},
+      {"wall_s", work<&Work::wall_seconds>},
+      {"", wall_time, {"wall\ntime", ">11"}},
+      {"rtol", rtol},
+      {"step_s", member<&ComparedRun::result, &Result::used, &ResolvedSettings::step>}};
+}
+
+// "+20.29": how much later than in the first theory, to a hundredth of a microsecond.
+std::string later(const std::optional<double>& time, const std::optional<double>& first) {
+  return time && first ? fmt::format("{:+.2f}", us * (*time - *first)) : std::string("-");
+}
+
+// One line per sub-impact of a run.
+void add_rows(const TheoryRun& run, const TheoryRun& first, std::string& text) {
+  const SubImpactRows table = sub_impact_rows(run.result);
+  text +=
+      fmt::format("{:>4} {:>{}} {:>{}} {:>12} {:>12}\n", "no.", "start, us", table.columns[1].width,
+                  "end, us", table.columns[2].width, "start later", "end later");
+  for (const MatchedPair& pair : run.pairs) {
+    if (!pair.second) continue;
+    const auto& cells = table.rows[*pair.second].cells;
+    const SubImpact& here = run.result.sub_impacts[*pair.second];
+    const SubImpact* there = pair.first ? &first.result.sub_impacts[*pair.first] : nullptr;
+    text += fmt::format("{:>4} {:>{}} {:>{}} {:>12} {:>12}\n", cells[0], cells[1],
+                        table.columns[1].width, cells[2], table.columns[2].width,
+                        there ? later(here.start, there->start) : "-",
+                        there ? later(here.end, there->end) : "-");
+  }
+}
+
+std::string sentence(const TheoryRun& run, const TheoryRun& first) {
+  const std::size_t n = n_leading_matches(run.pairs);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const SubImpact& here = run.result.sub_impacts[i];
+    const SubImpact& there = first.result.sub_impacts[i];
+    largest = std::max(largest, std::abs(here.start - there.start));
+    if (here.end && there.end) largest = std::max(largest, std::abs(*here.end - *there.end));
+  }
+  std::string text = fmt::format("{}: {}, {} by {}", name_of(run.theory),
+                                 counted(run.result.sub_impacts.size(), "sub-impact"),
+                                 first.result.sub_impacts.size(), name_of(first.theory));
+  if (n > 0) {
+    text +=
+        fmt::format("; the first {} correspond, with times up to {:.2f} us apart", n, us * largest);
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
   const Result& reference = comparison.reference;
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  std::size_t width = narrowest_name;
-  for (const ComparedRun& run : comparison.runs) width = std::max(width, run.name.size());
-  fmt::format_to(out, "{:<{}} {:<14} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>10} {:>11}\n", "",
-                 width, "", "sub-", "corre-", "start", "end", "peak", "impulse", "right-hand",
-                 "wall");
-  fmt::format_to(out, "{:<{}} {:<14} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>10} {:>11}\n",
-                 "method", width, "setting", "imp.", "spond", "max, us", "max, us", "max, rel.",
-                 "max, rel.", "sides", "time");
-  for (const ComparedRun& run : comparison.runs) {
-    fmt::format_to(
-        out, "{:<{}} {:<14} {:>6} {:>6} {:>10.2e} {:>10.2e} {:>9.1e} {:>9.1e} {:>10} {:>11}\n",
-        run.name, width, setting_of(run), run.result.sub_impacts.size(), run.n_corresponding,
-        run.max_start_difference * us, run.max_end_difference * us, run.max_peak_difference,
-        run.max_impulse_difference, run.result.work.right_hand_sides,
-        duration_text(run.result.work.wall_seconds));
-  }
-  fmt::format_to(out, "\nreference: {} at rtol {:.0e}, {}, times to {:.1e} us",
-                 to_string(comparison.reference_input.solver.method),
-                 comparison.reference_input.solver.rtol,
-                 counted(reference.sub_impacts.size(), "sub-impact"),
-                 reference.error_estimate->largest_error * us);
+  std::string text = printed_table(columns_of(comparison), comparison.runs);
+  text += fmt::format("\nreference: {} at rtol {:.0e}, {}, times to {:.1e} us",
+                      to_string(comparison.reference_input.solver.method),
+                      comparison.reference_input.solver.rtol,
+                      counted(reference.sub_impacts.size(), "sub-impact"),
+                      reference.error_estimate->largest_error * us);
   if (reference.error_estimate->first_unresolved) {
-    fmt::format_to(out, " before sub-impact {}; from there on the reference itself is uncertain",
-                   *reference.error_estimate->first_unresolved + 1);
+    text += fmt::format(" before sub-impact {}; from there on the reference itself is uncertain",
+                        *reference.error_estimate->first_unresolved + 1);
   }
-  fmt::format_to(out, "\n");
+  text += '\n';
   for (const ComparedRun& run : comparison.runs) {
-    fmt::format_to(out, "{}: {}\n", run.name, run.remark);
+    text += fmt::format("{}: {}\n", run.name, run.remark);
   }
-  return fmt::to_string(text);
+  return text;
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-  const auto work = [](long Work::*count) {
-    return [count](const ComparedRun& run) { return run.result.work.*count; };
-  };
-  const Columns<ComparedRun> columns = {
-      {"method", &ComparedRun::name},
-      {"outcome", [](const ComparedRun& run) { return run.result.outcome.kind; }},
-      {"sub_impacts", [](const ComparedRun& run) { return run.result.sub_impacts.size(); }},
-      {"reference_sub_impacts",
-       [&](const ComparedRun&) { return comparison.reference.sub_impacts.size(); }},
-      {"corresponding", &ComparedRun::n_corresponding},
-      {"max_start_difference_s", &ComparedRun::max_start_difference},
-      {"max_end_difference_s", &ComparedRun::max_end_difference},
-      {"max_peak_difference_relative", &ComparedRun::max_peak_difference},
-      {"max_impulse_difference_relative", &ComparedRun::max_impulse_difference},
-      {"steps", work(&Work::steps)},
-      {"rejected_steps", work(&Work::rejected_steps)},
-      {"right_hand_sides", work(&Work::right_hand_sides)},
-      {"mass_solves", work(&Work::mass_solves)},
-      {"jacobians", work(&Work::jacobians)},
-      {"factorisations", work(&Work::factorisations)},
-      {"wall_s", [](const ComparedRun& run) { return run.result.work.wall_seconds; }},
-      {"rtol",
-       [](const ComparedRun& run) {
-         return run.result.used.step ? std::nullopt : std::optional(run.input.solver.rtol);
-       }},
-      {"step_s", [](const ComparedRun& run) { return run.result.used.step; }}};
-  return csv_text(columns, comparison.runs);
+  return csv_text(columns_in_file(columns_of(comparison)), comparison.runs);
 }
 
 std::string matches_csv(const Comparison& comparison) {
   struct Match {
-    std::string method;
-    std::optional<std::size_t> reference_index, index;
-    const SubImpact* reference;  // null: none corresponds
-    const SubImpact* own;
+    const ComparedRun* run;
+    MatchedPair pair;
   };
   std::vector<Match> matches;
   for (const ComparedRun& run : comparison.runs) {
-    for (const MatchedPair& pair : run.pairs) {
-      matches.push_back({run.name, pair.first, pair.second,
-                         at(comparison.reference.sub_impacts, pair.first),
-                         at(run.result.sub_impacts, pair.second)});
-    }
+    for (const MatchedPair& pair : run.pairs) matches.push_back({&run, pair});
   }
-  const auto number = [](std::optional<std::size_t> Match::*index) {
+  const auto number = [](std::optional<std::size_t> MatchedPair::*index) {
     return [index](const Match& m) {
-      return m.*index ? std::optional(*(m.*index) + 1) : std::nullopt;
+      return m.pair.*index ? std::optional(*(m.pair.*index) + 1) : std::nullopt;
     };
   };
-  const auto of = [](const SubImpact* Match::*side, auto SubImpact::*member) {
-    return [=](const Match& m) {
-      return m.*side ? std::optional<double>(m.*side->*member) : std::nullopt;
+  Columns<Match> columns = {{"method", [](const Match& m) { return m.run->name; }},
+                            {"reference_index", number(&MatchedPair::first)},
+                            {"index", number(&MatchedPair::second)}};
+  const auto add = [&](const std::string& name, const std::string& unit, auto SubImpact::*member) {
+    using Value = std::optional<double>;
+    const auto reference = [&comparison, member](const Match& m) {
+      return m.pair.first ? Value(comparison.reference.sub_impacts[*m.pair.first].*member)
+                          : Value();
     };
-  };
-  const auto difference = [=](auto SubImpact::*member) {
-    return [=](const Match& m) {
-      const std::optional<double> own = of(&Match::own, member)(m);
-      const std::optional<double> reference = of(&Match::reference, member)(m);
-      return own && reference ? std::optional(*own - *reference) : std::nullopt;
+    const auto own = [member](const Match& m) {
+      return m.pair.second ? Value(m.run->result.sub_impacts[*m.pair.second].*member) : Value();
     };
+    columns.push_back({"reference_" + name + unit, reference});
+    columns.push_back({name + unit, own});
+    if (unit != "_s") return;
+    columns.push_back({name + "_difference" + unit, [=](const Match& m) {
+                         const Value here = own(m), there = reference(m);
+                         return here && there ? Value(*here - *there) : Value();
+                       }});
   };
-  const Columns<Match> columns = {
-      {"method", &Match::method},
-      {"reference_index", number(&Match::reference_index)},
-      {"index", number(&Match::index)},
-      {"reference_start_s", of(&Match::reference, &SubImpact::start)},
-      {"start_s", of(&Match::own, &SubImpact::start)},
-      {"start_difference_s", difference(&SubImpact::start)},
-      {"reference_end_s", of(&Match::reference, &SubImpact::end)},
-      {"end_s", of(&Match::own, &SubImpact::end)},
-      {"end_difference_s", difference(&SubImpact::end)},
-      {"reference_peak_force_N", of(&Match::reference, &SubImpact::peak_force)},
-      {"peak_force_N", of(&Match::own, &SubImpact::peak_force)},
-      {"reference_impulse_Ns", of(&Match::reference, &SubImpact::impulse)},
-      {"impulse_Ns", of(&Match::own, &SubImpact::impulse)}};
+  add("start", "_s", &SubImpact::start);
+  add("end", "_s", &SubImpact::end);
+  add("peak_force", "_N", &SubImpact::peak_force);
+  add("impulse", "_Ns", &SubImpact::impulse);
   return csv_text(columns, matches);
+}
+
+std::string theory_table(const std::vector<TheoryRun>& runs) {
+  std::string text;
+  for (const TheoryRun& run : runs) {
+    text += fmt::format("{}\n", name_of(run.theory));
+    add_rows(run, runs.front(), text);
+    text += '\n';
+  }
+  for (std::size_t i = 1; i < runs.size(); ++i) text += sentence(runs[i], runs.front()) + '\n';
+  return text;
 }
 
 }  // namespace subimpact

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <iterator>
 
+#include "case/counted.h"
 #include "io/sensitivity_columns.h"
 #include "io/uncertain.h"
 #include "io/write_file.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
 #include "subimpact/io/sensitivity.h"
 
 namespace subimpact {
@@ -16,6 +19,7 @@ namespace {
 constexpr double us = 1e6;              // per second
 constexpr double us_per_percent = 1e4;  // of d/d ln p in seconds
 constexpr int most_decimals = 6;
+constexpr int most_decimals_of_scatter = 4;
 constexpr std::size_t narrowest = 9;
 
 using Row = SensitivityRow;
@@ -50,6 +54,28 @@ Line line_of(const Row& row) {
             row.flag};
   for (const auto& derivative : row.by_key) line.cells.push_back(per_percent(derivative));
   return line;
+}
+
+// "217.1 +- 1.6": a time with its standard deviation.
+std::string scattered(const std::optional<double>& time, const std::optional<double>& scatter) {
+  if (!time) return "(open)";
+  if (!scatter) return fmt::format("{:.0f} ?", us * *time);
+  if (*scatter == 0.0) return fmt::format("{:g}", us * *time);
+  const auto rounding = rounding_of(us * *scatter, most_decimals_of_scatter);
+  if (!rounding) return fmt::format("{:.0f} ?", us * *time);
+  return fmt::format("{} +- {}", with_decimals(us * *time, rounding->decimals), rounding->error);
+}
+
+std::string zone_line(const Predictability::Zone& zone, const ZoneSummary& summary) {
+  std::string text = fmt::format("{:>6} {:>22} {:>22}", fmt::format("zone {}", summary.zone),
+                                 scattered(summary.start, zone.start_scatter),
+                                 scattered(summary.end, zone.end_scatter));
+  if (zone.impulse_scatter) {
+    const auto rounding = rounding_of(*zone.impulse_scatter, most_decimals_of_scatter + 2);
+    text += fmt::format("  impulse {} +- {} N s",
+                        with_decimals(summary.impulse, rounding->decimals), rounding->error);
+  }
+  return text + "\n";
 }
 
 }  // namespace
@@ -104,6 +130,47 @@ std::string sensitivity_table(const Sensitivity& study) {
     fmt::format_to(out, "{}{}\n", line.flag.empty() ? "" : "  ! ", line.flag);
   }
   for (const std::string& remark : study.remarks) fmt::format_to(out, "{}\n", remark);
+  return fmt::to_string(text);
+}
+
+std::string predictability_words(const Result& result) {
+  const Predictability& found = *result.predictability;
+  const std::size_t n_all = result.sub_impacts.size();
+  const std::size_t n = std::min(found.first_unpredictable.value_or(n_all), n_all);
+  const std::string scatter =
+      fmt::format("times scatter by up to {}", error_text(found.largest_scatter));
+  if (!found.first_unpredictable) {
+    return fmt::format("all {}; {}", counted(n_all, "sub-impact"), scatter);
+  }
+  if (n == 0) return "no sub-impact: " + found.reason;
+  return fmt::format("{} of {}, up to {}; {}; beyond: {}", n, counted(n_all, "sub-impact"),
+                     duration_text(found.horizon), scatter, found.reason);
+}
+
+std::string scatter_table(const Result& result) {
+  const Predictability& found = *result.predictability;
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "standard deviations by the scatter of the case\n{:>6} {:>22} {:>22}\n",
+                 "no.", "start, us", "end, us");
+  for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
+    if (found.first_unpredictable == i) {
+      fmt::format_to(out, "from here on not predictable: {}\n", found.reason);
+    }
+    const SubImpact& s = result.sub_impacts[i];
+    fmt::format_to(out, "{:>6} {:>22} {:>22}\n", i + 1, scattered(s.start, s.start_scatter),
+                   scattered(s.end, s.end_scatter));
+  }
+  const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
+  for (std::size_t z = 0; z < std::min(zones.size(), found.zones.size()); ++z) {
+    text.append(zone_line(found.zones[z], zones[z]));
+  }
+  if (found.striker_velocity_scatter) {
+    const double scatter = *found.striker_velocity_scatter;
+    const auto rounding = rounding_of(scatter, most_decimals_of_scatter + 2);
+    fmt::format_to(out, "striker, at the end: {} +- {} m/s\n",
+                   with_decimals(result.striker_velocity, rounding->decimals), rounding->error);
+  }
   return fmt::to_string(text);
 }
 

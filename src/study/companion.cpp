@@ -10,7 +10,6 @@
 #include "case/problem.h"
 #include "simulate/methods.h"
 #include "study/error_part.h"
-#include "study/free_end_error.h"
 #include "study/mesh_resolution.h"
 #include "study/run_beside.h"
 #include "subimpact/study/mesh_error_bars.h"

@@ -4,9 +4,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+
+#include "case/problem.h"
+#include "study/method_choice.h"
+#include "subimpact/study/error_bars.h"
 
 namespace subimpact {
 namespace {
+
+constexpr double reference_tolerance = 1e-12;
+
+Case accurate(const Case& input, const char* method) {
+  Case chosen = with_method(input, method);
+  const Method kind = chosen.solver.method;
+  chosen.solver = {};
+  chosen.study = {};
+  chosen.solver.method = kind;
+  chosen.solver.rtol = reference_tolerance;
+  return chosen;
+}
+
+void require_completed(const Result& result, const char* method) {
+  if (result.outcome.completed() || result.outcome.kind == OutcomeKind::stopped) return;
+  throw InvalidCase(
+      "time.end",
+      fmt::format("lies beyond what the reference run ({} at rtol {:.0e}) reaches: at {:.6g} us {}",
+                  method, reference_tolerance, 1e6 * result.outcome.time, result.outcome.message));
+}
+
+// How many leading sub-impacts are known well enough, and why not more; an empty reason means all.
+std::pair<std::size_t, std::string> count_known(const Result& result, double largest_error) {
+  const std::size_t n = result.sub_impacts.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const SubImpact& s = result.sub_impacts[i];
+    if (result.error_estimate->first_unresolved == i) {
+      return {i, fmt::format("the reference does not resolve sub-impact {}", i + 1)};
+    }
+    if (!s.end) return {i, fmt::format("sub-impact {} has not ended at the case's end", i + 1)};
+    const double error = std::max(*s.start_error, *s.end_error);
+    if (error > largest_error) {
+      return {i, fmt::format("the reference gives sub-impact {} only to within {:.1e} us", i + 1,
+                             1e6 * error)};
+    }
+  }
+  return {n, {}};
+}
 
 double median_of(std::vector<double>& values) {
   if (values.empty()) return 0.0;
@@ -16,6 +59,47 @@ double median_of(std::vector<double>& values) {
 }
 
 }  // namespace
+
+Reference compute_reference(const Case& input, double largest_error, const Progress& progress) {
+  const bool yields = may_yield(input);
+  const char* first = yields ? "nystrom" : "exponential";
+  const char* second = yields ? "erk" : "nystrom";
+  Reference reference;
+  reference.input = accurate(input, first);
+  const Case refined_input = accurate(input, second);
+  reference.description = fmt::format("{} at rtol {:.0e} beside {} at rtol {:.0e}", first,
+                                      reference_tolerance, second, reference_tolerance);
+
+  auto refined_run = std::async(std::launch::async, [&] { return simulate(refined_input); });
+  Result result = simulate(reference.input, progress);
+  const Result other = refined_run.get();
+  require_completed(result, first);
+  require_completed(other, second);
+  add_error_bars(result, other, reference.description);
+
+  const auto [n, reason] = count_known(result, largest_error);
+  if (n == 0) {
+    throw InvalidCase(
+        "time.end", fmt::format("is {} s, but no sub-impact that ends before it counts ({}); use a "
+                                "later end",
+                                input.end_time, reason.empty() ? "there is none" : reason));
+  }
+  reference.sub_impacts.assign(result.sub_impacts.begin(),
+                               result.sub_impacts.begin() + static_cast<std::ptrdiff_t>(n));
+  for (const SubImpact& s : reference.sub_impacts) {
+    reference.error = std::max({reference.error, *s.start_error, *s.end_error});
+  }
+  reference.horizon = input.end_time;
+  reference.horizon_reason = "the case's end";
+  if (n < result.sub_impacts.size()) {
+    reference.horizon = 0.5 * (*reference.sub_impacts.back().end + result.sub_impacts[n].start);
+    reference.horizon_reason = reason;
+    reference.input.end_time = reference.horizon;
+    result = simulate(reference.input, progress);
+  }
+  reference.result = std::move(result);
+  return reference;
+}
 
 EventErrors event_errors(const std::vector<SubImpact>& run,
                          const std::vector<SubImpact>& reference) {
@@ -59,6 +143,29 @@ EventErrors event_errors(const Result& run, const Reference& reference) {
   errors.beam_velocity =
       std::abs(run.beam_mean_velocity - reference.result.beam_mean_velocity) / unit;
   return errors;
+}
+
+std::string_view to_string(Verdict verdict) {
+  constexpr std::string_view names[] = {"right",  "wrong count", "inaccurate", "unstable",
+                                        "failed", "refused",     "not run"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+Verdict judge(const Result& run, const EventErrors& errors) {
+  switch (run.outcome.kind) {
+    case OutcomeKind::completed:
+      return errors.all_correspond() ? Verdict::right : Verdict::wrong_count;
+    case OutcomeKind::inaccurate:
+    case OutcomeKind::chattering:
+      return Verdict::inaccurate;
+    case OutcomeKind::unstable:
+    case OutcomeKind::left_validity:  // of a scene whose reference stays within it
+      return Verdict::unstable;
+    case OutcomeKind::solver_failed:
+    case OutcomeKind::stopped:
+      return Verdict::failed;
+  }
+  return Verdict::failed;
 }
 
 }  // namespace subimpact

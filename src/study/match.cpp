@@ -41,6 +41,33 @@ std::optional<std::size_t> best_partner(const SubImpact& here,
   return best;
 }
 
+// The nearest entry of a list of pairs, from `from` in steps of `step`, that both runs have.
+const MatchedPair* nearest_match(const std::vector<MatchedPair>& pairs, std::size_t from,
+                                 std::ptrdiff_t step) {
+  for (auto i = static_cast<std::ptrdiff_t>(from); i >= 0 && i < std::ssize(pairs); i += step) {
+    const MatchedPair& pair = pairs[static_cast<std::size_t>(i)];
+    if (pair.first && pair.second) return &pair;
+  }
+  return nullptr;
+}
+
+bool correspond(const Result& run, const NearMiss& a, const Result& other, const NearMiss& b) {
+  return a.kind == b.kind && first_in_doubt(run, a) == first_in_doubt(other, b);
+}
+
+std::optional<std::size_t> nearest(const Result& run, const NearMiss& here, const Result& other) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < other.near_misses.size(); ++i) {
+    const NearMiss& there = other.near_misses[i];
+    if (!correspond(run, here, other, there)) continue;
+    const auto distance = [&](std::size_t k) {
+      return std::abs(other.near_misses[k].time - here.time);
+    };
+    if (!best || distance(i) < distance(*best)) best = i;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
@@ -87,6 +114,63 @@ std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>
       fmt::format("at {:.3f} us {} a sub-impact of {:.3f} us that {}", 1e6 * sub_impact.start,
                   unmatched.first ? "the reference has" : "it has", 1e6 * duration,
                   unmatched.first ? "is missing or merged here" : "the reference does not have")};
+}
+
+std::string leading_words(std::size_t n_corresponding) {
+  if (n_corresponding == 0) return "not even the first corresponds";
+  if (n_corresponding == 1) return "the first corresponds";
+  return fmt::format("the first {} correspond", n_corresponding);
+}
+
+Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<SubImpact>& other) {
+  const std::vector<MatchedPair> pairs = match_sub_impacts(base, other);
+  Counterparts found{std::vector<const SubImpact*>(base.size(), nullptr),
+                     std::vector<bool>(base.size(), false)};
+  for (const MatchedPair& pair : pairs) {
+    if (pair.first && pair.second) found.of[*pair.first] = &other[*pair.second];
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const MatchedPair& here = pairs[i];
+    if (here.first && here.second) continue;
+    const SubImpact& alone = here.first ? base[*here.first] : other[*here.second];
+    bool is_part = false;  // of a contact that the other run has whole
+    for (const std::ptrdiff_t step : {-1, 1}) {
+      const MatchedPair* beside = nearest_match(pairs, i, step);
+      if (beside == nullptr) continue;
+      const SubImpact& whole = here.first ? other[*beside->second] : base[*beside->first];
+      if (!(overlap(alone, whole) > 0.0)) continue;
+      found.of[*beside->first] = nullptr;
+      is_part = true;
+    }
+    if (here.first || is_part) continue;
+    if (const MatchedPair* next = nearest_match(pairs, i, 1)) {
+      found.follows_new_one[*next->first] = true;
+    }
+  }
+  return found;
+}
+
+std::size_t first_in_doubt(const Result& run, const NearMiss& near_miss) {
+  const auto after = std::upper_bound(
+      run.sub_impacts.begin(), run.sub_impacts.end(), near_miss.time,
+      [](double time, const SubImpact& sub_impact) { return time < sub_impact.start; });
+  const auto begun = static_cast<std::size_t>(after - run.sub_impacts.begin());
+  return near_miss.kind == NearMissKind::opening && begun > 0 ? begun - 1 : begun;
+}
+
+std::vector<std::optional<std::size_t>> match_near_misses(const Result& run, const Result& other,
+                                                          std::size_t n_matched) {
+  std::vector<std::optional<std::size_t>> partners;
+  for (std::size_t i = 0; i < run.near_misses.size(); ++i) {
+    const NearMiss& here = run.near_misses[i];
+    const std::size_t doubted = first_in_doubt(run, here);
+    const bool opening = here.kind == NearMissKind::opening;
+    if (doubted > n_matched || (opening && doubted == n_matched)) break;
+    std::optional<std::size_t> there = nearest(run, here, other);
+    if (there && nearest(other, other.near_misses[*there], run) != i) there.reset();
+    partners.push_back(there);
+  }
+  return partners;
 }
 
 }  // namespace subimpact

@@ -13,7 +13,6 @@
 #include "numerics/richardson.h"
 #include "simulate/methods.h"
 #include "study/error_part.h"
-#include "study/free_end_error.h"
 #include "study/mesh_resolution.h"
 #include "study/method_choice.h"
 #include "subimpact/study/match.h"

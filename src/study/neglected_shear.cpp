@@ -1,4 +1,4 @@
-#include "subimpact/study/neglected_shear.h"
+#include "subimpact/study/run_as_asked.h"
 
 #include "case/meshes.h"
 #include "study/mesh_resolution.h"

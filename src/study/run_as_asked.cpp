@@ -4,7 +4,6 @@
 
 #include "subimpact/study/error_bars.h"
 #include "subimpact/study/mesh_error_bars.h"
-#include "subimpact/study/neglected_shear.h"
 
 namespace subimpact {
 namespace {
@@ -25,16 +24,6 @@ Result simulate_as_given(const Case& input, RunRequest& request) {
   return simulate(std::move(*request.resolved), request.progress, nullptr, rows);
 }
 
-WithinRun simulate_as_chosen(const Case& input, const OpenChoices& open,
-                             const RunRequest& request) {
-  WithinOptions how;
-  how.jobs = request.jobs;
-  how.progress = request.progress;
-  how.announce = request.announce;
-  how.rows = request.rows;
-  return simulate_within(input, open, how);
-}
-
 }  // namespace
 
 std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
@@ -52,7 +41,7 @@ std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& give
 
 WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request) {
   const std::optional<OpenChoices> open = choices_left(input, given, request.error_bars);
-  WithinRun run = open ? simulate_as_chosen(input, *open, request)
+  WithinRun run = open ? simulate_within(input, *open, request)
                        : WithinRun{input, simulate_as_given(input, request)};
   const bool is_interrupted = run.result.outcome.kind == OutcomeKind::stopped;
   if (request.error_bars != ErrorBars::off && !is_interrupted) {
@@ -65,12 +54,12 @@ Case case_as_chosen(const Case& input, const GivenKeys& given, Jobs jobs,
                     const Progress& progress) {
   const std::optional<OpenChoices> open = choices_left(input, given, std::nullopt);
   if (!open) return input;
-  RunRequest request;
-  request.jobs = jobs;
-  request.progress = progress;
+  WithinOptions how;
+  how.jobs = jobs;
+  how.progress = progress;
   Case without_rows = input;
   without_rows.output.keep_no_rows();
-  return simulate_as_chosen(without_rows, *open, request).input;
+  return simulate_within(without_rows, *open, how).input;
 }
 
 }  // namespace subimpact

@@ -10,9 +10,7 @@
 
 #include "case/shifted_case.h"
 #include "simulate/methods.h"
-#include "study/counterparts.h"
 #include "study/method_choice.h"
-#include "study/near_miss_match.h"
 #include "study/parallel.h"
 #include "study/stencil.h"
 #include "subimpact/study/match.h"
@@ -27,6 +25,19 @@ constexpr double graze_share = 3.0;       // of the change of a margin over the 
 constexpr double bent_share = 0.05;       // of the largest derivative of a row, between the shifts
 
 constexpr std::size_t n_runs_per_key = 2 * sensitivity_shifts.size();
+
+// In the order of EventQuantity.
+struct {
+  std::string_view name;
+  double (*value)(const SubImpact&);
+} constexpr quantities[] = {
+    {"start_s", [](const SubImpact& s) { return s.start; }},
+    {"end_s", [](const SubImpact& s) { return *s.end; }},
+    {"peak_force_N", [](const SubImpact& s) { return s.peak_force; }},
+    {"impulse_Ns", [](const SubImpact& s) { return s.impulse; }},
+    {"max_indentation_m", [](const SubImpact& s) { return s.max_indentation; }},
+    {"striker_velocity_m_per_s", [](const SubImpact& s) { return s.striker_velocity; }}};
+static_assert(std::size(quantities) == event_quantities.size());
 
 // --- the runs -----------------------------------------------------------------------------------
 
@@ -47,39 +58,30 @@ CheckRun check_run_of(const Case& base) {
   return check;
 }
 
-/// Makes runs, `jobs` at a time.
-class Runner {
- public:
-  Runner(const SensitivityOptions& options, std::size_t n_all) : options_(options), n_all_(n_all) {}
-
-  std::vector<Result> run(const std::vector<Case>& cases) {
-    std::vector<Result> results(cases.size());
-    in_parallel(
-        cases.size(),
-        [&](std::size_t i) {
-          results[i] = simulate(cases[i], [&](double time) { return goes_on(time); });
-          if (results[i].outcome.kind == OutcomeKind::stopped) return;
-          const std::lock_guard lock(mutex_);
-          ++n_done_;
-          if (options_.finished) options_.finished(n_done_, n_all_);
-        },
-        options_.jobs);
-    return results;
-  }
-  bool stopped() const { return stop_; }
-
- private:
-  bool goes_on(double time) {
-    if (options_.progress && !options_.progress(time)) stop_ = true;
-    return !stop_;
-  }
-
-  const SensitivityOptions& options_;
-  std::size_t n_all_;
-  std::size_t n_done_ = 0;
-  std::mutex mutex_;
-  std::atomic<bool> stop_ = false;
-};
+/// Makes runs, `jobs` at a time; counts them in `n_done`, of `n_all`. Sets `stopped` where the
+/// options' progress ends them.
+std::vector<Result> simulate_all(const std::vector<Case>& cases, const SensitivityOptions& options,
+                                 std::size_t& n_done, std::size_t n_all, bool& stopped) {
+  std::vector<Result> results(cases.size());
+  std::mutex mutex;
+  std::atomic<bool> stop = stopped;
+  const auto goes_on = [&](double time) {
+    if (options.progress && !options.progress(time)) stop = true;
+    return !stop;
+  };
+  in_parallel(
+      cases.size(),
+      [&](std::size_t i) {
+        results[i] = simulate(cases[i], goes_on);
+        if (results[i].outcome.kind == OutcomeKind::stopped) return;
+        const std::lock_guard lock(mutex);
+        ++n_done;
+        if (options.finished) options.finished(n_done, n_all);
+      },
+      options.jobs);
+  stopped = stop;
+  return results;
+}
 
 std::vector<const CaseKey*> keys_of(const Case& input, const std::vector<std::string>& names) {
   std::vector<const CaseKey*> keys;
@@ -106,8 +108,7 @@ std::vector<Case> shifted_cases(const Case& base, const std::vector<const CaseKe
   return cases;
 }
 
-// --- differences of runs
-// --------------------------------------------------------------------------
+// --- differences of runs ------------------------------------------------------------------------
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -233,8 +234,7 @@ SensitivityRow row_of(const Differences& differences, EventQuantity quantity, st
   return row;
 }
 
-// --- near misses
-// ----------------------------------------------------------------------------------
+// --- near misses --------------------------------------------------------------------------------
 
 std::vector<NearMissSensitivity> near_misses_of(const Result& base,
                                                 const std::vector<Result>& shifted_runs,
@@ -335,45 +335,19 @@ std::vector<std::string> remarks_on(const Case& input, const Case& base) {
 }  // namespace
 
 std::string_view to_string(EventQuantity quantity) {
-  switch (quantity) {
-    case EventQuantity::start:
-      return "start_s";
-    case EventQuantity::end:
-      return "end_s";
-    case EventQuantity::peak_force:
-      return "peak_force_N";
-    case EventQuantity::impulse:
-      return "impulse_Ns";
-    case EventQuantity::max_indentation:
-      return "max_indentation_m";
-    case EventQuantity::striker_velocity:
-      return "striker_velocity_m_per_s";
-  }
-  return "unknown";
+  return quantities[static_cast<std::size_t>(quantity)].name;
 }
 
 std::optional<double> value_of(const SubImpact& s, EventQuantity quantity) {
-  if (quantity == EventQuantity::start) return s.start;
-  if (!s.end) return std::nullopt;
-  switch (quantity) {
-    case EventQuantity::end:
-      return s.end;
-    case EventQuantity::peak_force:
-      return s.peak_force;
-    case EventQuantity::impulse:
-      return s.impulse;
-    case EventQuantity::max_indentation:
-      return s.max_indentation;
-    default:
-      return s.striker_velocity;
-  }
+  if (quantity != EventQuantity::start && !s.end) return std::nullopt;
+  return quantities[static_cast<std::size_t>(quantity)].value(s);
 }
 
 const SensitivityRow* Sensitivity::find(EventQuantity quantity, std::size_t sub_impact) const {
-  for (const SensitivityRow& row : rows) {
-    if (row.quantity == quantity && row.sub_impact == sub_impact) return &row;
-  }
-  return nullptr;
+  const auto found = std::ranges::find_if(rows, [&](const SensitivityRow& row) {
+    return row.quantity == quantity && row.sub_impact == sub_impact;
+  });
+  return found != rows.end() ? &*found : nullptr;
 }
 
 std::vector<std::string> sensitivity_keys(const Case& input) { return shifted_keys(input); }
@@ -399,17 +373,18 @@ Sensitivity sensitivity(const Case& input, const SensitivityOptions& options) {
   for (const CaseKey* key : keys) study.keys.push_back(key->name);
   const std::vector<Case> cases = shifted_cases(study.input, keys);
 
-  Runner runner(options, cases.size() + 2);
+  std::size_t n_done = 0;
+  const auto run = [&](const std::vector<Case>& some) {
+    return simulate_all(some, options, n_done, cases.size() + 2, study.interrupted);
+  };
   const CheckRun check_run = check_run_of(study.input);
-  std::vector<Result> first = runner.run({study.input, check_run.input});
+  std::vector<Result> first = run({study.input, check_run.input});
   study.base = std::move(first[0]);
-  study.interrupted = runner.stopped();
   if (!study.base.outcome.completed()) {
     study.keys.clear();
     return study;
   }
-  std::vector<Result> shifted_runs = runner.run(cases);
-  study.interrupted = runner.stopped();
+  std::vector<Result> shifted_runs = run(cases);
   drop_incomplete(study, shifted_runs);
 
   const Differences differences(study.base, first[1], check_run.share, shifted_runs, study.keys);

@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "case/counted.h"
-#include "study/leading_words.h"
-#include "study/timed_run.h"
+#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {
@@ -15,6 +14,37 @@ namespace {
 constexpr double reference_share = 0.1;
 // A tolerance ten times tighter costs up to this many times more (order 3: 2.2).
 constexpr double growth_of_a_decade = 2.2;
+
+/// A run and how long it takes.
+struct TimedRun {
+  Result result;
+  double seconds = 0.0;  ///< wall time, set-up included: the shortest of the repeats
+  int repeats = 0;
+};
+
+// Runs the case once to warm up (the result of that run is returned), then again until the options'
+// number of repeats or budget is reached; a first run that uses up the budget alone is the timed
+// one. Nothing else should run on the machine meanwhile. Throws InvalidCase.
+TimedRun timed_run(const Case& input, const WorkPrecisionOptions& options) {
+  TimedRun run;
+  run.result = simulate(input, options.progress);
+  run.seconds = run.result.work.wall_seconds;
+  run.repeats = 1;
+  if (!run.result.outcome.completed()) return run;
+  double total = run.seconds;
+  for (int i = 0; i < options.most_repeats && total < options.timing_budget; ++i) {
+    const Result again = simulate(input, options.progress);
+    if (again.outcome.kind == OutcomeKind::stopped) {
+      run.result.outcome = again.outcome;  // a timing cut short is none
+      return run;
+    }
+    const double seconds = again.work.wall_seconds;
+    total += seconds;
+    run.seconds = i == 0 ? seconds : std::min(run.seconds, seconds);
+    run.repeats = i + 1;
+  }
+  return run;
+}
 
 void conclude(WorkPrecisionPoint& point, const TimedRun& run, const Reference& reference) {
   point.work = run.result.work;
@@ -98,8 +128,7 @@ class Study {
   bool run_point(WorkPrecisionPoint& point) {
     announce(point.setting.method + " at " + point.setting.text());
     try {
-      const TimedRun run = timed_run(with_setting(compared_, point.setting), options_.timing_budget,
-                                     options_.most_repeats, options_.progress);
+      const TimedRun run = timed_run(with_setting(compared_, point.setting), options_);
       if (run.result.outcome.kind == OutcomeKind::stopped) {
         study_.interrupted = true;
         return false;

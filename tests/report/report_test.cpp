@@ -1,5 +1,5 @@
 #include "subimpact/io/report.h"
-#include "subimpact/io/plan.h"
+#include "subimpact/report/studies.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

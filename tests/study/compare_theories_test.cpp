@@ -1,4 +1,4 @@
-#include "subimpact/study/compare_theories.h"
+#include "subimpact/study/compare.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The first-order part of the error of cells with free ends.
 
-#include "study/free_end_error.h"
+#include "study/error_part.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include "model/cell_modes.h"
 #include "model/flexural_frequencies.h"
 #include "paper_scene.h"
-#include "study/error_part.h"
 #include "subimpact/study/mesh_error_bars.h"
 
 namespace subimpact {

@@ -7,7 +7,7 @@
 
 #include "paper_scene.h"
 #include "study/error_part.h"
-#include "study/near_miss_match.h"
+#include "subimpact/study/match.h"
 #include "subimpact/study/mesh_error_bars.h"
 
 namespace subimpact {

@@ -20,7 +20,6 @@
 #include "error_bars/scenes.h"
 #include "numerics/richardson.h"
 #include "study/error_part.h"
-#include "study/free_end_error.h"
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"

@@ -18,8 +18,8 @@
 #include "case/shifted_case.h"
 #include "numerics/random.h"
 #include "predictability/support.h"
-#include "study/counterparts.h"
 #include "study/parallel.h"
+#include "subimpact/study/match.h"
 #include "subimpact/study/sensitivity.h"
 
 namespace subimpact::predictability {

@@ -9,9 +9,9 @@
 #include <filesystem>
 
 #include "predictability/checks.h"
+#include "predictability/ensemble.h"
 #include "predictability/support.h"
 #include "report/gnuplot.h"
-#include "subimpact/study/ensemble.h"
 
 namespace subimpact::predictability {
 namespace {

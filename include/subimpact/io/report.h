@@ -9,7 +9,6 @@
 #include "subimpact/case/cost.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
-#include "subimpact/study/compare_theories.h"
 
 namespace subimpact {
 

@@ -300,9 +300,6 @@ struct Result {
 
   /// One line: outcome, sub-impacts, error of the energy, steps and time.
   std::string brief_report() const;
-  /// The brief report, warnings, and the settings given beside the settings used. For tables of
-  /// sub-impacts see io/report.h.
-  std::string full_report() const;
 };
 
 }  // namespace subimpact

@@ -2,11 +2,37 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "subimpact/case/simulate.h"
 #include "subimpact/study/match.h"
-#include "subimpact/study/reference.h"
 
 namespace subimpact {
+
+/// The event times of a case's semi-discrete equations, as accurate as the program can compute
+/// them: errors of the time integration are measured against these.
+struct Reference {
+  Case input;                          ///< of the run; ends at the horizon
+  Result result;                       ///< up to the horizon
+  std::vector<SubImpact> sub_impacts;  ///< those that count, with their stated errors
+  double error = 0.0;                  ///< s, the largest error stated for them
+  double horizon = 0.0;                ///< s, up to which runs are compared
+  std::string horizon_reason;          ///< in words
+  std::string description;             ///< the two runs, in words
+};
+
+/// Two runs by different methods, one beside the other on two cores: `exponential` and `nystrom` at
+/// rtol = 1e-12 where the beam is elastic, else `nystrom` and `erk`. The error stated for an event
+/// is three times the largest difference of the two over it and its neighbours (add_error_bars).
+///
+/// A sub-impact counts if both runs have it and its stated error is at most `largest_error` (s):
+/// sub-impacts that graze amplify small differences until no computation can predict the next
+/// event. The horizon lies in the middle of the separation after the last that counts, or at the
+/// case's end if that is separation too. Throws InvalidCase if nothing counts, if either run fails,
+/// or for the case itself.
+Reference compute_reference(const Case& input, double largest_error, const Progress& progress = {});
 
 /// How far a run is from a reference. Times are those of the starts and ends of the leading
 /// sub-impacts that correspond one to one; the first start, which is given, is left out.
@@ -37,5 +63,22 @@ EventErrors event_errors(const Result& run, const Reference& reference);
 /// The same against any list of sub-impacts; velocities are left at 0.
 EventErrors event_errors(const std::vector<SubImpact>& run,
                          const std::vector<SubImpact>& reference);
+
+/// The verdict on a run compared with a reference.
+enum class Verdict {
+  right,        ///< completed, and every sub-impact corresponds
+  wrong_count,  ///< completed, but sub-impacts are missing, merged or invented
+  inaccurate,   ///< ended by one of its own checks, and the outcome reports it
+  unstable,     ///< the solution grew without bound, and the outcome reports it
+  failed,       ///< the solver could not continue, and the outcome reports it
+  refused,      ///< the setting was not accepted
+  not_run       ///< not run: it would have taken longer than allowed
+};
+
+/// "right", "wrong count", ...
+std::string_view to_string(Verdict verdict);
+
+/// The verdict on a run that was accepted.
+Verdict judge(const Result& run, const EventErrors& errors);
 
 }  // namespace subimpact

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/simulate/records.h"
+#include "subimpact/simulate/result.h"
 
 namespace subimpact {
 
@@ -35,5 +35,31 @@ struct UnmatchedSubImpact {
 std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>& pairs,
                                                   const std::vector<SubImpact>& reference,
                                                   const std::vector<SubImpact>& run);
+
+/// "the first 3 correspond": how many leading sub-impacts correspond, in words.
+std::string leading_words(std::size_t n_corresponding);
+
+/// The sub-impacts of another run that correspond to those of a base run, one to one.
+struct Counterparts {
+  /// By number in the base run; null where contacts have merged, split or vanished. They point into
+  /// the list of the other run.
+  std::vector<const SubImpact*> of;
+  /// By number in the base run: whether the other run has a contact before it that the base run
+  /// lacks.
+  std::vector<bool> follows_new_one;
+};
+
+Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<SubImpact>& other);
+
+/// The sub-impact (from 0) from which on a run is in doubt if its near miss was none: the one that
+/// nearly opens, or the one after the separation that nearly closes.
+std::size_t first_in_doubt(const Result& run, const NearMiss& near_miss);
+
+/// For each near miss of a run the one of another run that corresponds to it, as an index, or none:
+/// of the same kind, in the same contact or separation, each the nearest in time to the other. Only
+/// the contacts and separations up to that after the first `n_matched` sub-impacts are looked at.
+/// The list ends with the last near miss among these.
+std::vector<std::optional<std::size_t>> match_near_misses(const Result& run, const Result& other,
+                                                          std::size_t n_matched);
 
 }  // namespace subimpact

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/verdict.h"
 #include "subimpact/study/within.h"
 
 namespace subimpact {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <string>
 
 #include "subimpact/case/keys_without_effect.h"
 #include "subimpact/case/simulate.h"
@@ -17,17 +15,10 @@ enum class ErrorBars {
   all    ///< refined runs of time, mesh and layers (study/mesh_error_bars.h)
 };
 
-struct RunRequest {
+struct RunRequest : WithinOptions {
   /// Empty: from a companion; and what a case that fixes nothing leaves open is chosen
   /// (study/within.h). Must be empty if the case has accuracy.event_times.
   std::optional<ErrorBars> error_bars;
-  Jobs jobs = 1;
-  Progress progress;  ///< of the run in hand; returning false ends all with what there is
-  /// Called before each run of several, with its description.
-  std::function<void(const std::string& what)> announce;
-  /// Called before each run whose rows are kept: where they go. Those of the run before are to be
-  /// discarded. Empty: rows stay in the result.
-  std::function<RowSink*()> rows;
   /// The case resolved already; taken by a run without error bars.
   std::optional<ResolvedRun> resolved;
 };
@@ -37,6 +28,12 @@ struct RunRequest {
 /// (accuracy.event_times) if both are asked for.
 std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
                                         const std::optional<ErrorBars>& error_bars);
+
+/// What shear would do to the first contact of a run whose theory leaves it out, from two further
+/// runs up to there, with and without shear, on the same coarse cells, undamped (nu = 0.3 unless
+/// given). Contacts that shear merges make it large. Nothing where the theory has shear, on a rigid
+/// beam and on a mesh of the user's own, and where no first contact ended.
+std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& result);
 
 /// Runs a case as `subimpact run` does, with error estimates and what neglected shear would change,
 /// unless error bars are off. Throws InvalidCase.

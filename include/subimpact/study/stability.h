@@ -8,9 +8,7 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/reference.h"
 #include "subimpact/study/sweep.h"
-#include "subimpact/study/verdict.h"
 
 namespace subimpact {
 
@@ -85,9 +83,9 @@ struct OutcomePoint {
   std::string row;    ///< method, and what else sets the row apart
   double x = 0.0;     ///< omega_max h, or rtol
   Verdict verdict = Verdict::refused;
-  EventErrors errors;
+  EventErrors errors{};
   double energy_error = 0.0;  ///< largest relative one of the run
-  std::string message;        ///< message to the user, where the run is not right
+  std::string message{};      ///< message to the user, where the run is not right
 };
 
 struct OutcomeMap {

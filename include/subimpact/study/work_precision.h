@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/reference.h"
 #include "subimpact/study/sweep.h"
-#include "subimpact/study/verdict.h"
 
 namespace subimpact {
 

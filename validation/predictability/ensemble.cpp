@@ -1,49 +1,32 @@
-#include "subimpact/study/ensemble.h"
+#include "predictability/ensemble.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
-#include <numbers>
 #include <optional>
 
-#include "case/shifted_case.h"
-#include "numerics/random.h"
-#include "study/counterparts.h"
 #include "study/parallel.h"
+#include "subimpact/study/match.h"
 
-namespace subimpact {
+namespace subimpact::predictability {
 namespace {
-
-// Box and Muller's transform.
-double normal(Random& random) {
-  const double r = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-  return r * std::cos(2.0 * std::numbers::pi * random.uniform());
-}
 
 struct Sample {
   Case input;
   std::vector<double> shifts;  // of ln p, by key of the study
 };
 
-Sample draw(const Sensitivity& study, const Scatter& scatter, const EnsembleOptions& options,
+Sample draw(const Sensitivity& study, const Population& population, double rtol,
             std::size_t number) {
-  Random random(Random(options.seed).next() ^ (number * 0xd1342543de82ef95ULL));
-  random.next();
-  Sample sample{study.input, {}};
-  sample.input.solver.rtol = options.rtol;
-  for (const std::string& name : study.keys) {
+  Sample sample{study.input, std::vector<double>(study.keys.size(), 0.0)};
+  sample.input.solver.rtol = rtol;
+  for (const auto& [name, value] : population.settings(study.input, number)) {
     const CaseKey& key = *find_case_key(name);
-    const auto found = scatter.find(name);
-    const double deviation = found != scatter.end() ? found->second : 0.0;
-    for (bool drawn = false; !drawn;) {
-      const double shift = deviation * normal(random);
-      const Case other = shifted(sample.input, key, shift);
-      drawn = !problem_with(key, *key.get(other));
-      if (!drawn) continue;
-      sample.input = other;
-      sample.shifts.push_back(shift);
-    }
+    const auto k = std::ranges::find(study.keys, name) - study.keys.begin();
+    sample.shifts.at(static_cast<std::size_t>(k)) =
+        std::log(std::get<double>(value) / std::get<double>(*key.get(study.input)));
+    assign(sample.input, key, value);
   }
   return sample;
 }
@@ -79,6 +62,7 @@ struct Moments {
 
 Ensemble ensemble(const Sensitivity& study, const Scatter& scatter,
                   const EnsembleOptions& options) {
+  const Population population{{}, scatter, options.n_runs, options.seed};
   std::vector<std::optional<Result>> runs(options.n_runs);
   std::vector<std::vector<double>> shifts(options.n_runs);
   std::atomic<bool> stop = false;
@@ -87,7 +71,7 @@ Ensemble ensemble(const Sensitivity& study, const Scatter& scatter,
   in_parallel(
       options.n_runs,
       [&](std::size_t i) {
-        Sample sample = draw(study, scatter, options, i);
+        Sample sample = draw(study, population, options.rtol, i);
         shifts[i] = std::move(sample.shifts);
         Result run = simulate(sample.input, [&](double time) {
           if (options.progress && !options.progress(time)) stop = true;
@@ -136,4 +120,4 @@ Ensemble ensemble(const Sensitivity& study, const Scatter& scatter,
   return result;
 }
 
-}  // namespace subimpact
+}  // namespace subimpact::predictability

@@ -8,9 +8,10 @@
 #include <functional>
 #include <vector>
 
+#include "subimpact/study/population.h"
 #include "subimpact/study/predictability.h"
 
-namespace subimpact {
+namespace subimpact::predictability {
 
 struct EnsembleOptions {
   std::size_t n_runs = 2000;
@@ -39,11 +40,9 @@ struct Ensemble {
   bool interrupted = false;
 };
 
-/// Runs with each number p of the scatter times exp(s z), s its relative standard deviation and z
-/// normal, from a generator of the program's own: seed and number of a run determine it. Values
-/// beyond the range of their key are drawn again. The sub-impacts of a run are matched with those
-/// of the base run after these are moved by what the derivatives of the study foresee.
+/// The samples of a Population. The sub-impacts of a run are matched with those of the base run
+/// after these are moved by what the derivatives of the study foresee.
 Ensemble ensemble(const Sensitivity& study, const Scatter& scatter,
                   const EnsembleOptions& options = {});
 
-}  // namespace subimpact
+}  // namespace subimpact::predictability

@@ -1,15 +1,22 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <limits>
+#include <random>
 
+#include "case/problem.h"
+#include "integrate/central_difference.h"
 #include "integrate/stability.h"
 #include "numerics/bracketed_root.h"
+#include "simulate/run_parts.h"
 #include "study/free_vibration.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
 #include "subimpact/study/stability.h"
+#include "system/contact_resonance.h"
 
 namespace subimpact {
 namespace {
@@ -62,6 +69,46 @@ std::function<double(double)> predicted_growth(const std::string& method) {
 
 // Odd, as one half of a symmetric beam needs.
 int odd(double segments) { return 2 * static_cast<int>(segments / 2.0) + 1; }
+
+constexpr double newton_tolerance = 1e-10;  // of implicit methods
+constexpr int angles_a_decade = 4;
+
+constexpr int n_steps_in_contact = 600;
+constexpr double blown_up = 1e6;  // of the energy at the start; bounded motion stays near it
+constexpr double contact_tolerance = 1e-4;  // relative
+constexpr double decades[] = {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0};
+
+// Beam and striker, held together by a spring that pulls as well as it pushes.
+StruckBeam held_together(const Case& input, double stiffness) {
+  Case trial = with_method(input, "central-difference");
+  trial.model.section = SectionKind::elastic;
+  trial.scene.contact = {};
+  trial.parts.contact_law = nullptr;
+  trial.scene.contact.kind = ContactKind::linear;
+  trial.scene.contact.stiffness = stiffness;
+  trial.scene.striker.nose_radius.reset();
+  StruckBeam beam = make_struck_beam(problem_of(trial), trial, SectionField::Storage::when_yielded,
+                                     Coordinates::of_mesh);
+  beam.contact().set(ContactBranch::elastic, {});
+  return beam;
+}
+
+// Whether central differences blow up from a state that holds something of every mode.
+bool blows_up(StruckBeam& beam, double step) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> velocity(-1.0, 1.0);
+  const std::size_t n = beam.n_positions();
+  State y(2 * n, 0.0);
+  for (std::size_t i = n; i < 2 * n; ++i) y[i] = velocity(random);
+  double size = 0.0;
+  for (const double v : y) size += v * v;
+  CentralDifference method(beam, step);
+  method.restart(0.0, y);
+  for (int i = 0; i < n_steps_in_contact; ++i) method.step();
+  double end = 0.0;
+  for (std::size_t i = n; i < 2 * n; ++i) end += method.state()[i] * method.state()[i];
+  return !(end < blown_up * size);
+}
 
 }  // namespace
 
@@ -127,6 +174,59 @@ std::vector<CriticalStep> critical_steps(const Case& input,
         [&](double y) { return beam.growth(top, y / row.highest_frequency, n_steps); });
     row.measured = angle / row.highest_frequency;
   });
+  return list;
+}
+
+std::vector<StiffContact> stiff_contact(const Case& input) {
+  std::vector<StiffContact> list(std::size(decades));
+  in_parallel(list.size(), [&](std::size_t i) {
+    StiffContact& row = list[i];
+    Case trial = with_method(input, "central-difference");
+    trial.model.section = SectionKind::elastic;
+    const double beam_alone = resolve(trial).settings().highest_frequency;
+    row.beam_only = 2.0 / beam_alone;
+    // The unit is the spring that alone oscillates as fast as the mesh on a cell's mass.
+    const double cell_mass = trial.scene.beam.mass() / trial.model.segments;
+    row.stiffness = std::pow(10.0, decades[i]) * cell_mass * beam_alone * beam_alone;
+    StruckBeam beam = held_together(trial, row.stiffness);
+    row.predicted =
+        2.0 / contact_resonance(beam, std::numeric_limits<double>::infinity()).highest_frequency;
+    const auto is_stable = [&](double step) { return !blows_up(beam, step); };
+    row.measured =
+        bisect(is_stable, 0.05 * row.predicted, 1.5 * row.beam_only, contact_tolerance).first;
+  });
+  return list;
+}
+
+std::vector<Damping> damping_of_implicit_tables(const Case& input) {
+  std::vector<Damping> list;
+  for (const MethodTable& table : method_tables()) {
+    if (table.method != Method::dirk) continue;
+    for (int i = -angles_a_decade; i <= 2 * angles_a_decade; ++i) {
+      const double angle = std::pow(10.0, static_cast<double>(i) / angles_a_decade);
+      list.push_back(
+          {"dirk:" + table.name, angle, std::abs(dirk_stability(table.name, {0.0, angle})), 0.0});
+    }
+  }
+  in_parallel(list.size(), [&](std::size_t i) {
+    Case trial = with_method(input, list[i].method);
+    trial.solver.rtol = newton_tolerance;
+    FreeVibration beam(trial);
+    // Any mode will do: only omega h counts.
+    const std::size_t mode = beam.n_modes() / 2;
+    list[i].measured = beam.growth(mode, list[i].angle / beam.frequency(mode), 1);
+  });
+  return list;
+}
+
+std::vector<MultistepGrowth> bdf_growths() {
+  std::vector<MultistepGrowth> list;
+  for (int order = 1; order <= 5; ++order) {
+    for (int i = -32; i <= 64; ++i) {
+      const double angle = std::pow(10.0, i / 32.0);
+      list.push_back({order, angle, bdf_growth(order, angle)});
+    }
+  }
   return list;
 }
 

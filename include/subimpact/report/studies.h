@@ -1,0 +1,85 @@
+#pragma once
+
+/// Studies as text, CSV files and figures. What writes files throws OutputError.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "subimpact/io/output_directory.h"
+#include "subimpact/study/plan.h"
+#include "subimpact/study/stability.h"
+#include "subimpact/study/work_precision.h"
+
+namespace subimpact {
+
+/// The reference's event times with their errors.
+std::string plan_reference_table(const Plan& plan);
+
+/// What was tried, the cheapest that is admitted with the options that select it, and the horizon.
+std::string plan_table(const Plan& plan);
+
+/// Writes reference.csv, plan.csv and, from the latter, plan.svg and .png: error on x, counted work
+/// on y, one line per sequence of meshes. Filled marks are admitted.
+void write_plan(const std::filesystem::path& directory, const Plan& plan);
+
+/// The reference, one line per point, and why a point is not right, in words.
+std::string work_precision_table(const WorkPrecision& study);
+
+/// One sentence for each wanted error.
+std::string recommendation_text(const std::vector<Recommendation>& recommendations);
+
+/// work_precision.svg and .png (wall time), work_precision_evaluations.svg and .png (right-hand
+/// sides): error on x, cost on y, one panel per study. Runs that found all sub-impacts are filled
+/// marks, those that lost or invented some hollow, those that failed crosses at the right edge.
+void draw_work_precision(const std::filesystem::path& directory,
+                         const std::vector<WorkPrecision>& studies);
+
+/// work_precision.csv in a directory, written point by point, so that an interrupted study keeps
+/// its points and a repeated study continues from there.
+class PointLog {
+ public:
+  /// Reads the file of an earlier study of the same cases, and goes on from its points. `cases` are
+  /// the ids of the cases of this study. Throws OutputError if the file cannot be written, or holds
+  /// points of other cases, and ResultsError if it was changed since.
+  PointLog(OutputDirectory& directory, const std::vector<std::string>& cases);
+
+  /// A point of an earlier study.
+  std::optional<WorkPrecisionPoint> known(const std::string& case_id, const Setting& setting) const;
+  std::size_t n_known() const { return known_.size(); }
+  /// Commits the file with a row more. Throws OutputError.
+  void append(const std::string& case_id, const std::string& label,
+              const WorkPrecisionPoint& point);
+
+ private:
+  OutputDirectory& directory_;
+  std::string text_;
+  std::map<std::string, WorkPrecisionPoint> known_;
+};
+
+/// Identifies a case: a fingerprint of the program's version and of all keys of the case but those
+/// a study sets itself (method, table, tolerance, step), the title and the outputs.
+std::string case_id(const Case& input);
+
+/// A part of a study of stability: what is printed, and CSV files with the figure drawn from them.
+struct StabilityPart {
+  std::string text;  ///< empty: there is nothing to show
+  std::string name;  ///< of the figure and of the first file
+  int width = 760, height = 500;
+  std::vector<std::pair<std::string, std::string>> tables;  ///< names of files, and contents
+};
+
+StabilityPart part_of(const std::vector<CriticalStep>& rows);
+StabilityPart part_of(const std::vector<StiffContact>& rows);
+StabilityPart part_of(const std::vector<Damping>& rows,
+                      const std::vector<MultistepGrowth>& growths);
+StabilityPart part_of(const OutcomeMap& map);
+StabilityPart part_of(const std::vector<MissedPairs>& rows);
+StabilityPart part_of(const LayerStudy& study);
+
+void write(const std::filesystem::path& directory, const StabilityPart& part);
+
+}  // namespace subimpact

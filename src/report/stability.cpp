@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/case_choices.h"
+#include "case/counted.h"
+#include "io/study_columns.h"
+#include "io/write_file.h"
+#include "report/gnuplot.h"
+#include "subimpact/report/studies.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double us = 1e6;  // per second
+
+// Of a measured step from the predicted one.
+std::string difference(const auto& row) {
+  return fmt::format("{:.2f} %", 100.0 * (row.measured / row.predicted - 1.0));
+}
+
+// How much of an oscillation one step leaves at 1, 10 and 100 times the unit of omega h.
+struct DampingOfMethod {
+  std::string method;
+  double left[3] = {0.0, 0.0, 0.0};
+  double largest = 0.0;  // difference between measurement and prediction
+};
+
+std::vector<DampingOfMethod> by_method(const std::vector<Damping>& rows) {
+  std::vector<DampingOfMethod> methods;
+  for (const Damping& row : rows) {
+    if (methods.empty() || methods.back().method != row.method) methods.push_back({row.method});
+    DampingOfMethod& here = methods.back();
+    here.largest = std::max(here.largest, std::abs(row.measured - row.predicted));
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(row.angle / std::pow(10.0, i) - 1.0) < 1e-9) here.left[i] = row.measured;
+    }
+  }
+  return methods;
+}
+
+std::string map_text(const OutcomeMap& map) {
+  constexpr std::string_view letters = "+wiUFr.";  // in the order of verdicts
+  std::string text = fmt::format(
+      "reference: {}; {} up to {:.3f} us\n"
+      "+ right   w wrong count   i inaccurate   U unstable   F solver failed   r refused   . left "
+      "out\n",
+      map.reference.description, counted(map.reference.sub_impacts.size(), "sub-impact"),
+      map.reference.horizon * us);
+  std::string group, row;
+  for (const OutcomePoint& point : map.points) {
+    if (point.group != group) {
+      if (!group.empty()) text += '\n';
+      group = point.group;
+      row.clear();
+      text += fmt::format("\n{:<28}", group == "tolerance" ? "rtol" : "omega_max h");
+      for (const OutcomePoint& other : map.points) {
+        if (other.group == group && other.row == point.row) text += fmt::format(" {:>6g}", other.x);
+      }
+    }
+    if (point.row != row) {
+      row = point.row;
+      text += fmt::format("\n{:<28}", row);
+    }
+    text += fmt::format(" {:>6}", letters[static_cast<std::size_t>(point.verdict)]);
+  }
+  return text + '\n';
+}
+
+}  // namespace
+
+StabilityPart part_of(const std::vector<CriticalStep>& rows) {
+  if (rows.empty()) return {};
+  const StudyColumns<CriticalStep> columns = {
+      {"method", &CriticalStep::method, {"method", "<22"}},
+      {"theory",
+       [](const CriticalStep& row) { return std::string(name_of(row.theory)); },
+       {"theory", "<16"}},
+      {"segments", &CriticalStep::segments, {"cells", ">6"}},
+      {"highest_frequency_rad_per_s", &CriticalStep::highest_frequency},
+      {"limit_omega_h", &CriticalStep::limit, {"omega h", ">9", ".4f"}},
+      {"predicted_s", &CriticalStep::predicted, {"predicted, us", ">13", ".6g", us}},
+      {"measured_s", &CriticalStep::measured, {"measured, us", ">13", ".6g", us}},
+      {"", difference<CriticalStep>, {"difference", ">10"}}};
+  StabilityPart part{printed_table(columns, rows),
+                     "critical_steps",
+                     1180,
+                     560,
+                     {{"critical_steps.csv", csv_text(columns_in_file(columns), rows)}}};
+  std::string method;
+  for (const CriticalStep& row : rows) {
+    if (row.method == method) continue;
+    method = row.method;
+    for (const Resonance& range : resonances(method)) {
+      part.text +=
+          fmt::format("{}: grows for omega h from {:.4f} to {:.4f} too, by up to {:.1e} per step\n",
+                      method, range.from, range.to, range.growth - 1.0);
+    }
+  }
+  return part;
+}
+
+StabilityPart part_of(const std::vector<StiffContact>& rows) {
+  const StudyColumns<StiffContact> columns = {
+      {"stiffness_N_per_m", &StiffContact::stiffness, {"spring, N/m", ">14", ".4g"}},
+      {"beam_only_s", &StiffContact::beam_only, {"beam only, us", ">14", ".6g", us}},
+      {"predicted_s", &StiffContact::predicted, {"predicted, us", ">14", ".6g", us}},
+      {"measured_s", &StiffContact::measured, {"measured, us", ">14", ".6g", us}},
+      {"", difference<StiffContact>, {"difference", ">10"}}};
+  return {printed_table(columns, rows),
+          "stiff_contact",
+          760,
+          500,
+          {{"stiff_contact.csv", csv_text(columns_in_file(columns), rows)}}};
+}
+
+StabilityPart part_of(const std::vector<Damping>& rows,
+                      const std::vector<MultistepGrowth>& growths) {
+  const Columns<Damping> columns = {{"method", &Damping::method},
+                                    {"omega_h", &Damping::angle},
+                                    {"predicted", &Damping::predicted},
+                                    {"measured", &Damping::measured}};
+  const Columns<MultistepGrowth> growth = {{"order", &MultistepGrowth::order},
+                                           {"omega_h", &MultistepGrowth::angle},
+                                           {"growth", &MultistepGrowth::growth}};
+  const auto left = [](int i) { return [i](const DampingOfMethod& row) { return row.left[i]; }; };
+  const StudyColumns<DampingOfMethod> printed = {
+      {"", &DampingOfMethod::method, {"share of the amplitude\nleft by one step", "<22"}},
+      {"", left(0), {"omega h = 1\n", ">12", ".5f"}},
+      {"", left(1), {"10\n", ">12", ".5f"}},
+      {"", left(2), {"100\n", ">12", ".5f"}},
+      {"", &DampingOfMethod::largest, {"largest difference\nmeasured - predicted", ">22", ".1e"}}};
+  return {
+      printed_table(printed, by_method(rows)),
+      "damping",
+      1150,
+      520,
+      {{"damping.csv", csv_text(columns, rows)}, {"bdf_growth.csv", csv_text(growth, growths)}}};
+}
+
+StabilityPart part_of(const OutcomeMap& map) {
+  const auto if_completed = [](const OutcomePoint& point, double value) {
+    const bool completed = point.verdict == Verdict::right || point.verdict == Verdict::wrong_count;
+    return completed ? std::optional(value) : std::nullopt;
+  };
+  const Columns<OutcomePoint> columns = {
+      {"group", &OutcomePoint::group},
+      {"row", &OutcomePoint::row},
+      {"omega_h_or_rtol", &OutcomePoint::x},
+      {"verdict", [](const OutcomePoint& p) { return p.verdict; }},
+      {"reference_sub_impacts", member<&OutcomePoint::errors, &EventErrors::n_reference>},
+      {"sub_impacts", member<&OutcomePoint::errors, &EventErrors::n_found>},
+      {"corresponding", member<&OutcomePoint::errors, &EventErrors::n_corresponding>},
+      {"median_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.median); }},
+      {"max_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.maximum); }},
+      {"energy_error", [=](const OutcomePoint& p) { return if_completed(p, p.energy_error); }},
+      {"message", &OutcomePoint::message}};
+  return {map_text(map), "outcomes", 1400, 560, {{"outcomes.csv", csv_text(columns, map.points)}}};
+}
+
+StabilityPart part_of(const std::vector<MissedPairs>& rows) {
+  const StudyColumns<MissedPairs> columns = {
+      {"step_s", &MissedPairs::step, {"step, us", ">9", ".3g", us}},
+      {"runs", &MissedPairs::n_runs},
+      {"right_with_search",
+       &MissedPairs::right_with_search,
+       {"all found, pairs looked for", ">28"}},
+      {"right_without", &MissedPairs::right_without, {"all found, ends of steps only", ">28"}},
+      {"shortest_s", &MissedPairs::shortest}};
+  return {fmt::format("{}; shortest sub-impact or separation {:.3g} us\n{}",
+                      counted(rows.at(0).n_runs, "strike"), rows.at(0).shortest * us,
+                      printed_table(columns, rows)),
+          "missed_pairs",
+          760,
+          500,
+          {{"missed_pairs.csv", csv_text(columns_in_file(columns), rows)}}};
+}
+
+StabilityPart part_of(const LayerStudy& study) {
+  const auto first_unmatched = [](const LayerPoint& p) {
+    return fmt::format(" {}", p.errors.unmatched ? p.errors.unmatched->description : "");
+  };
+  const StudyColumns<LayerPoint> columns = {
+      {"layers", &LayerPoint::layers, {"layers", ">7"}},
+      {"sub_impacts", member<&LayerPoint::errors, &EventErrors::n_found>, {"sub-impacts", ">11"}},
+      {"exact_sub_impacts", member<&LayerPoint::errors, &EventErrors::n_reference>},
+      {"corresponding",
+       member<&LayerPoint::errors, &EventErrors::n_corresponding>,
+       {"correspond", ">12"}},
+      {"median_difference_s",
+       member<&LayerPoint::errors, &EventErrors::median>,
+       {"median, us", ">14", ".3e", us}},
+      {"max_difference_s",
+       member<&LayerPoint::errors, &EventErrors::maximum>,
+       {"largest, us", ">12", ".3e", us}},
+      {"", first_unmatched, {" ", "<"}}};
+  std::string text = printed_heading(columns) +
+                     fmt::format("{:>7} {:>11}\n", "exact", study.exact.sub_impacts.size());
+  for (const LayerPoint& point : study.points) text += printed_row(columns, point);
+  return {
+      text, "layers", 760, 500, {{"layers.csv", csv_text(columns_in_file(columns), study.points)}}};
+}
+
+void write(const std::filesystem::path& directory, const StabilityPart& part) {
+  for (const auto& [name, content] : part.tables) write_file(directory / name, content);
+  draw_figure(directory, part.name, figure_script(part.name), {part.width, part.height});
+}
+
+}  // namespace subimpact

@@ -1,0 +1,282 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <limits>
+
+#include "case/counted.h"
+#include "io/csv_reader.h"
+#include "io/sealed_files.h"
+#include "io/study_columns.h"
+#include "io/write_file.h"
+#include "report/gnuplot.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/io/versions.h"
+#include "subimpact/report/studies.h"
+
+namespace subimpact {
+
+static bool read_cell(std::string_view cell, Verdict& verdict) {
+  return read_choice(cell, verdict,
+                     {Verdict::right, Verdict::wrong_count, Verdict::inaccurate, Verdict::unstable,
+                      Verdict::failed, Verdict::refused, Verdict::not_run});
+}
+
+namespace {
+
+constexpr double us = 1e6;  // per second
+constexpr const char* file_name = "work_precision.csv";
+
+// A row of the file.
+struct LoggedPoint {
+  std::string id, label;  // of the case
+  std::string kind;       // of the setting
+  std::optional<double> unmatched_start, unmatched_duration;
+  WorkPrecisionPoint point;
+};
+
+template <auto... members>
+constexpr auto of_point = member<&LoggedPoint::point, members...>;
+template <auto found>
+constexpr auto errors = of_point<&WorkPrecisionPoint::errors, found>;
+template <auto count>
+constexpr auto work = of_point<&WorkPrecisionPoint::work, count>;
+template <auto part>
+constexpr auto of_setting = of_point<&WorkPrecisionPoint::setting, part>;
+
+bool has_run(const LoggedPoint& row) {
+  return row.point.verdict != Verdict::not_run && row.point.verdict != Verdict::refused;
+}
+
+bool has_errors(const LoggedPoint& row) {
+  return row.point.verdict == Verdict::right || row.point.verdict == Verdict::wrong_count;
+}
+
+// A number of the rows for which `condition` holds.
+auto where(bool (*condition)(const LoggedPoint&), auto value) {
+  return [=](const LoggedPoint& row) {
+    return condition(row) ? std::optional(value(row)) : std::nullopt;
+  };
+}
+
+std::string correspondence(const LoggedPoint& row) {
+  return fmt::format("{:>4}/{:<4}", row.point.errors.n_corresponding, row.point.errors.n_reference);
+}
+
+const StudyColumns<LoggedPoint>& point_columns() {
+  const auto setting = [](const LoggedPoint& row) { return row.point.setting.text(); };
+  const auto wall_time = [](const LoggedPoint& row) { return duration_text(row.point.seconds); };
+  const auto time = [](const char* heading) { return Print{heading, ">9", ".1e", us}; };
+  const auto share = [](const char* heading) { return Print{heading, ">9", ".1e"}; };
+  static const StudyColumns<LoggedPoint> columns = {
+      {"case", &LoggedPoint::id},
+      {"label", &LoggedPoint::label},
+      {"method", of_setting<&Setting::method>, {"method", "<22"}},
+      {"kind", &LoggedPoint::kind},
+      {"setting", of_setting<&Setting::value>},
+      {"", setting, {"setting", "<14"}},
+      {"verdict", of_point<&WorkPrecisionPoint::verdict>, {"verdict", "<12"}},
+      {"reference_sub_impacts", errors<&EventErrors::n_reference>},
+      {"sub_impacts", errors<&EventErrors::n_found>},
+      {"corresponding", errors<&EventErrors::n_corresponding>},
+      {"", where(has_errors, correspondence), {"corre-\nspond", ">9"}},
+      {"first_odd_s", &LoggedPoint::unmatched_start},
+      {"odd_duration_s", &LoggedPoint::unmatched_duration},
+      {"median_error_s", errors<&EventErrors::median>},
+      {"", where(has_errors, errors<&EventErrors::median>), time("times,\nmedian us")},
+      {"max_error_s", errors<&EventErrors::maximum>},
+      {"", where(has_errors, errors<&EventErrors::maximum>), time("times,\nmax us")},
+      {"first_error_s", errors<&EventErrors::first>},
+      {"last_error_s", errors<&EventErrors::last>},
+      {"peak_force_error", errors<&EventErrors::peak_force>},
+      {"", where(has_errors, errors<&EventErrors::peak_force>), share("peaks,\nmax rel.")},
+      {"striker_velocity_error", errors<&EventErrors::striker_velocity>},
+      {"", where(has_errors, errors<&EventErrors::striker_velocity>), share("striker,\nrel.")},
+      {"beam_velocity_error", errors<&EventErrors::beam_velocity>},
+      {"wall_s", of_point<&WorkPrecisionPoint::seconds>},
+      {"", where(has_run, wall_time), {"wall\ntime", ">10"}},
+      {"repeats", of_point<&WorkPrecisionPoint::repeats>},
+      {"setup_s", work<&Work::setup_seconds>},
+      {"steps", work<&Work::steps>},
+      {"rejected_steps", work<&Work::rejected_steps>},
+      {"right_hand_sides", work<&Work::right_hand_sides>},
+      {"", where(has_run, work<&Work::right_hand_sides>), {"right-hand\nsides", ">10"}},
+      {"mass_solves", work<&Work::mass_solves>},
+      {"", where(has_run, work<&Work::mass_solves>), {"mass\nsolves", ">10"}},
+      {"jacobians", work<&Work::jacobians>},
+      {"factorisations", work<&Work::factorisations>},
+      {"", where(has_run, work<&Work::factorisations>), {"factori-\nsations", ">8"}},
+      {"message", of_point<&WorkPrecisionPoint::message>},
+  };
+  return columns;
+}
+
+LoggedPoint row_of(const std::string& id, const std::string& label,
+                   const WorkPrecisionPoint& point) {
+  LoggedPoint row{id, label, point.setting.fixed_step ? "step" : "rtol", {}, {}, point};
+  if (point.errors.unmatched) {
+    row.unmatched_start = point.errors.unmatched->start;
+    row.unmatched_duration = point.errors.unmatched->duration;
+  }
+  return row;
+}
+
+// What follows for the point of a row from its other cells.
+void complete(LoggedPoint& row) {
+  row.point.setting.fixed_step = row.kind == "step";
+  if (!row.unmatched_start) return;
+  row.point.errors.unmatched =
+      UnmatchedSubImpact{*row.unmatched_start, *row.unmatched_duration, {}};
+}
+
+std::string key_of(const std::string& id, const Setting& setting) {
+  return fmt::format("{} {} {} {:.17g}", id, setting.method, setting.fixed_step, setting.value);
+}
+
+std::string setting_text(const WorkPrecisionPoint& point) {
+  return fmt::format("{} at {}: {}, largest error {:.1e} us", point.setting.method,
+                     point.setting.text(), duration_text(point.seconds), point.errors.maximum * us);
+}
+
+std::string mark_of(Verdict verdict) {
+  if (verdict == Verdict::right) return "right";
+  if (verdict == Verdict::wrong_count) return "wrong";
+  return verdict == Verdict::refused || verdict == Verdict::not_run ? "" : "failed";
+}
+
+// An error below a tenth of the reference's cannot be distinguished from none and is shown as that.
+double shown_error(const WorkPrecisionPoint& point, const WorkPrecision& study) {
+  if (mark_of(point.verdict) == "failed") return std::numeric_limits<double>::quiet_NaN();
+  return us * std::max(point.errors.overall(), 0.1 * study.reference.error);
+}
+
+void draw(const std::filesystem::path& directory, const std::string& name,
+          const std::vector<WorkPrecision>& studies, const char* cost_label,
+          double (*cost)(const WorkPrecisionPoint&)) {
+  std::string labels;
+  std::string points = "panel,method,mark,error_us,cost\n";
+  for (std::size_t p = 0; p < studies.size(); ++p) {
+    labels += fmt::format("'{}' ", studies[p].label);
+    for (const WorkPrecisionPoint& point : studies[p].points) {
+      const std::string mark = mark_of(point.verdict);
+      if (mark.empty() || !(cost(point) > 0.0)) continue;
+      points += fmt::format("{},{},{},{:.17g},{:.17g}\n", p + 1, point.setting.method, mark,
+                            shown_error(point, studies[p]), cost(point));
+    }
+  }
+  const FigureSize size{static_cast<int>(120 + 400 * studies.size() + 250), 560};
+  draw_figure(
+      directory, name,
+      figure_script("work_precision", fmt::format("labels = \"{}\"\ncost_label = '{}'\nwidth = {}\n"
+                                                  "$points << EOD\n{}EOD\n",
+                                                  labels, cost_label, size.width, points)),
+      size);
+}
+
+}  // namespace
+
+std::string case_id(const Case& input) {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  const auto add = [&](const std::string& text) {
+    for (const char c : text) {
+      hash ^= static_cast<unsigned char>(c);
+      hash *= 1099511628211u;
+    }
+  };
+  add(project_version());
+  for (const CaseKey& key : case_keys()) {
+    const bool set_by_study = key.name == "solver.method" || key.name == "solver.table" ||
+                              key.name == "solver.rtol" || key.name == "solver.step";
+    if (set_by_study || key.name == "title" || key.table() == "output") continue;
+    const auto value = key.get(input);
+    add(key.name + "=" + (value ? to_text(*value) : std::string()) + ";");
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::string work_precision_table(const WorkPrecision& study) {
+  const Reference& reference = study.reference;
+  std::string text =
+      fmt::format("reference: {}; {}, times to {:.1e} us\nhorizon: {:.3f} us ({})\n",
+                  reference.description, counted(reference.sub_impacts.size(), "sub-impact"),
+                  reference.error * us, reference.horizon * us, reference.horizon_reason);
+  if (const auto growth = error_growth(study.points)) {
+    text += fmt::format("errors grow {:.2g}-fold from the first separation to the last event\n",
+                        *growth);
+  }
+  text += '\n' + printed_heading(point_columns());
+  std::string method, messages;
+  for (const WorkPrecisionPoint& point : study.points) {
+    if (!method.empty() && point.setting.method != method) text += '\n';
+    method = point.setting.method;
+    text += printed_row(point_columns(), row_of({}, {}, point));
+    if (point.message.empty()) continue;
+    messages += fmt::format("{} at {}: {}\n", method, point.setting.text(), point.message);
+  }
+  return messages.empty() ? text : text + '\n' + messages;
+}
+
+std::string recommendation_text(const std::vector<Recommendation>& recommendations) {
+  std::string text;
+  for (const Recommendation& item : recommendations) {
+    text += fmt::format(
+        "  {:<9} {}\n", fmt::format("{:g} us", item.wanted * us),
+        item.point ? setting_text(*item.point) : "not reached by any setting that was run");
+    if (!item.steady) continue;
+    text += fmt::format("            by chance: finer settings miss it; reliably from {} on\n",
+                        setting_text(*item.steady));
+  }
+  return text;
+}
+
+PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& cases)
+    : directory_(directory), text_(csv_heading(columns_in_file(point_columns()))) {
+  const SealedFiles files(directory.path());
+  if (!files.manifest() || !files.manifest()->files.contains(file_name)) return;
+  const std::string path = (directory.path() / file_name).string();
+  std::ifstream file = files.open(file_name);
+  CsvReader csv(file, path, "choose another directory with --out, or remove the file");
+  for_each_row(csv, columns_in_file(point_columns()), [&](LoggedPoint row) {
+    // What was left out for its time may be run now.
+    if (row.point.verdict == Verdict::not_run) return;
+    if (std::find(cases.begin(), cases.end(), row.id) == cases.end()) {
+      throw OutputError(
+          fmt::format("{}: holds points of another case (or another version of the program), which "
+                      "this study would mix with its own; choose another directory with --out, or "
+                      "remove the file",
+                      path));
+    }
+    complete(row);
+    append_row(text_, columns_in_file(point_columns()), row);
+    known_[key_of(row.id, row.point.setting)] = row.point;
+  });
+}
+
+std::optional<WorkPrecisionPoint> PointLog::known(const std::string& case_id,
+                                                  const Setting& setting) const {
+  const auto found = known_.find(key_of(case_id, setting));
+  if (found == known_.end()) return std::nullopt;
+  return found->second;
+}
+
+void PointLog::append(const std::string& case_id, const std::string& label,
+                      const WorkPrecisionPoint& point) {
+  append_row(text_, columns_in_file(point_columns()), row_of(case_id, label, point));
+  write_file(directory_.staging() / file_name, text_);
+  directory_.commit();
+}
+
+void draw_work_precision(const std::filesystem::path& directory,
+                         const std::vector<WorkPrecision>& studies) {
+  draw(directory, "work_precision", studies, "wall time (ms)",
+       [](const WorkPrecisionPoint& point) { return 1e3 * point.seconds; });
+  draw(directory, "work_precision_evaluations", studies, "evaluations of the right-hand side",
+       [](const WorkPrecisionPoint& point) {
+         return static_cast<double>(point.work.right_hand_sides);
+       });
+}
+
+}  // namespace subimpact

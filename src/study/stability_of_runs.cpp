@@ -1,0 +1,203 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <optional>
+
+#include "case/counted.h"
+#include "study/method_choice.h"
+#include "study/parallel.h"
+#include "subimpact/study/stability.h"
+
+namespace subimpact {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double reference_error = 1e-10;  // s
+constexpr double angles[] = {0.25, 0.5, 1.0, 1.9, 2.1, 3.0, 4.0, 5.8, 6.2, 8.0, 16.0, 32.0, 64.0};
+constexpr double tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
+constexpr double steps_us[] = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
+constexpr int n_speeds = 40;
+constexpr double tolerance_of_layers = 1e-10;
+constexpr int layer_counts[] = {10, 20, 40, 80, 160, 320, 640};
+
+/// A row of the map: a method against fixed steps, or against tolerances.
+struct MapRow {
+  std::string name, method;
+  bool fixed_step = false;
+  bool forced = false;  // beyond the critical step
+  std::optional<int> max_order;
+};
+
+std::vector<MapRow> rows_of_map() {
+  std::vector<MapRow> rows = {{"central-difference", "central-difference", true, false, {}},
+                              {"central-difference, forced", "central-difference", true, true, {}}};
+  for (const char* method :
+       {"nystrom:dprkn8", "nystrom:dprkn12", "erk:dormand-prince", "erk:dop853",
+        "erk:dop853+library", "exponential", "dirk:esdirk547", "dirk:esdirk547+library",
+        "dirk:ark324", "dirk:trbdf2", "imex:ark437"}) {
+    rows.push_back({method, method, true, false, {}});
+  }
+  for (const char* method :
+       {"nystrom:dprkn8", "erk:dormand-prince", "erk:dop853", "erk:dop853+library", "exponential",
+        "dirk:esdirk547", "imex:ark437", "adams", "adams+library"}) {
+    rows.push_back({method, method, false, false, {}});
+  }
+  for (int order = 1; order <= 5; ++order) {
+    rows.push_back({fmt::format("bdf, order up to {}", order), "bdf", false, false, order});
+  }
+  return rows;
+}
+
+struct Trial {
+  OutcomePoint point;
+  Case input;
+};
+
+// Those of the methods asked for that can run the case at all.
+std::vector<Trial> trials_of(const Case& input, const std::vector<std::string>& methods) {
+  const double highest_frequency = resolve(with_method(input, "erk")).settings().highest_frequency;
+  std::vector<Trial> trials;
+  for (const MapRow& row : rows_of_map()) {
+    if (!asked_for(methods, row.method)) continue;
+    Case chosen = with_method(input, row.method);
+    Case without_step = chosen;
+    without_step.solver.step.reset();
+    if (!can_run(without_step)) continue;
+    if (row.fixed_step) {
+      chosen.study.beyond_critical = row.forced;
+      for (const double angle : angles) {
+        chosen.solver.step = angle / highest_frequency;
+        trials.push_back({{"fixed step", row.name, angle}, chosen});
+      }
+      continue;
+    }
+    chosen.solver.max_order = row.max_order;
+    for (const double rtol : tolerances) {
+      chosen.solver.rtol = rtol;
+      trials.push_back({{"tolerance", row.name, rtol}, chosen});
+    }
+  }
+  return trials;
+}
+
+void run(Trial& trial, const Reference& reference, double run_seconds) {
+  OutcomePoint& point = trial.point;
+  trial.input.end_time = reference.horizon;
+  const auto start = Clock::now();
+  try {
+    const Result result = simulate(trial.input, [&](double) {
+      return std::chrono::duration<double>(Clock::now() - start).count() < run_seconds;
+    });
+    point.errors = event_errors(result, reference);
+    point.energy_error = result.max_energy_error;
+    point.verdict = judge(result, point.errors);
+    if (result.outcome.kind == OutcomeKind::stopped) {
+      point.verdict = Verdict::not_run;
+      point.message = fmt::format("left out: not done after {:g} s, at {:.6g} us", run_seconds,
+                                  1e6 * result.outcome.time);
+    } else if (!result.outcome.completed()) {
+      point.message =
+          fmt::format("at {:.6g} us {}", 1e6 * result.outcome.time, result.outcome.message);
+    } else if (point.errors.unmatched) {
+      point.message = fmt::format("{} of {}; {}", counted(point.errors.n_found, "sub-impact"),
+                                  point.errors.n_reference, point.errors.unmatched->description);
+    }
+  } catch (const InvalidCase& error) {
+    point.verdict = Verdict::refused;
+    point.message = error.key + " " + error.what();
+  }
+}
+
+double shortest_of(const std::vector<SubImpact>& sub_impacts, double shortest) {
+  for (std::size_t i = 0; i < sub_impacts.size(); ++i) {
+    if (sub_impacts[i].end)
+      shortest = std::min(shortest, *sub_impacts[i].end - sub_impacts[i].start);
+    if (i > 0) shortest = std::min(shortest, sub_impacts[i].start - *sub_impacts[i - 1].end);
+  }
+  return shortest;
+}
+
+}  // namespace
+
+OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods,
+                       double run_seconds, const Count& progress) {
+  OutcomeMap map;
+  map.reference = compute_reference(input, reference_error);
+  std::vector<Trial> trials = trials_of(input, methods);
+  std::mutex mutex;
+  std::size_t done = 0;
+  bool stopped = false;
+  in_parallel(trials.size(), [&](std::size_t i) {
+    {
+      const std::lock_guard lock(mutex);
+      if (stopped) {
+        trials[i].point.verdict = Verdict::not_run;
+        trials[i].point.message = "left out: interrupted";
+        return;
+      }
+    }
+    run(trials[i], map.reference, run_seconds);
+    const std::lock_guard lock(mutex);
+    if (progress && !progress(++done, trials.size())) stopped = true;
+  });
+  for (const Trial& trial : trials) map.points.push_back(trial.point);
+  return map;
+}
+
+std::vector<MissedPairs> missed_pairs(const Case& input, const Count& progress) {
+  std::vector<MissedPairs> rows;
+  for (const double step : steps_us) rows.push_back({1e-6 * step, n_speeds, 0, 0, 0.0});
+  std::vector<std::vector<MissedPairs>> of_speed(n_speeds, rows);
+  std::atomic<std::size_t> done{0};
+  in_parallel(n_speeds, [&](std::size_t k) {
+    Case scene = with_method(input, "exponential");
+    scene.model.section = SectionKind::elastic;
+    scene.scene.striker.velocity *= 0.5 + static_cast<double>(k) / (n_speeds - 1);
+    const Reference reference = compute_reference(scene, reference_error);
+    scene.end_time = reference.horizon;
+    for (MissedPairs& row : of_speed[k]) {
+      scene.solver.step = row.step;
+      for (const bool search : {true, false}) {
+        scene.study.pair_detection = search;
+        const Result result = simulate(scene);
+        const bool right = judge(result, event_errors(result, reference)) == Verdict::right;
+        (search ? row.right_with_search : row.right_without) = right ? 1 : 0;
+      }
+      row.shortest = shortest_of(reference.sub_impacts, reference.horizon);
+    }
+    if (progress) progress(++done, n_speeds);
+  });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].shortest = input.end_time;
+    for (const std::vector<MissedPairs>& speed : of_speed) {
+      rows[i].right_with_search += speed[i].right_with_search;
+      rows[i].right_without += speed[i].right_without;
+      rows[i].shortest = std::min(rows[i].shortest, speed[i].shortest);
+    }
+  }
+  return rows;
+}
+
+LayerStudy layers_against_exact(const Case& input, const Count& progress) {
+  LayerStudy study;
+  Case exact = input;
+  exact.model.section = SectionKind::exact;
+  study.exact = compute_reference(exact, reference_error);
+  for (const int layers : layer_counts) study.points.push_back({layers, {}});
+  std::atomic<std::size_t> done{0};
+  in_parallel(study.points.size(), [&](std::size_t i) {
+    Case trial = with_method(study.exact.input, "nystrom");
+    trial.solver.rtol = tolerance_of_layers;
+    trial.model.section = SectionKind::layers;
+    trial.model.layers = study.points[i].layers;
+    study.points[i].errors = event_errors(simulate(trial), study.exact);
+    if (progress) progress(++done, study.points.size());
+  });
+  return study;
+}
+
+}  // namespace subimpact
