@@ -85,7 +85,6 @@ bool write_after_printing(OutputDirectory& directory,
 /// Prints on stderr what the figures of a run leave out, and how a run ended that did not complete.
 void print_figure_notes(const FinishedRun& run);
 
-<<<<<<< HEAD
 /// The option --jobs of commands that run several simulations.
 struct JobsOption {
   Jobs given = 0;  ///< 0: not given
@@ -105,13 +104,6 @@ CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::s
 /// A check of an option that is a time in seconds.
 std::string positive_seconds(const std::string& text);
 
-/// Refuses methods and tables that do not exist, naming the option --methods. Throws CaseFileError.
-void check_method_names(const std::vector<std::string>& methods);
-/// The same, and throws InvalidCase for a method that cannot run the case.
-void check_methods(const Case& input, const std::vector<std::string>& methods);
-
-=======
->>>>>>> cut-study
 // Each adds its command, which leaves the exit status in `status` when it has run.
 void add_run(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);

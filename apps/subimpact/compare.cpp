@@ -5,12 +5,7 @@
 #include <string>
 #include <vector>
 
-<<<<<<< HEAD
-#include "commands.h"
-#include "progress.h"
-=======
 #include "study_options.h"
->>>>>>> cut-study
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"

@@ -2,18 +2,9 @@
 #include <optional>
 #include <string>
 
-<<<<<<< HEAD
-#include "commands.h"
-#include "progress.h"
-#include "subimpact/io/plan.h"
-#include "subimpact/io/results.h"
-#include "subimpact/report/plan_chart.h"
-=======
 #include "progress.h"
 #include "study_options.h"
 #include "subimpact/report/studies.h"
-#include "time_option.h"
->>>>>>> cut-study
 
 namespace subimpact::app {
 namespace {

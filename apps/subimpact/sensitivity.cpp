@@ -5,12 +5,7 @@
 #include <string>
 #include <vector>
 
-<<<<<<< HEAD
-#include "commands.h"
-#include "progress.h"
-=======
 #include "study_options.h"
->>>>>>> cut-study
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
@@ -61,17 +56,9 @@ int run_sensitivity(SensitivityCommand command) {
     show("base run");
     return sensitivity(input, options);
   });
-<<<<<<< HEAD
-  status.clear();
-  listener.hold_back();
-  if (const ExitStatus base = status_of(study.base.outcome.kind); base != done) {
-=======
   session.status.clear();
   session.listener.hold_back();
-  const OutcomeKind outcome = study.base.outcome.kind;
-  const bool failed_base = outcome != OutcomeKind::completed && outcome != OutcomeKind::stopped;
-  if (failed_base) {
->>>>>>> cut-study
+  if (const ExitStatus base = status_of(study.base.outcome.kind); base != done) {
     print_error("subimpact: {}\n", failure_message(study.input, study.base));
     return base;
   }

@@ -1,8 +1,3 @@
-<<<<<<< HEAD
-#include "subimpact/report/stability.h"
-
-=======
->>>>>>> cut-study
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,15 +5,8 @@
 #include <functional>
 #include <optional>
 
-<<<<<<< HEAD
-#include "commands.h"
-#include "progress.h"
-#include "subimpact/io/results.h"
-#include "subimpact/io/work_precision.h"
-=======
 #include "study_options.h"
 #include "subimpact/report/studies.h"
->>>>>>> cut-study
 
 namespace subimpact::app {
 namespace {

@@ -7,12 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
-<<<<<<< HEAD
 #include "case/slips.h"
 #include "commands.h"
-=======
-#include "case/other_names.h"
->>>>>>> cut-study
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/method_tables.h"
 #include "subimpact/study/sweep.h"

@@ -5,10 +5,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "interrupt.h"
-#include "jobs_option.h"
-#include "print.h"
-#include "status_line.h"
+#include "progress.h"
 #include "subimpact/simulate/result.h"
 
 namespace subimpact::app {
