@@ -6,38 +6,43 @@
 
 #include "case/problem.h"
 #include "report/figure_script.h"
-#include "report/strike_words.h"
+#include "subimpact/study/strike_account.h"
 
 namespace subimpact {
 namespace {
 
-struct Units {
-  Unit length, force;
-};
 constexpr std::size_t most_insets = 3;
 
-// Between two rows the indentation moves one way (its turns are events and have rows of their own),
-// so the contact law draws the force in between.
-std::vector<Point> loop(const ContactLaw& law, const Units& units, const Result& result,
-                        double from, double to) {
-  constexpr int parts = 8;
-  std::vector<Point> line;
-  ContactHistory history;
-  const HistoryRow* last = nullptr;
-  const double length = units.length.factor, force = units.force.factor;
-  for (const HistoryRow& row : result.history) {
-    const bool shown = row.time >= from && row.time <= to;
-    if (shown && last != nullptr && last->time >= from && row.time > last->time) {
-      for (int k = 1; k < parts; ++k) {
-        const double lambda = last->indentation + (row.indentation - last->indentation) * k / parts;
-        line.push_back({lambda * length, law.force(history, lambda) * force});
-      }
-    }
-    if (shown) line.push_back({row.indentation * length, row.force * force});
-    history = law.commit(history, row.indentation);
-    last = &row;
+// Force against indentation of the whole strike. Between two rows the indentation moves one way
+// (its turns are events and have rows of their own), so the contact law draws the force in between.
+struct Loop {
+  std::vector<double> times;
+  std::vector<Point> points;
+
+  std::vector<Point> part(double from, double to) const {
+    const auto first = std::ranges::lower_bound(times, from) - times.begin();
+    const auto last = std::ranges::upper_bound(times, to) - times.begin();
+    return {points.begin() + first, points.begin() + std::max(first, last)};
   }
-  return line;
+};
+
+Loop loop_of(const ContactLaw& law, const std::vector<HistoryRow>& rows) {
+  constexpr int parts = 8;
+  Loop loop;
+  ContactHistory history;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const HistoryRow& row = rows[i];
+    for (int k = 1; k < parts && i > 0 && row.time > rows[i - 1].time; ++k) {
+      const HistoryRow& last = rows[i - 1];
+      const double lambda = last.indentation + (row.indentation - last.indentation) * k / parts;
+      loop.times.push_back(last.time + (row.time - last.time) * k / parts);
+      loop.points.push_back({lambda, law.force(history, lambda)});
+    }
+    loop.times.push_back(row.time);
+    loop.points.push_back({row.indentation, row.force});
+    history = law.commit(history, row.indentation);
+  }
+  return loop;
 }
 
 double growth_of_residual(std::size_t i, const Result& result) {
@@ -68,69 +73,50 @@ std::string caption_text(std::size_t n_drawn, std::size_t n_yielding_again) {
       which);
 }
 
-// Where, within the first sub-impact, the contact first does something.
-const Transition* first(EventKind kind, const Result& result) {
+// Marks a point of the first sub-impact: where the contact first does something.
+void set_mark(FigureScript& figure, const std::string& name, EventKind kind, const Result& result) {
   for (const Transition& event : result.transitions) {
-    if (event.kind == EventKind::contact_ends) return nullptr;
-    if (event.kind == kind) return &event;
+    if (event.kind == EventKind::contact_ends) return;
+    if (event.kind != kind) continue;
+    const auto row = std::ranges::lower_bound(result.history, event.time, {}, &HistoryRow::time);
+    figure.set(name + "_x", event.value);
+    figure.set(name + "_y", row == result.history.end() ? 0.0 : row->force);
+    return;
   }
-  return nullptr;
-}
-
-double force_at(double time, const Result& result) {
-  for (const HistoryRow& row : result.history) {
-    if (row.time >= time) return row.force;
-  }
-  return 0.0;
-}
-
-// A mark in the first sub-impact: its coordinates in the figure.
-void set_mark(FigureScript& figure, const std::string& name, const Units& units,
-              const Transition* event, const Result& result) {
-  if (event == nullptr) return;
-  figure.set(name + "_x", event->value * units.length.factor);
-  figure.set(name + "_y", force_at(event->time, result) * units.force.factor);
 }
 
 }  // namespace
 
 FigureScript indentation_figure(const Case& input, const Result& result) {
-  const auto law = contact_law_of(input);
-  const Units units{length_unit(result.max_indentation), force_unit(result.max_force)};
-  const double length = units.length.factor, force = units.force.factor;
+  const std::vector<SubImpact>& hits = result.sub_impacts;
   const std::vector<std::size_t> yielding = yielding_again(result);
   const std::vector<std::size_t> again = deepest(yielding, result);
   FigureScript figure("indentation", caption_text(again.size(), yielding.size()), {800, 520});
-  const AxisRange shown{0.0, 1.06 * result.max_indentation * length};
+  const Loop loop = loop_of(*contact_law_of(input), result.history);
+  const AxisRange shown{0.0, 1.06 * result.max_indentation};
   const FigureSize panel{again.empty() ? 700 : 410, 420};
   std::vector<Point> later;
-  if (result.sub_impacts.size() > 1) {
-    later = loop(*law, units, result, result.sub_impacts[1].start, result.outcome.time);
-  }
-  const double first_end =
-      result.sub_impacts.empty() ? 0.0 : result.end_of(result.sub_impacts.front());
+  if (hits.size() > 1) later = loop.part(hits[1].start, result.outcome.time);
+  const double first_end = hits.empty() ? 0.0 : result.end_of(hits.front());
   figure.line("later", later, panel, shown);
-  figure.line("first", loop(*law, units, result, 0.0, first_end), panel, shown);
+  figure.line("first", loop.part(0.0, first_end), panel, shown);
   NumberRows insets, loops;
   for (const std::size_t i : again) {
-    const SubImpact& s = result.sub_impacts[i];
-    const AxisRange range{result.sub_impacts[i - 1].residual_indentation * length,
-                          s.max_indentation * length};
+    const AxisRange range{hits[i - 1].residual_indentation, hits[i].max_indentation};
     insets.push_back(
-        {static_cast<double>(i + 1), s.start * 1e3, range.from, range.to, s.peak_force * force});
-    const double inset = static_cast<double>(insets.size());
-    for (const Point& p : thin_for_panel(loop(*law, units, result, s.start, result.end_of(s)),
-                                         {210, 380 / static_cast<int>(again.size())}, range)) {
-      loops.push_back({inset, p.x, p.y});
+        {static_cast<double>(i + 1), hits[i].start, range.from, range.to, hits[i].peak_force});
+    const FigureSize inset{210, 380 / static_cast<int>(again.size())};
+    for (const Point& p :
+         thin_for_panel(loop.part(hits[i].start, result.end_of(hits[i])), inset, range)) {
+      loops.push_back({static_cast<double>(insets.size()), p.x, p.y});
     }
   }
-  figure.table("insets", "number,start_ms,from,to,peak", insets);
+  figure.table("insets", "number,start,from,to,peak", insets);
   figure.table("inset_loops", "inset,x,y", loops);
   figure.set("n_later", static_cast<double>(later.size()));
-  figure.set("largest", result.max_indentation * length);
-  figure.set("force_unit", units.force.name).set("length_unit", units.length.name);
-  set_mark(figure, "yields", units, first(EventKind::contact_yields, result), result);
-  set_mark(figure, "unloads", units, first(EventKind::contact_unloads, result), result);
+  figure.set("largest", result.max_indentation).set("largest_force", result.max_force);
+  set_mark(figure, "yields", EventKind::contact_yields, result);
+  set_mark(figure, "unloads", EventKind::contact_unloads, result);
   return figure;
 }
 

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <stdexcept>
 #include <utility>
+
+#include "io/run_tables.h"
 
 namespace subimpact {
 namespace {
@@ -29,9 +32,7 @@ double distance_from_segment(Point p, Point a, Point b) {
 std::vector<std::size_t> extremes(const std::vector<Point>& line) {
   std::vector<std::size_t> found{0, line.size() - 1};
   for (double Point::*coordinate : {&Point::x, &Point::y}) {
-    const auto [low, high] = std::minmax_element(
-        line.begin(), line.end(),
-        [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+    const auto [low, high] = std::ranges::minmax_element(line, {}, coordinate);
     found.push_back(static_cast<std::size_t>(low - line.begin()));
     found.push_back(static_cast<std::size_t>(high - line.begin()));
   }
@@ -52,9 +53,7 @@ std::vector<Point> shown_points(const std::vector<Point>& points,
 }
 
 double extent(const std::vector<Point>& points, double Point::*coordinate) {
-  const auto [low, high] = std::minmax_element(
-      points.begin(), points.end(),
-      [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+  const auto [low, high] = std::ranges::minmax_element(points, {}, coordinate);
   return (*high).*coordinate - (*low).*coordinate;
 }
 
@@ -133,11 +132,6 @@ FigureScript& FigureScript::set(const std::string& variable, double value) {
   return *this;
 }
 
-FigureScript& FigureScript::set(const std::string& variable, const std::string& value) {
-  settings_ += fmt::format("{} = \"{}\"\n", variable, value);
-  return *this;
-}
-
 void FigureScript::table(const std::string& name, const std::string& columns,
                          const NumberRows& rows) {
   fmt::memory_buffer text;
@@ -162,59 +156,25 @@ void FigureScript::line(const std::string& name, const std::vector<Point>& point
   table(name, "x,y", rows);
 }
 
-Unit force_unit(double largest) {
-  if (largest >= 1e3) return {1e-3, "kN"};
-  if (largest >= 0.1) return {1.0, "N"};
-  return {1e3, "mN"};
-}
-
-Unit length_unit(double largest) {
-  if (largest >= 1e-4) return {1e3, "mm"};
-  if (largest >= 1e-7) return {1e6, "µm"};
-  return {1e9, "nm"};
-}
-
-Unit energy_unit(double largest) {
-  if (largest >= 0.1) return {1.0, "J"};
-  if (largest >= 1e-4) return {1e3, "mJ"};
-  return {1e6, "µJ"};
-}
-
-double largest(const Result& result, double HistoryRow::*member) {
-  double found = 0.0;
-  for (const HistoryRow& row : result.history) found = std::max(found, std::abs(row.*member));
-  return found;
-}
-
-TimeUnit time_unit(double length) {
-  if (length > 1e-3) return {1e3, "ms"};
-  return {1e6, "µs"};
-}
-
-void add_sub_impact_bands(FigureScript& figure, const std::string& name, const Result& result,
-                          TimeUnit unit) {
-  const std::size_t n_decided = result.n_decided().value_or(result.sub_impacts.size());
-  NumberRows decided, undecided;
-  for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
-    const SubImpact& s = result.sub_impacts[i];
-    (i < n_decided ? decided : undecided)
-        .push_back({s.start * unit.per_second, result.end_of(s) * unit.per_second});
+void FigureScript::history(std::initializer_list<const char*> columns,
+                           const std::vector<HistoryRow>& rows, FigureSize panel) {
+  for (const char* name : columns) {
+    line(name, line_of(rows, &HistoryRow::time, history_member(name)), panel);
   }
-  figure.set("n_undecided", static_cast<double>(undecided.size()));
-  for (NumberRows* bands : {&decided, &undecided}) {
-    if (bands->empty()) bands->push_back({0.0, 0.0});
-  }
-  figure.table(name, "from,to", decided);
-  figure.table(name + "_undecided", "from,to", undecided);
 }
 
-std::vector<Point> history_line(const Result& result, TimeUnit unit, double HistoryRow::*member,
-                                double factor) {
-  std::vector<Point> line;
-  for (const HistoryRow& row : result.history) {
-    line.push_back({row.time * unit.per_second, row.*member * factor});
+bool may_yield(const Result& result) {
+  const std::string& section = result.used.section;
+  return !section.ends_with("elastic") && section != "rigid";
+}
+
+double HistoryRow::*history_member(std::string_view column) {
+  const Columns<HistoryRow>& all = history_columns();
+  const auto found = std::ranges::find(all, column, &Column<HistoryRow>::name);
+  if (found == all.end() || !found->member) {
+    throw std::logic_error("no column of numbers " + std::string(column));
   }
-  return line;
+  return found->member;
 }
 
 }  // namespace subimpact

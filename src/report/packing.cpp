@@ -1,7 +1,5 @@
 #include "report/packing.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -35,22 +33,7 @@ Json packed_i24(const std::vector<double>& values) {
     const auto n = static_cast<unsigned>(static_cast<int>(std::lround(x / step)));
     for (const unsigned shift : {0u, 8u, 16u}) bytes.push_back(static_cast<char>(n >> shift));
   }
-  Json column = Json::object();
-  column["i24"] = base64(bytes);
-  column["step"] = step;
-  return column;
-}
-
-std::string within_script(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<' || c == '>' || c == '&') {
-      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      text.push_back(c);
-    }
-  }
-  return text;
+  return {{"i24", base64(bytes)}, {"step", step}};
 }
 
 }  // namespace subimpact

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,5 @@ namespace subimpact {
 /// lost, and compression and recovery in terms of the beam's elastic energy. One paragraph per
 /// entry.
 std::vector<std::string> strike_words(const Case& input, const Result& result);
-
-/// Indices of the sub-impacts after the first in which the contact yielded further.
-std::vector<std::size_t> yielding_again(const Result& result);
 
 }  // namespace subimpact

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <vector>
 
-#include "report/inlined_svg.h"
 #include "report/strike_words.h"
 #include "sample_result.h"
 #include "subimpact/io/case_file.h"
