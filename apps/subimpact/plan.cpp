@@ -12,7 +12,7 @@
 #include "progress.h"
 #include "subimpact/io/plan.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/plan_chart.h"
+#include "subimpact/report/studies.h"
 #include "time_option.h"
 
 namespace subimpact::app {

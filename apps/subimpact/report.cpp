@@ -9,9 +9,7 @@
 #include "print.h"
 #include "subimpact/io/read_sweep.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/comparison_report.h"
-#include "subimpact/report/html_report.h"
-#include "subimpact/report/sweep_report.h"
+#include "subimpact/report/pages.h"
 
 namespace subimpact::app {
 namespace {

@@ -1,5 +1,5 @@
-#include "subimpact/report/stability.h"
 #include "print.h"
+#include "subimpact/report/studies.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

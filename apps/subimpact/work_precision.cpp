@@ -1,6 +1,6 @@
 #include "subimpact/io/work_precision.h"
 #include "print.h"
-#include "subimpact/report/work_precision_chart.h"
+#include "subimpact/report/studies.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

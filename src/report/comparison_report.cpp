@@ -1,4 +1,4 @@
-#include "subimpact/report/comparison_report.h"
+#include "subimpact/report/pages.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "subimpact/report/html_report.h"
+#include "subimpact/report/pages.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "subimpact/report/stability.h"
+#include "subimpact/report/studies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "subimpact/io/work_precision.h"
-#include "subimpact/report/work_precision_chart.h"
+#include "subimpact/report/studies.h"
 
 #include <gtest/gtest.h>
 

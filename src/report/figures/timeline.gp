@@ -11,7 +11,7 @@ stats $zones using (k = int($0) + 1, from[k] = t*column('from'), to[k] = t*colum
 n = n_zones > 4 ? 1 : n_zones
 to[1] = n < n_zones ? to[n_zones] : to[1]
 title_of(c) = n < n_zones ? sprintf('zones 1 to %d', n_zones) : sprintf('zone %d', c)
-if (to[1] < 0) {
+if (!(to[1] >= 0)) {
   from[1] = 0
   to[1] = t*end
   title_of(c) = 'no sub-impact'
