@@ -13,7 +13,6 @@
 #include "report/files.h"
 #include "report/page.h"
 #include "report/page_data.h"
-#include "report/strike_words.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"

@@ -1,9 +1,15 @@
 #pragma once
 
+#include <cstring>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -55,6 +61,31 @@ void add_scripts(Json& page, const ChartLibrary& charts,
 /// An SVG file as an element of an HTML page: without prologue and name spaces, its ids prefixed so
 /// that several figures on a page do not share them.
 std::string inlined_svg(const std::string& svg, const std::string& prefix);
+
+/// Columns of numbers as the scripts of a page read them (pages/data.js): base64 of little-endian
+/// numbers, named by their kind,
+///
+///     f64, f32: floating-point numbers;  i24: signed 24-bit integers, multiples of `step`.
+std::string base64(std::string_view bytes);
+
+/// A column of the value of each row, as double or float; NaN where there is none. `value`: a
+/// member of the row, or a function of it.
+template <class Number, class Range, class Value = std::identity>
+Json packed(const Range& rows, Value value = {}) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::string bytes(rows.size() * sizeof(Number), '\0');
+  char* at = bytes.data();
+  for (const auto& row : rows) {
+    const Number number =
+        static_cast<Number>(std::optional<double>(std::invoke(value, row)).value_or(none));
+    std::memcpy(at, &number, sizeof number);
+    at += sizeof number;
+  }
+  return {{std::is_same_v<Number, double> ? "f64" : "f32", base64(bytes)}};
+}
+
+/// In 24 bits each: exact to 6e-8 of the largest.
+Json packed_i24(const std::vector<double>& values);
 
 /// JSON within a script element, where the text would end at "</script": without <, > and &.
 std::string within_script(const Json& json);

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 
 #include "io/row_thinning.h"
 #include "report/figure_script.h"
-#include "report/packing.h"
+#include "report/page.h"
 
 namespace subimpact {
 namespace {
@@ -43,63 +44,57 @@ Json history_json(const std::vector<HistoryRow>& rows) {
 
 // --- shapes --------------------------------------------------------------------------------------
 
+using Indices = std::set<std::size_t>;
+
 // Every n-th index so that at most `most` are left, and the last.
-std::vector<std::size_t> every_nth(std::size_t n, std::size_t most) {
+Indices every_nth(std::size_t n, std::size_t most) {
   const std::size_t stride = (n + most - 1) / most;
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < n; i += stride) indices.push_back(i);
-  if (!indices.empty() && indices.back() + 1 != n) indices.push_back(n - 1);
+  Indices indices;
+  for (std::size_t i = 0; i < n; i += stride) indices.insert(i);
+  if (n > 0) indices.insert(n - 1);
   return indices;
 }
 
-void insert_sorted(std::vector<std::size_t>& indices, std::size_t index) {
-  const auto at = std::lower_bound(indices.begin(), indices.end(), index);
-  if (at == indices.end() || *at != index) indices.insert(at, index);
-}
-
 // Which points of a shape the page has: all, or every n-th and the struck one.
-std::vector<std::size_t> points_kept(const Case& input, const Result& result) {
+Indices points_kept(const Case& input, const Result& result) {
   const std::size_t n = result.used.n_shape_points;
-  std::vector<std::size_t> kept = every_nth(n, most_points);
-  if (kept.size() == n) return kept;
   const double struck = input.scene.striker.position * input.scene.beam.length;
-  std::size_t nearest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto distance = [&](std::size_t k) {
-      return std::abs(result.shapes[k].position - struck);
-    };
-    if (distance(i) < distance(nearest)) nearest = i;
-  }
-  insert_sorted(kept, nearest);
+  const auto nearest = std::min_element(
+      result.shapes.begin(), result.shapes.begin() + static_cast<std::ptrdiff_t>(n),
+      [&](const ShapeRow& a, const ShapeRow& b) {
+        return std::abs(a.position - struck) < std::abs(b.position - struck);
+      });
+  Indices kept = every_nth(n, most_points);
+  kept.insert(static_cast<std::size_t>(nearest - result.shapes.begin()));
   return kept;
 }
 
 bool is_contact_event(const Transition& event) { return event.kind != EventKind::section_reverses; }
 
 // Which shapes the page has: all, or those at events, and every n-th of the others.
-std::vector<std::size_t> shapes_kept(const Result& result, std::size_t n_points_kept) {
+Indices shapes_kept(const Result& result, std::size_t n_points_kept) {
   const std::size_t n_points = result.used.n_shape_points;
   const std::size_t n = result.shapes.size() / n_points;
   const std::size_t most = std::max<std::size_t>(most_shape_rows / n_points_kept, 2);
   if (n <= most) return every_nth(n, n);
-  std::vector<std::size_t> kept = every_nth(n, most / 2);
+  Indices kept = every_nth(n, most / 2);
   std::size_t k = 0;
   for (const Transition& event : result.transitions) {
     if (!is_contact_event(event)) continue;
     while (k + 1 < n && result.shapes[k * n_points].time < event.time) ++k;
-    if (kept.size() < most) insert_sorted(kept, k);
+    if (kept.size() < most) kept.insert(k);
   }
   return kept;
 }
 
 struct Shapes {
   const Result& result;
-  std::vector<std::size_t> shapes, points;
+  Indices shapes, points;
 
   const ShapeRow& row(std::size_t shape, std::size_t point) const {
     return result.shapes[shape * result.used.n_shape_points + point];
   }
-  Json column(double ShapeRow::*member, const std::vector<std::size_t>& at) const {
+  Json column(double ShapeRow::*member, const Indices& at) const {
     std::vector<double> values;
     values.reserve(shapes.size() * at.size());
     for (const std::size_t shape : shapes) {
@@ -114,11 +109,14 @@ struct Shapes {
 };
 
 Json shapes_json(const Shapes& kept) {
-  std::vector<std::size_t> plastic, plastic_points;  // where in `points` they are; the points
-  for (std::size_t i = 0; i < kept.points.size(); ++i) {
-    if (!kept.is_plastic(kept.points[i])) continue;
-    plastic.push_back(i);
-    plastic_points.push_back(kept.points[i]);
+  Indices plastic, plastic_points;  // where in `points` they are; the points
+  std::size_t place = 0;
+  for (const std::size_t point : kept.points) {
+    if (kept.is_plastic(point)) {
+      plastic.insert(place);
+      plastic_points.insert(point);
+    }
+    ++place;
   }
   const auto time = [&](std::size_t shape) { return kept.row(shape, 0).time; };
   const auto position = [&](std::size_t point) { return kept.row(0, point).position; };
@@ -130,7 +128,7 @@ Json shapes_json(const Shapes& kept) {
           {"plastic", kept.column(&ShapeRow::plastic_curvature, plastic_points)}};
 }
 
-Json envelope_json(const Result& result, const std::vector<std::size_t>& points) {
+Json envelope_json(const Result& result, const Indices& points) {
   if (result.envelope.size() != result.used.n_shape_points) return nullptr;
   const auto values = [&](auto value) {
     return list_of(points, [&](std::size_t i) { return std::invoke(value, result.envelope[i]); });

@@ -1,4 +1,4 @@
-#include "report/strike_words.h"
+#include "report/page_data.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "case/case_choices.h"
 #include "case/counted.h"
@@ -21,23 +22,11 @@ constexpr double us = 1e6;  // per second
 
 // One character a cell of the map.
 char letter(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::right:
-      return '+';
-    case Verdict::wrong_count:
-      return 'w';
-    case Verdict::inaccurate:
-      return 'i';
-    case Verdict::unstable:
-      return 'U';
-    case Verdict::failed:
-      return 'F';
-    case Verdict::refused:
-      return 'r';
-    case Verdict::not_run:
-      return '.';
-  }
-  return '?';
+  using V = Verdict;
+  constexpr std::pair<Verdict, char> letters[] = {
+      {V::right, '+'},  {V::wrong_count, 'w'}, {V::inaccurate, 'i'}, {V::unstable, 'U'},
+      {V::failed, 'F'}, {V::refused, 'r'},     {V::not_run, '.'}};
+  return std::ranges::find(letters, verdict, &std::pair<Verdict, char>::first)->second;
 }
 
 // Writes <name>.csv and draws it by figures/<name>.gp.

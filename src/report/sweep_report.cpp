@@ -10,7 +10,6 @@
 #include "case/counted.h"
 #include "io/write_file.h"
 #include "report/files.h"
-#include "report/packing.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <vector>
 
-#include "report/strike_words.h"
+#include "report/page_data.h"
 #include "sample_result.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/study/strike_account.h"

@@ -8,6 +8,15 @@ added(list, word) = strstrt(' '.list.' ', ' '.word.' ') ? list : list.' '.word
 # Colour and dashes of the k-th of many lines.
 colour(k) = (k - 1)%8 + 1
 dashes(k) = (k - 1)/8 + 1
+# Marks of the k-th of many lines, filled and hollow.
+filled(k) = int(word('7 5 9 13 11 15', (k - 1)%6 + 1))
+hollow(k) = int(word('6 4 8 12 10 14', (k - 1)%6 + 1))
+
+least(a, b) = a < b ? a : b  # NaN is neither less nor more
+most(a, b) = a > b ? a : b
+decade_below(x) = 10.0**floor(log10(x))
+decade_above(x) = 10.0**ceil(log10(x))
+
 # A spacing of tics, 1, 2 or 5 times a power of ten, that cuts an extent into about so many parts.
 tics(extent, parts) = extent > 0 ? rounded(1.0*extent/parts, 10**floor(log10(1.0*extent/parts))) : 1
 rounded(raw, decade) = raw <= decade ? decade : raw <= 2*decade ? 2*decade \

@@ -18,7 +18,7 @@ if (!(to[1] >= 0)) {
 }
 gap = 0.03
 total = sum [c=1:n] (to[c] - from[c])
-share(c) = (to[c] - from[c])/total > 0.15 ? (to[c] - from[c])/total : 0.15
+share(c) = most((to[c] - from[c])/total, 0.15)
 per_share = (0.98 - 0.11 - gap*(n - 1))/(sum [c=1:n] share(c))
 array left[n]
 array right[n]
@@ -48,8 +48,8 @@ array values[m]
 array has_number[m]
 largest_error = largest_scatter = 0
 stats $sub_impacts using (e = 1e6*column('start_error'), s = 1e6*column('start_scatter'), \
-                          largest_error = e > largest_error ? e : largest_error, \
-                          largest_scatter = s > largest_scatter ? s : largest_scatter, 0) nooutput
+                          largest_error = most(e, largest_error), \
+                          largest_scatter = most(s, largest_scatter), 0) nooutput
 
 set multiplot title marks font ',12'
 set logscale y
@@ -60,21 +60,21 @@ do for [name in 'duration impulse'] {
   low = 1e300
   high = 0
   set autoscale  # "stats" heeds the ranges of the panel before
-  stats $sub_impacts using (v = shown(name), low = v > 0 && v < low ? v : low, \
-                            high = v > high ? v : high, 0) nooutput
+  stats $sub_impacts using (v = shown(name), low = v > 0 ? least(v, low) : low, \
+                            high = most(v, high), 0) nooutput
   if (high == 0) { low = 0.2; high = 10/3.0 }
-  least = low/1000  # of the bars that are shown
+  lowest_bar = low/1000  # that is shown
   if (first) {
     set autoscale
     stats $sub_impacts using (e = 1e6*column('start_error'), s = 1e6*column('start_scatter'), \
-                              low = e > least && e < low ? e : low, \
-                              low = s > least && s < low ? s : low, 0) nooutput
+                              low = e > lowest_bar ? least(e, low) : low, \
+                              low = s > lowest_bar ? least(s, low) : low, 0) nooutput
   }
   low = low/2
   high = 3*high
   if (floor(log10(high)) - ceil(log10(low)) < 1) {  # two labelled ticks at least
-    low = 10.0**floor(log10(low))
-    high = 10.0**ceil(log10(high))
+    low = decade_below(low)
+    high = decade_above(high)
   }
   # Numbers have room a part of the width after that of the sub-impact before, unless they would lie
   # on the stem of a taller neighbour.
