@@ -138,18 +138,17 @@ std::string comparison_report(const std::vector<FinishedRun>& runs,
   }
   const Json keys = differing_keys(runs);
   const std::string& title = runs.front().input.title;
-  Json page = {{"title", title.empty() ? "a strike" : title},
-               {"versions", runs.front().program_version},
-               {"data", comparison_data(labels, results)},
-               {"headlines", lines},
-               {"runs", rows},
-               {"keys", keys},
-               {"same_keys", keys.empty()},
-               {"pairs", pairs}};
-  add_scripts(
-      page, chart_library(dygraphs),
+  const Json page = {{"title", fmt::format("Comparison: {}", title.empty() ? "a strike" : title)},
+                     {"versions", runs.front().program_version},
+                     {"data", comparison_data(labels, results)},
+                     {"headlines", lines},
+                     {"runs", rows},
+                     {"keys", keys},
+                     {"same_keys", keys.empty()},
+                     {"pairs", pairs}};
+  return whole_page(
+      "pages/compare.html", page, chart_library(dygraphs),
       {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/compare.js"});
-  return filled(embedded_file("pages/compare.html"), page);
 }
 
 void write_comparison_report(const std::filesystem::path& directory,

@@ -202,12 +202,6 @@ GnuplotRun run_gnuplot(const fs::path& directory, std::vector<std::string> argum
 
 // --- drawings ------------------------------------------------------------------------------------
 
-/// When a drawing must be complete.
-struct TimeLimit {
-  std::chrono::milliseconds allowed;
-  Clock::time_point end;
-};
-
 void throw_if_not_started(const std::string& figure, int error) {
   if (error == 0) return;
   if (error == ENOENT) {
@@ -236,18 +230,18 @@ std::string last_lines(const std::string& text) {
 }
 
 // gnuplot draws into a pipe, and the figure is written when it is complete.
-void draw(const fs::path& directory, const std::string& name, const std::string& ending,
-          const std::string& terminal, TimeLimit limit) {
-  const std::string figure = name + "." + ending;  // the directory is that of staged files
+void draw(const fs::path& directory, const std::string& name, const char* ending,
+          const std::string& terminal, std::chrono::milliseconds allowed, Clock::time_point end) {
+  const std::string figure = name + ending;  // the directory is that of staged files
   const GnuplotRun gnuplot = run_gnuplot(
       directory, {"-e", fmt::format("set terminal {}; set encoding utf8", terminal), name + ".gp"},
-      limit.end);
+      end);
   throw_if_not_started(figure, gnuplot.start_error);
   if (gnuplot.took_too_long) {
     throw FigureError(fmt::format(
         "{}: gnuplot was ended, because it had not drawn {}.gp within {:g} s; if the machine is "
         "busy or memory is limited (ulimit -v), lift this and repeat the command",
-        figure, name, 1e-3 * static_cast<double>(limit.allowed.count())));
+        figure, name, 1e-3 * static_cast<double>(allowed.count())));
   }
   if (gnuplot.status != 0) {
     throw FigureError(fmt::format("{}: gnuplot failed with status {} on {}.gp: {}", figure,
@@ -256,30 +250,26 @@ void draw(const fs::path& directory, const std::string& name, const std::string&
   write_file(directory / figure, gnuplot.output);
 }
 
-void draw_all(const fs::path& directory, const std::string& name, FigureSize size,
-              TimeLimit limit) {
-  draw(directory, name, "svg",
-       fmt::format("svg size {},{} dynamic enhanced font 'Helvetica,Arial,sans-serif,14' "
-                   "background rgb 'white'",
-                   size.width, size.height),
-       limit);
-  // Twice the pixels, for screens and print that resolve them.
-  draw(directory, name, "png",
-       fmt::format("pngcairo size {},{} enhanced font 'sans,14' fontscale 2 linewidth 2 "
-                   "pointscale 2 background rgb 'white'",
-                   2 * size.width, 2 * size.height),
-       limit);
+constexpr const char* endings[] = {".svg", ".png", ".pdf"};
+
+// What gnuplot draws into, for each ending.
+std::array<std::string, 3> terminals(FigureSize size) {
   constexpr double pixels_per_inch = 96.0;
-  draw(directory, name, "pdf",
-       fmt::format("pdfcairo size {:.4f}in,{:.4f}in enhanced font 'sans,14' fontscale 0.75 "
-                   "linewidth 1 pointscale 0.6 background rgb 'white'",
-                   size.width / pixels_per_inch, size.height / pixels_per_inch),
-       limit);
+  return {fmt::format("svg size {},{} dynamic enhanced font 'Helvetica,Arial,sans-serif,14' "
+                      "background rgb 'white'",
+                      size.width, size.height),
+          // Twice the pixels, for screens and print that resolve them.
+          fmt::format("pngcairo size {},{} enhanced font 'sans,14' fontscale 2 linewidth 2 "
+                      "pointscale 2 background rgb 'white'",
+                      2 * size.width, 2 * size.height),
+          fmt::format("pdfcairo size {:.4f}in,{:.4f}in enhanced font 'sans,14' fontscale 0.75 "
+                      "linewidth 1 pointscale 0.6 background rgb 'white'",
+                      size.width / pixels_per_inch, size.height / pixels_per_inch)};
 }
 
 void remove_pictures(const fs::path& directory, const std::string& name) {
   std::error_code ignored;
-  for (const char* ending : {".svg", ".png", ".pdf"}) {
+  for (const char* ending : endings) {
     fs::remove(directory / (name + ending), ignored);
   }
 }
@@ -313,7 +303,11 @@ void draw_figure(const fs::path& directory, const std::string& name, const std::
   remove_pictures(directory, name);  // of an earlier drawing
   try {
     write_file(directory / (name + ".gp"), script);
-    draw_all(directory, name, size, {most_time, Clock::now() + most_time});
+    const auto end = Clock::now() + most_time;
+    const auto all = terminals(size);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      draw(directory, name, endings[i], all[i], most_time, end);
+    }
   } catch (const FigureError&) {
     remove_pictures(directory, name);
     throw;

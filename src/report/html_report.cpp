@@ -55,34 +55,33 @@ Json headlines(const Result& result) {
   return list;
 }
 
+// A number with the digits that the error allows; two where it is not known.
+Json number_tile(const Result& result, double value, double error, const char* unit,
+                 const char* label) {
+  const std::optional<Rounding> rounding = rounding_of(error, 6);
+  const bool not_known = result.error_estimate && !rounding;
+  const std::string text = !result.error_estimate ? fmt::format("{:.4g}", value)
+                           : rounding
+                               ? with_decimals(value, rounding->decimals) + " ± " + rounding->error
+                               : with_two_digits(value);
+  return {{"value", text + " " + unit},
+          {"label", fmt::format("{}{}", label, not_known ? " (error not known)" : "")}};
+}
+
 Json tiles(const Case& input, const Result& result) {
-  Json list = Json::array();
-  const auto tile = [&](const std::string& value, const std::string& label) {
-    list.push_back({{"value", value}, {"label", label}});
-  };
+  const std::size_t n = result.sub_impacts.size();
   const std::size_t n_zones = summarise_zones(result.sub_impacts).size();
-  tile(fmt::format("{}", result.sub_impacts.size()),
-       noun_after(result.sub_impacts.size(), "sub-impact") + decided_words(result));
-  tile(fmt::format("{}", n_zones), noun_after(n_zones, "zone"));
-  // With the digits that the error allows; two where it is not known.
-  const auto tile_of = [&](double value, double error, const char* unit, const std::string& label) {
-    const std::optional<Rounding> rounding = rounding_of(error, 6);
-    if (!result.error_estimate) {
-      tile(fmt::format("{:.4g} {}", value, unit), label);
-    } else if (rounding) {
-      tile(fmt::format("{} ± {} {}", with_decimals(value, rounding->decimals), rounding->error,
-                       unit),
-           label);
-    } else {
-      tile(fmt::format("{} {}", with_two_digits(value), unit), label + " (error not known)");
-    }
-  };
   const FinalErrors errors = final_errors(input, result);
-  tile_of(1e-3 * result.max_force, 1e-3 * errors.max_force, "kN", "largest force");
-  tile_of(1e3 * result.max_indentation, 1e3 * errors.max_indentation, "mm", "largest indentation");
-  tile_of(result.striker_velocity, errors.striker_velocity, "m/s", "striker, at the end");
-  tile_of(result.beam_mean_velocity, errors.beam_velocity, "m/s", "beam (mean), at the end");
-  return list;
+  return {
+      {{"value", n}, {"label", noun_after(n, "sub-impact") + decided_words(result)}},
+      {{"value", n_zones}, {"label", noun_after(n_zones, "zone")}},
+      number_tile(result, 1e-3 * result.max_force, 1e-3 * errors.max_force, "kN", "largest force"),
+      number_tile(result, 1e3 * result.max_indentation, 1e3 * errors.max_indentation, "mm",
+                  "largest indentation"),
+      number_tile(result, result.striker_velocity, errors.striker_velocity, "m/s",
+                  "striker, at the end"),
+      number_tile(result, result.beam_mean_velocity, errors.beam_velocity, "m/s",
+                  "beam (mean), at the end")};
 }
 
 Json figure_list(const DrawnFigures& figures, const std::filesystem::path& figure_directory) {
@@ -125,22 +124,25 @@ void add_sub_impacts(Json& page, const Result& result) {
   page["sub_impacts"] = list;
 }
 
-void add_method(Json& page, const FinishedRun& run) {
+Json method_rows(const FinishedRun& run) {
   const ResolvedSettings& used = run.result.used;
   const Work& work = run.result.work;
-  page["mesh"] =
-      fmt::format("{}; {} of the beam, {}", used.mesh, counted(used.n_unknowns, "unknown"),
-                  counted(used.n_sections, "section"));
-  page["method"] = fmt::format("{}{}", to_string(run.input.solver.method),
-                               used.table ? ", table " + *used.table : "");
-  page["step"] = used.step ? duration_text(*used.step) + ", fixed"
-                           : fmt::format("adaptive, to {:.2g} m and {:.2g} m/s",
-                                         used.position_tolerance, used.velocity_tolerance);
-  page["events"] = to_string(used.events);
-  page["first_period"] = in_print(duration_text(used.first_period));
-  page["work"] = fmt::format("{}, {} rejected, {}, {} located; {}", counted(work.steps, "step"),
-                             work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
-                             counted(work.roots, "event"), duration_text(work.wall_seconds));
+  const std::pair<const char*, std::string> rows[] = {
+      {"mesh", fmt::format("{}; {} of the beam, {}", used.mesh, counted(used.n_unknowns, "unknown"),
+                           counted(used.n_sections, "section"))},
+      {"method", fmt::format("{}{}", to_string(run.input.solver.method),
+                             used.table ? ", table " + *used.table : "")},
+      {"step", used.step ? duration_text(*used.step) + ", fixed"
+                         : fmt::format("adaptive, to {:.2g} m and {:.2g} m/s",
+                                       used.position_tolerance, used.velocity_tolerance)},
+      {"events", std::string(to_string(used.events))},
+      {"first bending period", in_print(duration_text(used.first_period))},
+      {"work", fmt::format("{}, {} rejected, {}, {} located; {}", counted(work.steps, "step"),
+                           work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
+                           counted(work.roots, "event"), duration_text(work.wall_seconds))}};
+  return list_of(rows, [](const auto& row) -> Json {
+    return {{"name", row.first}, {"words", row.second}};
+  });
 }
 
 Json error_bars(const std::optional<ErrorEstimate>& estimate) {
@@ -219,14 +221,13 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"left_out", figures.left_out},
       {"failed", figures.failed},
       {"error_bars", error_bars(result.error_estimate)},
+      {"method", method_rows(run)},
       {"no_error_bars", !result.error_estimate}};
-  add_scripts(
-      page, chart_library(dygraphs),
-      {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/report.js"});
   add_sub_impacts(page, result);
-  add_method(page, run);
   add_conservation(page, result);
-  return filled(embedded_file("pages/report.html"), page);
+  return whole_page(
+      "pages/report.html", page, chart_library(dygraphs),
+      {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/report.js"});
 }
 
 WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,

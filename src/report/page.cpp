@@ -149,13 +149,14 @@ ChartLibrary chart_library(const std::filesystem::path& directory) {
   }
 }
 
-void add_scripts(Json& page, const ChartLibrary& charts,
-                 std::initializer_list<std::string_view> names) {
-  Json scripts = list_of(names, [](std::string_view name) { return embedded_file(name); });
-  if (!charts.script.empty()) scripts.insert(scripts.begin(), charts.script);
-  page["scripts"] = scripts;
-  page["style"] = std::string(embedded_file("pages/report.css")) + charts.style;
-  page["no_charts"] = charts.missing;
+std::string whole_page(std::string_view name, Json fields, const ChartLibrary& charts,
+                       std::initializer_list<std::string_view> scripts) {
+  fields["scripts"] = list_of(scripts, embedded_file);
+  if (!charts.script.empty()) fields["scripts"].insert(fields["scripts"].begin(), charts.script);
+  fields["style"] = std::string(embedded_file("pages/report.css")) + charts.style;
+  fields["no_charts"] = charts.missing;
+  fields["body"] = filled(embedded_file(name), fields);
+  return filled(embedded_file("pages/page.html"), fields);
 }
 
 std::string inlined_svg(const std::string& svg, const std::string& prefix) {

@@ -53,10 +53,11 @@ struct ChartLibrary {
 /// the Debian package libjs-dygraphs has them.
 ChartLibrary chart_library(const std::filesystem::path& directory);
 
-/// Adds to the fields of a page "style" and "scripts" (the chart library, if there is one, and
-/// files of pages/, in that order) and "no_charts": why charts are missing, or empty.
-void add_scripts(Json& page, const ChartLibrary& charts,
-                 std::initializer_list<std::string_view> names);
+/// A page of pages/: its body from `name`, a template, and `fields` (among them "title" and
+/// "data"); around it style and scripts, the chart library, if there is one, and files of pages/,
+/// in that order. The field "no_charts" is added: why charts are missing, or empty.
+std::string whole_page(std::string_view name, Json fields, const ChartLibrary& charts,
+                       std::initializer_list<std::string_view> scripts);
 
 /// An SVG file as an element of an HTML page: without prologue and name spaces, its ids prefixed so
 /// that several figures on a page do not share them.

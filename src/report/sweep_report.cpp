@@ -195,16 +195,13 @@ std::string sweep_report(const SweptRuns& runs, const std::string& name) {
   const std::string note = fmt::format(
       "To keep the page small the sub-impacts of {} are left out; sub_impacts.csv has them.",
       counted(n_left_out, "run"));
-  Json page = {{"name", name},
-               {"note", n_left_out == 0 ? "" : note},
-               {"data", within_script(data)},
-               {"headlines", headlines(runs)},
-               {"tiles", tiles(runs)},
-               {"keys", key_list(runs)}};
-  add_scripts(page, {},
-              {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/swept_runs.js",
-               "pages/shade.js", "pages/sweep_map.js", "pages/run_panel.js", "pages/sweep.js"});
-  return filled(embedded_file("pages/sweep.html"), page);
+  const Json page = {{"title", "Sweep: " + name},   {"note", n_left_out == 0 ? "" : note},
+                     {"data", within_script(data)}, {"headlines", headlines(runs)},
+                     {"tiles", tiles(runs)},        {"keys", key_list(runs)}};
+  return whole_page(
+      "pages/sweep.html", page, {},
+      {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/swept_runs.js", "pages/shade.js",
+       "pages/sweep_map.js", "pages/run_panel.js", "pages/sweep.js"});
 }
 
 void write_sweep_report(const std::filesystem::path& directory, const SweptRuns& runs,
