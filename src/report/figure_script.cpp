@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -29,15 +30,14 @@ double distance_from_segment(Point p, Point a, Point b) {
 }
 
 // Indices of the first and last point and of the smallest and largest coordinates, in order.
-std::vector<std::size_t> extremes(const std::vector<Point>& line) {
-  std::vector<std::size_t> found{0, line.size() - 1};
+std::set<std::size_t> extremes(const std::vector<Point>& line) {
+  std::set<std::size_t> found{0, line.size() - 1};
   for (double Point::*coordinate : {&Point::x, &Point::y}) {
     const auto [low, high] = std::ranges::minmax_element(line, {}, coordinate);
-    found.push_back(static_cast<std::size_t>(low - line.begin()));
-    found.push_back(static_cast<std::size_t>(high - line.begin()));
+    for (const auto& extreme : {low, high}) {
+      found.insert(static_cast<std::size_t>(extreme - line.begin()));
+    }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
@@ -45,10 +45,8 @@ std::vector<std::size_t> extremes(const std::vector<Point>& line) {
 std::vector<Point> shown_points(const std::vector<Point>& points,
                                 const std::optional<AxisRange>& x_range) {
   if (!x_range) return points;
-  std::vector<Point> shown;
-  for (const Point& p : points) {
-    if (p.x >= x_range->from && p.x <= x_range->to) shown.push_back(p);
-  }
+  std::vector<Point> shown = points;
+  std::erase_if(shown, [&](const Point& p) { return p.x < x_range->from || p.x > x_range->to; });
   return shown.empty() ? points : shown;
 }
 
@@ -62,15 +60,13 @@ double extent(const std::vector<Point>& points, double Point::*coordinate) {
 std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, double y_scale,
                             double tolerance) {
   if (line.size() < 3) return line;
-  std::vector<bool> kept(line.size(), false);
   const auto scaled = [&](std::size_t i) {
     return Point{line[i].x / x_scale, line[i].y / y_scale};
   };
   std::vector<std::pair<std::size_t, std::size_t>> spans;
-  const std::vector<std::size_t> fixed = extremes(line);
-  for (std::size_t k = 0; k < fixed.size(); ++k) {
-    kept[fixed[k]] = true;
-    if (k > 0) spans.push_back({fixed[k - 1], fixed[k]});
+  std::set<std::size_t> kept = extremes(line);
+  for (auto at = kept.begin(); std::next(at) != kept.end(); ++at) {
+    spans.push_back({*at, *std::next(at)});
   }
   while (!spans.empty()) {
     const auto [first, last] = spans.back();
@@ -84,14 +80,12 @@ std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, doub
       furthest = i;
     }
     if (furthest == first) continue;
-    kept[furthest] = true;
+    kept.insert(furthest);
     spans.push_back({first, furthest});
     spans.push_back({furthest, last});
   }
   std::vector<Point> thinned;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (kept[i]) thinned.push_back(line[i]);
-  }
+  for (const std::size_t i : kept) thinned.push_back(line[i]);
   return thinned;
 }
 
