@@ -8,7 +8,7 @@
 #include "byte_source.h"
 #include "report/figure_script.h"
 #include "subimpact/io/read_results.h"
-#include "subimpact/report/html_report.h"
+#include "subimpact/report/pages.h"
 #include "targets.h"
 
 namespace subimpact::fuzz {

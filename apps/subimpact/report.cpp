@@ -8,9 +8,7 @@
 #include "commands.h"
 #include "subimpact/io/read_sweep.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/comparison_report.h"
-#include "subimpact/report/html_report.h"
-#include "subimpact/report/sweep_report.h"
+#include "subimpact/report/pages.h"
 
 namespace subimpact::app {
 namespace {
@@ -20,10 +18,6 @@ struct ReportOptions {
   std::string directory;
   std::string dygraphs;
 };
-
-void print_charts_missing(const std::string& reason) {
-  if (!reason.empty()) print_error("subimpact: note: no zoomable charts: {}\n", reason);
-}
 
 int report(const ReportOptions& options) {
   const FinishedRun run = read_results(options.runs.front());
@@ -35,8 +29,17 @@ int report(const ReportOptions& options) {
   std::fflush(stdout);
   print_warnings(directory.notes());
   print_figure_notes(run);
-  print_charts_missing(written.charts_missing);
+  if (!written.charts_missing.empty()) {
+    print_error("subimpact: note: no zoomable charts: {}\n", written.charts_missing);
+  }
   throw_if_failed(written.figures);
+  return done;
+}
+
+int finish(OutputDirectory& directory, const char* page) {
+  directory.commit();
+  print("{}\n", (directory.path() / page).string());
+  print_warnings(directory.notes());
   return done;
 }
 
@@ -51,10 +54,7 @@ int compare_runs(const ReportOptions& options) {
   for (const std::string& run : options.runs) runs.push_back(read_results(run));
   OutputDirectory directory(options.directory, "report");
   write_comparison_report(directory.staging(), runs, options.runs, options.dygraphs);
-  directory.commit();
-  print("{}\n", (directory.path() / "comparison.html").string());
-  print_warnings(directory.notes());
-  return done;
+  return finish(directory, "comparison.html");
 }
 
 // The directory of a sweep.
@@ -63,11 +63,8 @@ int report_sweep(const ReportOptions& options) {
   const SweptRuns runs = read_sweep(sweep);
   OutputDirectory directory(options.directory.empty() ? sweep : options.directory,
                             runs.identity.empty() ? "report" : "figures", runs.identity);
-  write_sweep_report(directory.staging(), runs, options.runs.front());
-  directory.commit();
-  print("{}\n", (directory.path() / "sweep.html").string());
-  print_warnings(directory.notes());
-  return done;
+  write_sweep_report(directory.staging(), runs, sweep);
+  return finish(directory, "sweep.html");
 }
 
 int report_any(const ReportOptions& options) {

@@ -118,6 +118,7 @@ struct Column {
       }
     };
     type = cell_type<std::remove_cvref_t<decltype(held(std::declval<const Row&>(), 0))>>;
+    if constexpr (std::is_same_v<Value, double Row::*>) member = value;
     cell = [held](const Row& row, std::size_t index) { return to_cell(held(row, index)); };
     append = [held](std::string& text, const Row& row, std::size_t index) {
       append_cell(text, held(row, index));
@@ -140,6 +141,7 @@ struct Column {
   std::string meaning;                      ///< for the documentation
   const char* allowed = "a finite number";  ///< for messages
   CellType type = CellType::real;
+  double Row::*member = nullptr;  ///< that the column holds, if it is a number that is always there
   std::function<Cell(const Row&, std::size_t index)> cell;
   std::function<void(std::string& text, const Row&, std::size_t index)> append;
   std::function<bool(std::string_view cell, Row&)> read;  ///< none: it follows from other columns

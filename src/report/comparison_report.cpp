@@ -1,4 +1,4 @@
-#include "subimpact/report/comparison_report.h"
+#include "subimpact/report/pages.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "io/uncertain.h"
 #include "io/write_file.h"
 #include "report/files.h"
+#include "report/page.h"
 #include "report/page_data.h"
-#include "report/page_parts.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -29,26 +29,22 @@ std::string text_of(const CaseKey& key, const Case& input) {
   return value ? to_text(*value) + (key.unit.empty() ? "" : " " + key.unit) : "–";
 }
 
-FieldList differing_keys(const std::vector<FinishedRun>& runs) {
-  FieldList list;
+Json differing_keys(const std::vector<FinishedRun>& runs) {
+  Json list = Json::array();
   for (const CaseKey& key : case_keys()) {
-    std::vector<std::string> values;
-    for (const FinishedRun& run : runs) values.push_back(text_of(key, run.input));
-    if (std::ranges::all_of(values, [&](const std::string& v) { return v == values.front(); })) {
-      continue;
-    }
-    list.push_back({{{"key", key.name}}, {{"values", list_of("value", values)}}});
+    const Json values =
+        list_of(runs, [&](const FinishedRun& run) { return text_of(key, run.input); });
+    const bool differ =
+        std::ranges::any_of(values, [&](const Json& value) { return value != values.front(); });
+    if (differ) list.push_back({{"key", key.name}, {"values", values}});
   }
   return list;
 }
 
-FieldList run_list(const std::vector<FinishedRun>& runs, const std::vector<std::string>& names) {
-  FieldList list;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Result& result = runs[i].result;
-    list.push_back(
-        {{{"letter", letter(i)},
-          {"name", names[i]},
+Json run_row(const FinishedRun& run, const std::string& name, std::size_t i) {
+  const Result& result = run.result;
+  return {{"letter", letter(i)},
+          {"name", name},
           {"outcome", fmt::format("{} at {}", to_string(result.outcome.kind),
                                   duration_text(result.outcome.time))},
           {"sub_impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
@@ -56,16 +52,8 @@ FieldList run_list(const std::vector<FinishedRun>& runs, const std::vector<std::
                                       decided_words(result))},
           {"force", fmt::format("{:.5g} N", result.max_force)},
           {"mesh", result.used.mesh},
-          {"method", std::string(to_string(runs[i].input.solver.method))},
-          {"wall", duration_text(result.work.wall_seconds)}},
-         {}});
-  }
-  return list;
-}
-
-// Both error bars together, s; none where one of them is not known.
-std::optional<double> both_errors(const std::optional<double>& a, const std::optional<double>& b) {
-  return a && b ? std::optional(*a + *b) : std::nullopt;
+          {"method", to_string(run.input.solver.method)},
+          {"wall", duration_text(result.work.wall_seconds)}};
 }
 
 // A number with its sign, as it is set in print.
@@ -75,37 +63,33 @@ std::string signed_text(double x, const char* format) {
   return text;
 }
 
-struct PairRow {
-  std::vector<std::string> cells;
-  double from, to;
-  bool matched;
-};
-
-PairRow pair_row(const MatchedPair& pair, const Result& first, const Result& second) {
+Json pair_row(const MatchedPair& pair, const Result& first, const Result& second) {
   if (!pair.first || !pair.second) {
     const Result& owner = pair.first ? first : second;
     const std::size_t index = pair.first ? *pair.first : *pair.second;
     const SubImpact& s = owner.sub_impacts[index];
     const std::string number = fmt::format("{}", index + 1);
-    return {{pair.first ? number : "none", pair.first ? "none" : number,
-             fmt::format("{:.3f}", 1e6 * s.start), "", "", "", "", ""},
-            s.start,
-            owner.end_of(s),
-            false};
+    return {{"from", s.start},
+            {"to", owner.end_of(s)},
+            {"row_class", " class=\"undecided\""},
+            {"cells", Json::array({pair.first ? number : "none", pair.first ? "none" : number,
+                                   fmt::format("{:.3f}", 1e6 * s.start), "", "", "", "", ""})}};
   }
   const SubImpact& a = first.sub_impacts[*pair.first];
   const SubImpact& b = second.sub_impacts[*pair.second];
-  const std::optional<double> error = both_errors(a.start_error, b.start_error);
-  const bool both_end = a.end && b.end;
-  return {{fmt::format("{}", *pair.first + 1), fmt::format("{}", *pair.second + 1),
-           fmt::format("{:.3f}", 1e6 * a.start), signed_text(1e6 * (b.start - a.start), "{:+.4f}"),
-           both_end ? signed_text(1e6 * (*b.end - *a.end), "{:+.4f}") : "",
-           error ? fmt::format("± {:.4f}", 1e6 * *error) : "not known",
-           signed_text(100.0 * (b.peak_force / a.peak_force - 1.0), "{:+.3f}"),
-           signed_text(100.0 * (b.impulse / a.impulse - 1.0), "{:+.3f}")},
-          a.start,
-          first.end_of(a),
-          true};
+  return {{"from", a.start},
+          {"to", first.end_of(a)},
+          {"row_class", ""},
+          {"cells",
+           Json::array({fmt::format("{}", *pair.first + 1), fmt::format("{}", *pair.second + 1),
+                        fmt::format("{:.3f}", 1e6 * a.start),
+                        signed_text(1e6 * (b.start - a.start), "{:+.4f}"),
+                        a.end && b.end ? signed_text(1e6 * (*b.end - *a.end), "{:+.4f}") : "",
+                        a.start_error && b.start_error
+                            ? fmt::format("± {:.4f}", 1e6 * (*a.start_error + *b.start_error))
+                            : "not known",
+                        signed_text(100.0 * (b.peak_force / a.peak_force - 1.0), "{:+.3f}"),
+                        signed_text(100.0 * (b.impulse / a.impulse - 1.0), "{:+.3f}")})}};
 }
 
 std::string pair_words(const std::vector<MatchedPair>& pairs, const Result& first,
@@ -126,63 +110,45 @@ std::string pair_words(const std::vector<MatchedPair>& pairs, const Result& firs
   return text + ".";
 }
 
-Fields pair_table(const Result& first, const Result& second, std::size_t run) {
-  const auto pairs = match_sub_impacts(first.sub_impacts, second.sub_impacts);
-  FieldList rows;
-  for (const MatchedPair& pair : pairs) {
-    const PairRow row = pair_row(pair, first, second);
-    rows.push_back({{{"from", fmt::format("{}", row.from)},
-                     {"to", fmt::format("{}", row.to)},
-                     {"row_class", row.matched ? "" : " class=\"undecided\""}},
-                    {{"cells", list_of("cell", row.cells)}}});
-  }
-  return {{{"letter", letter(run)}, {"words", in_print(pair_words(pairs, first, second, run))}},
-          {{"rows", rows}}};
-}
-
-FieldList headlines(const std::vector<FinishedRun>& runs) {
-  FieldList list;
-  const Result& first = runs.front().result;
-  for (std::size_t i = 1; i < runs.size(); ++i) {
-    const Result& result = runs[i].result;
-    const auto pairs = match_sub_impacts(first.sub_impacts, result.sub_impacts);
-    const bool all = n_leading_matches(pairs) == pairs.size();
-    Fields line = headline(all, pair_words(pairs, first, result, i));
-    line.texts["about"] = fmt::format("{} beside A:", letter(i));
-    list.push_back(line);
-  }
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::string caveat = outcome_caveat(runs[i].result);
-    if (!caveat.empty()) list.push_back(headline(false, letter(i) + ": " + caveat + "."));
-  }
-  return list;
-}
-
 }  // namespace
 
 std::string comparison_report(const std::vector<FinishedRun>& runs,
                               const std::vector<std::string>& names,
                               const std::filesystem::path& dygraphs) {
+  const Result& first = runs.front().result;
   std::vector<std::string> labels;
   std::vector<const Result*> results;
-  FieldList pairs;
+  Json lines = Json::array(), rows = Json::array(), pairs = Json::array();
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Result& result = runs[i].result;
     labels.push_back(letter(i) + ": " + names[i]);
-    results.push_back(&runs[i].result);
-    if (i > 0) pairs.push_back(pair_table(runs.front().result, runs[i].result, i));
+    results.push_back(&result);
+    rows.push_back(run_row(runs[i], names[i], i));
+    if (i == 0) continue;
+    const auto matched = match_sub_impacts(first.sub_impacts, result.sub_impacts);
+    const std::string words = in_print(pair_words(matched, first, result, i));
+    lines.push_back(headline(n_leading_matches(matched) == matched.size(), words));
+    lines.back()["about"] = fmt::format("{} beside A:", letter(i));
+    const auto row = [&](const MatchedPair& pair) { return pair_row(pair, first, result); };
+    pairs.push_back({{"letter", letter(i)}, {"words", words}, {"rows", list_of(matched, row)}});
   }
-  const FieldList keys = differing_keys(runs);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::string caveat = outcome_caveat(runs[i].result);
+    if (!caveat.empty()) lines.push_back(headline(false, letter(i) + ": " + caveat + "."));
+  }
+  const Json keys = differing_keys(runs);
   const std::string& title = runs.front().input.title;
-  Fields page{{{"title", title.empty() ? "a strike" : title},
-               {"versions", runs.front().program_version},
-               {"data", comparison_data(labels, results)}},
-              {{"headlines", headlines(runs)},
-               {"runs", run_list(runs, names)},
-               {"keys", keys},
-               {"same_keys", if_given(keys.empty())},
-               {"pairs", pairs}}};
-  add_scripts(page, chart_library(dygraphs), "pages/compare.js");
-  return filled(embedded_file("pages/compare.html"), page);
+  const Json page = {{"title", fmt::format("Comparison: {}", title.empty() ? "a strike" : title)},
+                     {"versions", runs.front().program_version},
+                     {"data", comparison_data(labels, results)},
+                     {"headlines", lines},
+                     {"runs", rows},
+                     {"keys", keys},
+                     {"same_keys", keys.empty()},
+                     {"pairs", pairs}};
+  return whole_page(
+      "pages/compare.html", page, chart_library(dygraphs),
+      {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/compare.js"});
 }
 
 void write_comparison_report(const std::filesystem::path& directory,

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <stdexcept>
 #include <utility>
+
+#include "io/run_tables.h"
 
 namespace subimpact {
 namespace {
@@ -26,17 +30,14 @@ double distance_from_segment(Point p, Point a, Point b) {
 }
 
 // Indices of the first and last point and of the smallest and largest coordinates, in order.
-std::vector<std::size_t> extremes(const std::vector<Point>& line) {
-  std::vector<std::size_t> found{0, line.size() - 1};
+std::set<std::size_t> extremes(const std::vector<Point>& line) {
+  std::set<std::size_t> found{0, line.size() - 1};
   for (double Point::*coordinate : {&Point::x, &Point::y}) {
-    const auto [low, high] = std::minmax_element(
-        line.begin(), line.end(),
-        [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
-    found.push_back(static_cast<std::size_t>(low - line.begin()));
-    found.push_back(static_cast<std::size_t>(high - line.begin()));
+    const auto [low, high] = std::ranges::minmax_element(line, {}, coordinate);
+    for (const auto& extreme : {low, high}) {
+      found.insert(static_cast<std::size_t>(extreme - line.begin()));
+    }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
@@ -44,17 +45,13 @@ std::vector<std::size_t> extremes(const std::vector<Point>& line) {
 std::vector<Point> shown_points(const std::vector<Point>& points,
                                 const std::optional<AxisRange>& x_range) {
   if (!x_range) return points;
-  std::vector<Point> shown;
-  for (const Point& p : points) {
-    if (p.x >= x_range->from && p.x <= x_range->to) shown.push_back(p);
-  }
+  std::vector<Point> shown = points;
+  std::erase_if(shown, [&](const Point& p) { return p.x < x_range->from || p.x > x_range->to; });
   return shown.empty() ? points : shown;
 }
 
 double extent(const std::vector<Point>& points, double Point::*coordinate) {
-  const auto [low, high] = std::minmax_element(
-      points.begin(), points.end(),
-      [=](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+  const auto [low, high] = std::ranges::minmax_element(points, {}, coordinate);
   return (*high).*coordinate - (*low).*coordinate;
 }
 
@@ -63,15 +60,13 @@ double extent(const std::vector<Point>& points, double Point::*coordinate) {
 std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, double y_scale,
                             double tolerance) {
   if (line.size() < 3) return line;
-  std::vector<bool> kept(line.size(), false);
   const auto scaled = [&](std::size_t i) {
     return Point{line[i].x / x_scale, line[i].y / y_scale};
   };
   std::vector<std::pair<std::size_t, std::size_t>> spans;
-  const std::vector<std::size_t> fixed = extremes(line);
-  for (std::size_t k = 0; k < fixed.size(); ++k) {
-    kept[fixed[k]] = true;
-    if (k > 0) spans.push_back({fixed[k - 1], fixed[k]});
+  std::set<std::size_t> kept = extremes(line);
+  for (auto at = kept.begin(); std::next(at) != kept.end(); ++at) {
+    spans.push_back({*at, *std::next(at)});
   }
   while (!spans.empty()) {
     const auto [first, last] = spans.back();
@@ -85,14 +80,12 @@ std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, doub
       furthest = i;
     }
     if (furthest == first) continue;
-    kept[furthest] = true;
+    kept.insert(furthest);
     spans.push_back({first, furthest});
     spans.push_back({furthest, last});
   }
   std::vector<Point> thinned;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (kept[i]) thinned.push_back(line[i]);
-  }
+  for (const std::size_t i : kept) thinned.push_back(line[i]);
   return thinned;
 }
 
@@ -133,11 +126,6 @@ FigureScript& FigureScript::set(const std::string& variable, double value) {
   return *this;
 }
 
-FigureScript& FigureScript::set(const std::string& variable, const std::string& value) {
-  settings_ += fmt::format("{} = \"{}\"\n", variable, value);
-  return *this;
-}
-
 void FigureScript::table(const std::string& name, const std::string& columns,
                          const NumberRows& rows) {
   fmt::memory_buffer text;
@@ -162,59 +150,20 @@ void FigureScript::line(const std::string& name, const std::vector<Point>& point
   table(name, "x,y", rows);
 }
 
-Unit force_unit(double largest) {
-  if (largest >= 1e3) return {1e-3, "kN"};
-  if (largest >= 0.1) return {1.0, "N"};
-  return {1e3, "mN"};
-}
-
-Unit length_unit(double largest) {
-  if (largest >= 1e-4) return {1e3, "mm"};
-  if (largest >= 1e-7) return {1e6, "µm"};
-  return {1e9, "nm"};
-}
-
-Unit energy_unit(double largest) {
-  if (largest >= 0.1) return {1.0, "J"};
-  if (largest >= 1e-4) return {1e3, "mJ"};
-  return {1e6, "µJ"};
-}
-
-double largest(const Result& result, double HistoryRow::*member) {
-  double found = 0.0;
-  for (const HistoryRow& row : result.history) found = std::max(found, std::abs(row.*member));
-  return found;
-}
-
-TimeUnit time_unit(double length) {
-  if (length > 1e-3) return {1e3, "ms"};
-  return {1e6, "µs"};
-}
-
-void add_sub_impact_bands(FigureScript& figure, const std::string& name, const Result& result,
-                          TimeUnit unit) {
-  const std::size_t n_decided = result.n_decided().value_or(result.sub_impacts.size());
-  NumberRows decided, undecided;
-  for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
-    const SubImpact& s = result.sub_impacts[i];
-    (i < n_decided ? decided : undecided)
-        .push_back({s.start * unit.per_second, result.end_of(s) * unit.per_second});
+void FigureScript::history(std::initializer_list<const char*> columns,
+                           const std::vector<HistoryRow>& rows, FigureSize panel) {
+  for (const char* name : columns) {
+    line(name, line_of(rows, &HistoryRow::time, history_member(name)), panel);
   }
-  figure.set("n_undecided", static_cast<double>(undecided.size()));
-  for (NumberRows* bands : {&decided, &undecided}) {
-    if (bands->empty()) bands->push_back({0.0, 0.0});
-  }
-  figure.table(name, "from,to", decided);
-  figure.table(name + "_undecided", "from,to", undecided);
 }
 
-std::vector<Point> history_line(const Result& result, TimeUnit unit, double HistoryRow::*member,
-                                double factor) {
-  std::vector<Point> line;
-  for (const HistoryRow& row : result.history) {
-    line.push_back({row.time * unit.per_second, row.*member * factor});
+double HistoryRow::*history_member(std::string_view column) {
+  const Columns<HistoryRow>& all = run_table<HistoryRow>().columns;
+  const auto found = std::ranges::find(all, column, &Column<HistoryRow>::name);
+  if (found == all.end() || !found->member) {
+    throw std::logic_error("no column of numbers " + std::string(column));
   }
-  return line;
+  return found->member;
 }
 
 }  // namespace subimpact

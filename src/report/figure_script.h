@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/gnuplot.h"
@@ -16,6 +18,14 @@ namespace subimpact {
 struct Point {
   double x, y;
 };
+
+/// The points (x(row), y(row)); x and y: members of a row, or functions of it.
+template <class Row, class X, class Y>
+std::vector<Point> line_of(const std::vector<Row>& rows, X x, Y y) {
+  std::vector<Point> line;
+  for (const Row& row : rows) line.push_back({std::invoke(x, row), std::invoke(y, row)});
+  return line;
+}
 
 /// The polyline with few of its points: no point of either line is further than `tolerance` from
 /// the other, coordinates measured in units of `x_scale` and `y_scale` (Ramer, Douglas and
@@ -31,7 +41,7 @@ struct AxisRange {
 using NumberRows = std::vector<std::vector<double>>;
 
 /// A figure of a run: its script (figures/<name>.gp), and the tables and variables that the script
-/// reads.
+/// reads, in SI units.
 class FigureScript {
  public:
   FigureScript(std::string name, std::string caption, FigureSize size);
@@ -46,13 +56,15 @@ class FigureScript {
   std::string text(const std::filesystem::path& scripts = {}) const;
 
   FigureScript& set(const std::string& variable, double value);
-  FigureScript& set(const std::string& variable, const std::string& value);
   /// Adds the table $name as it is.
   void table(const std::string& name, const std::string& columns, const NumberRows& rows);
   /// Adds the table $name of the columns x and y: a line, with as many points as a panel of about
   /// that size can show. `x_range`: what the panel shows of the x axis, if not all of the line.
   void line(const std::string& name, const std::vector<Point>& points, FigureSize panel,
             const std::optional<AxisRange>& x_range = {});
+  /// Adds columns of the history over time as lines, tables by the names of history.csv.
+  void history(std::initializer_list<const char*> columns, const std::vector<HistoryRow>& rows,
+               FigureSize panel);
 
  private:
   std::string name_, caption_;
@@ -65,33 +77,12 @@ class FigureScript {
 std::vector<Point> thin_for_panel(const std::vector<Point>& line, FigureSize panel,
                                   const std::optional<AxisRange>& x_range = {});
 
-/// A unit that suits the size of what is shown: values of the SI unit times `factor` are in `name`.
-struct Unit {
-  double factor;
-  const char* name;
-};
-Unit force_unit(double largest);   ///< of a force in N
-Unit length_unit(double largest);  ///< of a displacement in m
-Unit energy_unit(double largest);  ///< of an energy in J
-/// The largest magnitude of a column of the history.
-double largest(const Result& result, double HistoryRow::*member);
+/// The member behind a column of history.csv. Throws std::logic_error for a name that no column of
+/// numbers has.
+double HistoryRow::*history_member(std::string_view column);
 
-/// How times of a run are shown: its unit suits its length.
-struct TimeUnit {
-  double per_second;
-  const char* name;
-};
-TimeUnit time_unit(double length);
-
-/// Adds the tables $<name> and $<name>_undecided of a band (from, to) per decided and undecided
-/// sub-impact, in the given unit of time, and the variable n_undecided. Without an error estimate
-/// all count as decided.
-void add_sub_impact_bands(FigureScript& figure, const std::string& name, const Result& result,
-                          TimeUnit unit);
-
-/// A column of the history as a line over time.
-std::vector<Point> history_line(const Result& result, TimeUnit unit, double HistoryRow::*member,
-                                double factor);
+/// The figures of a run for which it has data, marked if the run did not complete.
+std::vector<FigureScript> figure_scripts(const Case& input, const Result& result);
 
 // The figures; each is a function of a run.
 FigureScript response_figure(const Case& input, const Result& result);
@@ -102,8 +93,6 @@ FigureScript timeline_figure(const Case& input, const Result& result);
 FigureScript bending_figure(const Case& input, const Result& result);
 FigureScript shapes_figure(const Case& input, const Result& result);
 FigureScript envelope_figure(const Case& input, const Result& result);
-/// Those for which the run has data, marked if the run did not complete.
-std::vector<FigureScript> figure_scripts(const Case& input, const Result& result);
 
 /// Sections that `bending` has room for: the first ones of output.sections.
 inline constexpr std::size_t most_bending_panels = 24;

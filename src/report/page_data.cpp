@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <functional>
+#include <optional>
+#include <set>
 
 #include "case/problem.h"
 #include "io/row_thinning.h"
 #include "report/figure_script.h"
-#include "report/packing.h"
+#include "report/page.h"
 
 namespace subimpact {
 namespace {
@@ -19,30 +21,15 @@ constexpr std::size_t most_history_rows = 22'000;
 constexpr std::size_t most_points = 600;          // of a shape
 constexpr std::size_t most_shape_rows = 240'000;  // of all shapes
 
-using Member = double HistoryRow::*;
-struct HistoryColumn {
-  const char* name;
-  Member member;
-};
-constexpr HistoryColumn drawn_columns[] = {{"force_N", &HistoryRow::force},
-                                           {"indentation_m", &HistoryRow::indentation},
-                                           {"w_c_m", &HistoryRow::struck_displacement},
-                                           {"w_m_m", &HistoryRow::striker_displacement},
-                                           {"f_c_m", &HistoryRow::struck_deflection},
-                                           {"v_m_m_per_s", &HistoryRow::striker_velocity},
-                                           {"U_m_J", &HistoryRow::striker_energy},
-                                           {"U_k_J", &HistoryRow::beam_kinetic_energy},
-                                           {"U_e_J", &HistoryRow::bending_elastic},
-                                           {"U_p_J", &HistoryRow::bending_plastic},
-                                           {"U_c_J", &HistoryRow::contact_elastic},
-                                           {"D_c_J", &HistoryRow::contact_plastic},
-                                           {"D_b_J", &HistoryRow::beam_damping}};
+constexpr const char* drawn_columns[] = {"force_N",     "indentation_m", "w_c_m", "w_m_m", "f_c_m",
+                                         "v_m_m_per_s", "U_m_J",         "U_k_J", "U_e_J", "U_p_J",
+                                         "U_c_J",       "D_c_J",         "D_b_J"};
 
 // --- history -------------------------------------------------------------------------------------
 
 std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::size_t most_rows) {
-  std::vector<Member> drawn;
-  for (const HistoryColumn& column : drawn_columns) drawn.push_back(column.member);
+  std::vector<double HistoryRow::*> drawn;
+  for (const char* name : drawn_columns) drawn.push_back(history_member(name));
   RowThinning<HistoryRow> rows(history.size(), 1, drawn, most_rows);
   for (const HistoryRow& row : history) rows.add(row);
   return rows.take();
@@ -51,135 +38,111 @@ std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::siz
 Json history_json(const std::vector<HistoryRow>& rows) {
   Json json = Json::object();
   if (rows.empty()) return json;
-  json["time_s"] = packed<double>(rows, [](const HistoryRow& row) { return row.time; });
-  for (const auto& [name, member] : drawn_columns) {
-    json[name] =
-        packed<float>(rows, [member = member](const HistoryRow& row) { return row.*member; });
-  }
+  json["time_s"] = packed<double>(rows, &HistoryRow::time);
+  for (const char* name : drawn_columns) json[name] = packed<float>(rows, history_member(name));
   return json;
-}
-
-Json packed_times(const std::vector<double>& times) {
-  return packed<double>(times, [](double x) { return x; });
 }
 
 // --- shapes --------------------------------------------------------------------------------------
 
+using Indices = std::set<std::size_t>;
+
 // Every n-th index so that at most `most` are left, and the last.
-std::vector<std::size_t> every_nth(std::size_t n, std::size_t most) {
+Indices every_nth(std::size_t n, std::size_t most) {
   const std::size_t stride = (n + most - 1) / most;
-  std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < n; i += stride) indices.push_back(i);
-  if (!indices.empty() && indices.back() + 1 != n) indices.push_back(n - 1);
+  Indices indices;
+  for (std::size_t i = 0; i < n; i += stride) indices.insert(i);
+  if (n > 0) indices.insert(n - 1);
   return indices;
 }
 
-void insert_sorted(std::vector<std::size_t>& indices, std::size_t index) {
-  const auto at = std::lower_bound(indices.begin(), indices.end(), index);
-  if (at == indices.end() || *at != index) indices.insert(at, index);
-}
-
 // Which points of a shape the page has: all, or every n-th and the struck one.
-std::vector<std::size_t> points_kept(const Case& input, const Result& result) {
+Indices points_kept(const Case& input, const Result& result) {
   const std::size_t n = result.used.n_shape_points;
-  std::vector<std::size_t> kept = every_nth(n, most_points);
-  if (kept.size() == n) return kept;
   const double struck = input.scene.striker.position * input.scene.beam.length;
-  std::size_t nearest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto distance = [&](std::size_t k) {
-      return std::abs(result.shapes[k].position - struck);
-    };
-    if (distance(i) < distance(nearest)) nearest = i;
-  }
-  insert_sorted(kept, nearest);
+  const auto nearest = std::min_element(
+      result.shapes.begin(), result.shapes.begin() + static_cast<std::ptrdiff_t>(n),
+      [&](const ShapeRow& a, const ShapeRow& b) {
+        return std::abs(a.position - struck) < std::abs(b.position - struck);
+      });
+  Indices kept = every_nth(n, most_points);
+  kept.insert(static_cast<std::size_t>(nearest - result.shapes.begin()));
   return kept;
 }
 
 bool is_contact_event(const Transition& event) { return event.kind != EventKind::section_reverses; }
 
 // Which shapes the page has: all, or those at events, and every n-th of the others.
-std::vector<std::size_t> shapes_kept(const Result& result, std::size_t n_points_kept) {
+Indices shapes_kept(const Result& result, std::size_t n_points_kept) {
   const std::size_t n_points = result.used.n_shape_points;
   const std::size_t n = result.shapes.size() / n_points;
   const std::size_t most = std::max<std::size_t>(most_shape_rows / n_points_kept, 2);
   if (n <= most) return every_nth(n, n);
-  std::vector<std::size_t> kept = every_nth(n, most / 2);
+  Indices kept = every_nth(n, most / 2);
   std::size_t k = 0;
   for (const Transition& event : result.transitions) {
     if (!is_contact_event(event)) continue;
     while (k + 1 < n && result.shapes[k * n_points].time < event.time) ++k;
-    if (kept.size() < most) insert_sorted(kept, k);
+    if (kept.size() < most) kept.insert(k);
   }
   return kept;
 }
 
 struct Shapes {
   const Result& result;
-  std::vector<std::size_t> shapes, points;
+  Indices shapes, points;
 
-  std::vector<double> column(double ShapeRow::*member, const std::vector<std::size_t>& at) const {
+  const ShapeRow& row(std::size_t shape, std::size_t point) const {
+    return result.shapes[shape * result.used.n_shape_points + point];
+  }
+  Json column(double ShapeRow::*member, const Indices& at) const {
     std::vector<double> values;
     values.reserve(shapes.size() * at.size());
     for (const std::size_t shape : shapes) {
-      for (const std::size_t point : at) {
-        values.push_back(result.shapes[shape * result.used.n_shape_points + point].*member);
-      }
+      for (const std::size_t point : at) values.push_back(row(shape, point).*member);
     }
-    return values;
+    return packed_i24(values);
   }
-  // Positions in `points` of those that are plastic in some shape.
-  std::vector<std::size_t> plastic() const {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const bool yields = std::any_of(shapes.begin(), shapes.end(), [&](std::size_t shape) {
-        return result.shapes[shape * result.used.n_shape_points + points[i]].plastic_curvature !=
-               0.0;
-      });
-      if (yields) found.push_back(i);
-    }
-    return found;
+  bool is_plastic(std::size_t point) const {
+    return std::ranges::any_of(
+        shapes, [&](std::size_t shape) { return row(shape, point).plastic_curvature != 0.0; });
   }
 };
 
 Json shapes_json(const Shapes& kept) {
-  const std::size_t n_points = kept.result.used.n_shape_points;
-  std::vector<double> times, positions;
-  for (const std::size_t shape : kept.shapes) {
-    times.push_back(kept.result.shapes[shape * n_points].time);
-  }
+  Indices plastic, plastic_points;  // where in `points` they are; the points
+  std::size_t place = 0;
   for (const std::size_t point : kept.points) {
-    positions.push_back(kept.result.shapes[point].position);
+    if (kept.is_plastic(point)) {
+      plastic.insert(place);
+      plastic_points.insert(point);
+    }
+    ++place;
   }
-  const std::vector<std::size_t> plastic = kept.plastic();
-  std::vector<std::size_t> plastic_points;
-  for (const std::size_t i : plastic) plastic_points.push_back(kept.points[i]);
-  return {{"times", packed_times(times)},
-          {"positions", packed_times(positions)},
-          {"displacement", packed_i24(kept.column(&ShapeRow::displacement, kept.points))},
-          {"moment", packed_i24(kept.column(&ShapeRow::moment, kept.points))},
+  const auto time = [&](std::size_t shape) { return kept.row(shape, 0).time; };
+  const auto position = [&](std::size_t point) { return kept.row(0, point).position; };
+  return {{"times", packed<double>(kept.shapes, time)},
+          {"positions", packed<double>(kept.points, position)},
+          {"displacement", kept.column(&ShapeRow::displacement, kept.points)},
+          {"moment", kept.column(&ShapeRow::moment, kept.points)},
           {"plastic_points", plastic},
-          {"plastic", packed_i24(kept.column(&ShapeRow::plastic_curvature, plastic_points))}};
+          {"plastic", kept.column(&ShapeRow::plastic_curvature, plastic_points)}};
 }
 
-Json envelope_json(const Result& result, const std::vector<std::size_t>& points) {
+Json envelope_json(const Result& result, const Indices& points) {
   if (result.envelope.size() != result.used.n_shape_points) return nullptr;
-  Json positions = Json::array(), set = Json::array();
-  Json displacement{{"largest", Json::array()}, {"smallest", Json::array()}};
-  Json moment = displacement;
-  for (const std::size_t i : points) {
-    const EnvelopeRow& row = result.envelope[i];
-    positions.push_back(row.position);
-    set.push_back(row.permanent_set);
-    displacement["largest"].push_back(row.displacement.largest.value);
-    displacement["smallest"].push_back(row.displacement.smallest.value);
-    moment["largest"].push_back(row.moment.largest.value);
-    moment["smallest"].push_back(row.moment.smallest.value);
-  }
-  return {{"positions", positions},
-          {"displacement", displacement},
-          {"moment", moment},
-          {"permanent_set", set}};
+  const auto values = [&](auto value) {
+    return list_of(points, [&](std::size_t i) { return std::invoke(value, result.envelope[i]); });
+  };
+  const auto range = [&](EnvelopeRow::Range EnvelopeRow::*field) -> Json {
+    return {
+        {"largest", values([=](const EnvelopeRow& row) { return (row.*field).largest.value; })},
+        {"smallest", values([=](const EnvelopeRow& row) { return (row.*field).smallest.value; })}};
+  };
+  return {{"positions", values(&EnvelopeRow::position)},
+          {"displacement", range(&EnvelopeRow::displacement)},
+          {"moment", range(&EnvelopeRow::moment)},
+          {"permanent_set", values(&EnvelopeRow::permanent_set)}};
 }
 
 void add_shapes(Json& json, PageData& data, const Case& input, const Result& result) {
@@ -208,48 +171,24 @@ Json number_or_null(const std::optional<double>& value) {
 }
 
 Json sub_impacts_json(const Result& result) {
-  Json list = Json::array();
   const std::size_t n_decided = result.n_decided().value_or(result.sub_impacts.size());
-  for (const SubImpact& s : result.sub_impacts) {
-    list.push_back({{"start", s.start},
-                    {"end", result.end_of(s)},
-                    {"ongoing", !s.end.has_value()},
-                    {"peak_force", s.peak_force},
-                    {"start_error", number_or_null(s.start_error)},
-                    {"end_error", number_or_null(s.end_error)},
-                    {"start_scatter", number_or_null(s.start_scatter)},
-                    {"end_scatter", number_or_null(s.end_scatter)},
-                    {"decided", list.size() < n_decided}});
-  }
-  return list;
-}
-
-// s, up to which the strike can be predicted; null where its end can.
-Json horizon_json(const Result& result) {
-  const std::optional<Predictability>& found = result.predictability;
-  return found && found->first_unpredictable ? Json(found->horizon) : Json(nullptr);
-}
-
-Json events_json(const Result& result) {
-  Json list = Json::array();
-  for (const Transition& event : result.transitions) {
-    if (!is_contact_event(event)) continue;
-    list.push_back({{"time", event.time}, {"kind", to_string(event.kind)}});
-  }
-  return list;
-}
-
-Json zones_json(const Result& result) {
-  Json list = Json::array();
-  for (const PlasticZone& zone : result.plastic_zones) {
-    list.push_back({{"from", zone.from}, {"to", zone.to}, {"rotation", zone.rotation}});
-  }
-  return list;
+  return list_of(result.sub_impacts,
+                 [&, index = std::size_t{0}](const SubImpact& s) mutable -> Json {
+                   return {{"start", s.start},
+                           {"end", result.end_of(s)},
+                           {"ongoing", !s.end.has_value()},
+                           {"peak_force", s.peak_force},
+                           {"start_error", number_or_null(s.start_error)},
+                           {"end_error", number_or_null(s.end_error)},
+                           {"start_scatter", number_or_null(s.start_scatter)},
+                           {"end_scatter", number_or_null(s.end_scatter)},
+                           {"decided", index++ < n_decided}};
+                 });
 }
 
 Json unit_json(double end) {
-  const TimeUnit unit = end > 0.1 ? time_unit(end) : time_unit(0.0);
-  return {{"name", unit.name}, {"per_second", unit.per_second}};
+  return end > 0.1 ? Json{{"name", "ms"}, {"per_second", 1e3}}
+                   : Json{{"name", "µs"}, {"per_second", 1e6}};
 }
 
 std::string_view name_of(EndSupport end) {
@@ -268,22 +207,34 @@ PageData page_data(const Case& input, const Result& result) {
         "Of {} rows the charts have {}, with the largest and smallest values of each span.", n_rows,
         history.size());
   }
-  Json json = {{"end", result.outcome.time},
-               {"time_unit", unit_json(result.outcome.time)},
-               {"length", beam.length},
-               {"thickness", beam.thickness},
-               {"ends", Json::array({name_of(beam.ends[0]), name_of(beam.ends[1])})},
-               {"struck_at", input.scene.striker.position * beam.length},
-               {"nose_radius", input.scene.striker.nose_radius.value_or(0.0)},
-               {"yield_moment", may_yield(input) ? Json(beam.yield_moment()) : Json(nullptr)},
-               {"yields", !result.plastic_zones.empty()},
-               {"max_force", result.max_force},
-               {"max_indentation", result.max_indentation},
-               {"sub_impacts", sub_impacts_json(result)},
-               {"horizon", horizon_json(result)},
-               {"events", events_json(result)},
-               {"plastic_zones", zones_json(result)},
-               {"history", history_json(history)}};
+  std::vector<Transition> events = result.transitions;
+  std::erase_if(events, [](const Transition& event) { return !is_contact_event(event); });
+  const std::optional<Predictability>& predicted = result.predictability;
+  Json json = {
+      {"end", result.outcome.time},
+      {"time_unit", unit_json(result.outcome.time)},
+      {"length", beam.length},
+      {"thickness", beam.thickness},
+      {"ends", Json::array({name_of(beam.ends[0]), name_of(beam.ends[1])})},
+      {"struck_at", input.scene.striker.position * beam.length},
+      {"nose_radius", input.scene.striker.nose_radius.value_or(0.0)},
+      {"yield_moment", may_yield(input) ? Json(beam.yield_moment()) : Json(nullptr)},
+      {"yields", !result.plastic_zones.empty()},
+      {"max_force", result.max_force},
+      {"max_indentation", result.max_indentation},
+      {"sub_impacts", sub_impacts_json(result)},
+      {"horizon",
+       predicted && predicted->first_unpredictable ? Json(predicted->horizon) : Json(nullptr)},
+      {"events", list_of(events,
+                         [](const Transition& event) -> Json {
+                           return {{"time", event.time}, {"kind", to_string(event.kind)}};
+                         })},
+      {"plastic_zones",
+       list_of(result.plastic_zones,
+               [](const PlasticZone& zone) -> Json {
+                 return {{"from", zone.from}, {"to", zone.to}, {"rotation", zone.rotation}};
+               })},
+      {"history", history_json(history)}};
   add_shapes(json, data, input, result);
   data.json = within_script(json);
   return data;

@@ -15,17 +15,18 @@ struct PageData {
   std::string shapes_note;   ///< one or two sentences
 };
 
-/// The data of a run. Columns are packed: base64 of little-endian numbers, named by their kind,
-///
-///     f64, f32: floating-point numbers;  i24: signed 24-bit integers, multiples of `step`.
-///
-/// A value is exact to 6e-8 of itself (f32) or of the largest of its column (i24). Of long
-/// histories the rows with the extremes of equal spans are kept, of many or fine shapes those at
-/// events and every n-th.
+/// The data of a run. Columns are packed (see page.h): a value is exact to 6e-8 of itself (f32) or
+/// of the largest of its column (i24). Of long histories the rows with the extremes of equal spans
+/// are kept, of many or fine shapes those at events and every n-th.
 PageData page_data(const Case& input, const Result& result);
 
 /// The data of several runs for a page that compares them: named columns of their histories.
 std::string comparison_data(const std::vector<std::string>& names,
                             const std::vector<const Result*>& results);
+
+/// A description of a strike in sentences: sub-impacts and zones, first yields, what the striker
+/// lost, and compression and recovery in terms of the beam's elastic energy. One paragraph per
+/// entry.
+std::vector<std::string> strike_words(const Case& input, const Result& result);
 
 }  // namespace subimpact

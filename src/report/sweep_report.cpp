@@ -1,19 +1,16 @@
-#include "subimpact/report/sweep_report.h"
+#include "subimpact/report/pages.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "case/counted.h"
 #include "io/write_file.h"
 #include "report/files.h"
-#include "report/packing.h"
-#include "report/page_parts.h"
+#include "report/page.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 
@@ -22,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_sub_impacts = 80'000;  // on a page, which stays below 6 MB or so
 
-// How a column of results is shown: a value times `factor`, in `unit`.
+// How a column is shown: a value times `factor`, in `unit`.
 struct Shown {
   const char* column;
   const char* label;
@@ -71,23 +68,21 @@ Json words_json(const std::vector<std::string>& words) {
   return {{"words", different}, {"indices", indices}};
 }
 
+Json values_json(const SweptRuns::Column& column) {
+  if (!column.words.empty()) return words_json(column.words);
+  return column.is_key ? packed<double>(column.numbers) : packed<float>(column.numbers);
+}
+
 Json column_json(const SweptRuns::Column& column) {
   const Shown how = shown(column);
-  Json json = {{"name", column.name},
-               {"label", how.label},
-               {"unit", how.unit},
-               {"factor", how.factor},
-               {"is_key", column.is_key}};
   const CaseKey* key = column.is_key ? find_case_key(column.name) : nullptr;
-  json["is_flag"] = key && key->type == KeyType::flag;
-  const auto same = [](double x) { return x; };
-  if (!column.words.empty()) {
-    json["values"] = words_json(column.words);
-  } else {
-    json["values"] =
-        column.is_key ? packed<double>(column.numbers, same) : packed<float>(column.numbers, same);
-  }
-  return json;
+  return {{"name", column.name},
+          {"label", how.label},
+          {"unit", how.unit},
+          {"factor", how.factor},
+          {"is_key", column.is_key},
+          {"is_flag", key != nullptr && key->type == KeyType::flag},
+          {"values", values_json(column)}};
 }
 
 // The sub-impacts of all runs, one after another, and how many each run has; -1: left out.
@@ -100,22 +95,17 @@ Json sub_impacts_json(const SweptRuns& runs, std::size_t& n_left_out) {
     n_left_out += fits ? 0 : 1;
     if (fits) rows.insert(rows.end(), of_run.begin(), of_run.end());
   }
-  const auto or_nan = [](const std::optional<double>& x) {
-    return x.value_or(std::numeric_limits<double>::quiet_NaN());
-  };
-  using S = SubImpact;
-  return {
-      {"counts", counts},
-      {"start", packed<double>(rows, [](const S& s) { return s.start; })},
-      {"end", packed<double>(rows, [&](const S& s) { return or_nan(s.end); })},
-      {"start_error", packed<float>(rows, [&](const S& s) { return or_nan(s.start_error); })},
-      {"end_error", packed<float>(rows, [&](const S& s) { return or_nan(s.end_error); })},
-      {"start_scatter", packed<float>(rows, [&](const S& s) { return or_nan(s.start_scatter); })},
-      {"end_scatter", packed<float>(rows, [&](const S& s) { return or_nan(s.end_scatter); })},
-      {"peak_force", packed<float>(rows, [](const S& s) { return s.peak_force; })},
-      {"impulse", packed<float>(rows, [](const S& s) { return s.impulse; })},
-      {"max_indentation", packed<float>(rows, [](const S& s) { return s.max_indentation; })},
-      {"striker_velocity", packed<float>(rows, [](const S& s) { return s.striker_velocity; })}};
+  return {{"counts", counts},
+          {"start", packed<double>(rows, &SubImpact::start)},
+          {"end", packed<double>(rows, &SubImpact::end)},
+          {"start_error", packed<float>(rows, &SubImpact::start_error)},
+          {"end_error", packed<float>(rows, &SubImpact::end_error)},
+          {"start_scatter", packed<float>(rows, &SubImpact::start_scatter)},
+          {"end_scatter", packed<float>(rows, &SubImpact::end_scatter)},
+          {"peak_force", packed<float>(rows, &SubImpact::peak_force)},
+          {"impulse", packed<float>(rows, &SubImpact::impulse)},
+          {"max_indentation", packed<float>(rows, &SubImpact::max_indentation)},
+          {"striker_velocity", packed<float>(rows, &SubImpact::striker_velocity)}};
 }
 
 // --- words ---------------------------------------------------------------------------------------
@@ -126,22 +116,20 @@ std::map<std::string, std::size_t> outcomes(const SweptRuns& runs) {
   return counts;
 }
 
-FieldList headlines(const SweptRuns& runs) {
-  FieldList list;
-  const std::size_t n = runs.numbers.size();
+Json headlines(const SweptRuns& runs) {
+  Json list = Json::array();
   if (const SweptRuns::Column* decided = runs.find("all_decided")) {
-    const auto count = [&](double value) {
-      return static_cast<std::size_t>(std::ranges::count(decided->numbers, value));
-    };
-    if (count(1.0) > 0) {
+    const auto n_certain = std::ranges::count(decided->numbers, 1.0);
+    const auto n_uncertain = std::ranges::count(decided->numbers, 0.0);
+    if (n_certain > 0) {
       list.push_back(headline(true, fmt::format("count and order of the sub-impacts in {} of {}.",
-                                                count(1.0), counted(n, "run"))));
+                                                n_certain, counted(runs.numbers.size(), "run"))));
     }
-    if (count(0.0) > 0) {
+    if (n_uncertain > 0) {
       list.push_back(
           headline(false, fmt::format("the counts of {}, which the map marks with a cross; a "
                                       "pattern among them may be that of their errors.",
-                                      counted(count(0.0), "run"))));
+                                      counted(n_uncertain, "run"))));
     }
   } else {
     list.push_back(headline(false,
@@ -170,33 +158,29 @@ std::string range_text(const SweptRuns::Column& column) {
                      how.factor * *different.begin(), how.factor * *different.rbegin(), how.unit);
 }
 
-FieldList key_list(const SweptRuns& runs) {
-  FieldList list;
+Json key_list(const SweptRuns& runs) {
+  Json list = Json::array();
   for (const SweptRuns::Column& column : runs.columns) {
     if (!column.is_key) continue;
     const CaseKey* key = find_case_key(column.name);
-    list.push_back({{{"key", column.name},
-                     {"meaning", key ? key->meaning : ""},
-                     {"values", range_text(column)}},
-                    {}});
+    list.push_back({{"key", column.name},
+                    {"meaning", key ? key->meaning : ""},
+                    {"values", range_text(column)}});
   }
   return list;
 }
 
-FieldList tiles(const SweptRuns& runs) {
-  FieldList list;
-  const auto tile = [&](const std::string& value, const std::string& label) {
-    list.push_back({{{"value", value}, {"label", label}}, {}});
-  };
+Json tiles(const SweptRuns& runs) {
   const std::size_t n = runs.numbers.size();
-  tile(fmt::format("{}", n), noun_after(n, "run"));
-  tile(fmt::format("{}", outcomes(runs)["completed"]), "completed");
+  Json list = {{{"value", n}, {"label", noun_after(n, "run")}},
+               {{"value", outcomes(runs)["completed"]}, {"label", "completed"}}};
   const SweptRuns::Column* counts = runs.find("n_sub_impacts");
   if (counts != nullptr && counts->words.empty()) {
     std::vector<double> known = counts->numbers;
     std::erase_if(known, [](double x) { return std::isnan(x); });
     const auto [least, most] = std::ranges::minmax(known);
-    tile(fmt::format("{} to {}", least, most), "sub-impacts per run");
+    list.push_back(
+        {{"value", fmt::format("{} to {}", least, most)}, {"label", "sub-impacts per run"}});
   }
   return list;
 }
@@ -204,23 +188,20 @@ FieldList tiles(const SweptRuns& runs) {
 }  // namespace
 
 std::string sweep_report(const SweptRuns& runs, const std::string& name) {
-  Json columns = Json::array();
-  for (const SweptRuns::Column& column : runs.columns) columns.push_back(column_json(column));
   std::size_t n_left_out = 0;
-  Json data = {{"numbers", runs.numbers}, {"columns", columns}};
-  data["sub_impacts"] = sub_impacts_json(runs, n_left_out);
-  const std::string note = n_left_out == 0
-                               ? std::string()
-                               : fmt::format(
-                                     "To keep the page small the sub-impacts of {} are left out; "
-                                     "sub_impacts.csv has them.",
-                                     counted(n_left_out, "run"));
-  Fields page{{{"name", name}, {"note", note}, {"data", within_script(data)}},
-              {{"headlines", headlines(runs)}, {"tiles", tiles(runs)}, {"keys", key_list(runs)}}};
-  add_own_scripts(page,
-                  {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/swept_runs.js",
-                   "pages/shade.js", "pages/sweep_map.js", "pages/run_panel.js", "pages/sweep.js"});
-  return filled(embedded_file("pages/sweep.html"), page);
+  const Json data = {{"numbers", runs.numbers},
+                     {"columns", list_of(runs.columns, column_json)},
+                     {"sub_impacts", sub_impacts_json(runs, n_left_out)}};
+  const std::string note = fmt::format(
+      "To keep the page small the sub-impacts of {} are left out; sub_impacts.csv has them.",
+      counted(n_left_out, "run"));
+  const Json page = {{"title", "Sweep: " + name},   {"note", n_left_out == 0 ? "" : note},
+                     {"data", within_script(data)}, {"headlines", headlines(runs)},
+                     {"tiles", tiles(runs)},        {"keys", key_list(runs)}};
+  return whole_page(
+      "pages/sweep.html", page, {},
+      {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/swept_runs.js", "pages/shade.js",
+       "pages/sweep_map.js", "pages/run_panel.js", "pages/sweep.js"});
 }
 
 void write_sweep_report(const std::filesystem::path& directory, const SweptRuns& runs,

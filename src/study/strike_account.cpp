@@ -16,56 +16,53 @@ const HistoryRow& row_at(const Result& result, double time) {
   return time - before->time < after->time - time ? *before : *after;
 }
 
-StrikePart part(const Result& result, StrikePart::Kind kind, int zone, int subzone, double start,
-                double end) {
-  return {kind,
-          zone,
-          subzone,
-          start,
-          end,
-          row_at(result, start).bending_elastic,
-          row_at(result, end).bending_elastic};
-}
-
 }  // namespace
 
-std::optional<StrikeAccount> account_of(const Result& result) {
-  const auto& hits = result.sub_impacts;
-  if (result.history.empty() || hits.empty()) return std::nullopt;
+std::vector<StrikePart> strike_parts(const Result& result) {
   using Kind = StrikePart::Kind;
-  StrikeAccount account;
-  const auto last_where = [&](std::size_t from, auto same) {
-    std::size_t last = from;
-    while (last + 1 < hits.size() && same(hits[last + 1], hits[from])) ++last;
-    return last;
-  };
-  const auto same_zone = [](const SubImpact& a, const SubImpact& b) { return a.zone == b.zone; };
-  const auto same_subzone = [](const SubImpact& a, const SubImpact& b) {
-    return a.zone == b.zone && a.subzone == b.subzone;
-  };
-  for (std::size_t first = 0; first < hits.size();) {
-    const std::size_t zone_last = last_where(first, same_zone);
-    const int zone = hits[first].zone;
-    account.parts.push_back(
-        part(result, Kind::zone, zone, 0, hits[first].start, result.end_of(hits[zone_last])));
-    for (std::size_t i = first; i <= zone_last;) {
-      const std::size_t last = last_where(i, same_subzone);
-      const double end = result.end_of(hits[last]);
-      account.parts.push_back(
-          part(result, Kind::subzone, zone, hits[i].subzone, hits[i].start, end));
-      if (last < zone_last) {
-        account.parts.push_back(part(result, Kind::subzone_separation, zone, hits[i].subzone, end,
-                                     hits[last + 1].start));
-      }
-      i = last + 1;
+  std::vector<StrikePart> parts;
+  std::size_t zone = 0, subzone = 0;  // places of the present ones in `parts`
+  for (const SubImpact& s : result.sub_impacts) {
+    const double end = result.end_of(s);
+    const bool same_zone = !parts.empty() && parts[zone].zone == s.zone;
+    const bool same_subzone = same_zone && parts[subzone].subzone == s.subzone;
+    if (same_zone && !same_subzone) {
+      parts.push_back(
+          {Kind::subzone_separation, s.zone, parts[subzone].subzone, parts[subzone].end, s.start});
+    } else if (!same_zone && !parts.empty()) {
+      parts.push_back({Kind::separation, parts[zone].zone, 0, parts[zone].end, s.start});
     }
-    if (zone_last + 1 < hits.size()) {
-      account.parts.push_back(part(result, Kind::separation, zone, 0,
-                                   result.end_of(hits[zone_last]), hits[zone_last + 1].start));
+    if (!same_zone) {
+      zone = parts.size();
+      parts.push_back({Kind::zone, s.zone, 0, s.start, end});
     }
-    first = zone_last + 1;
+    if (!same_subzone) {
+      subzone = parts.size();
+      parts.push_back({Kind::subzone, s.zone, s.subzone, s.start, end});
+    }
+    parts[zone].end = parts[subzone].end = end;
   }
-  account.strike_end = result.end_of(hits.back());
+  return parts;
+}
+
+std::vector<std::size_t> yielding_again(const Result& result) {
+  std::vector<std::size_t> found;
+  const auto& hits = result.sub_impacts;
+  for (std::size_t i = 1; i < hits.size(); ++i) {
+    if (hits[i].residual_indentation > hits[i - 1].residual_indentation) found.push_back(i);
+  }
+  return found;
+}
+
+std::optional<StrikeAccount> account_of(const Result& result) {
+  if (result.history.empty() || result.sub_impacts.empty()) return std::nullopt;
+  StrikeAccount account;
+  account.parts = strike_parts(result);
+  for (StrikePart& part : account.parts) {
+    part.elastic_start = row_at(result, part.start).bending_elastic;
+    part.elastic_end = row_at(result, part.end).bending_elastic;
+  }
+  account.strike_end = result.end_of(result.sub_impacts.back());
   account.elastic_at_end = row_at(result, account.strike_end).bending_elastic;
   double lowest = result.history.front().striker_energy;
   for (const HistoryRow& row : result.history) {

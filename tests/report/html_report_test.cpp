@@ -1,4 +1,4 @@
-#include "subimpact/report/html_report.h"
+#include "subimpact/report/pages.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,9 @@
 #include <fstream>
 #include <vector>
 
-#include "report/inlined_svg.h"
-#include "report/strike_words.h"
+#include "report/page_data.h"
 #include "sample_result.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/report/comparison_report.h"
 #include "subimpact/study/strike_account.h"
 #include "temporary_directory.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "report/strike_words.h"
+#include "report/page_data.h"
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"

@@ -1,4 +1,4 @@
-#include "subimpact/report/sweep_report.h"
+#include "subimpact/report/pages.h"
 
 #include <gtest/gtest.h>
 

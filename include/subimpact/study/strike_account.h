@@ -2,6 +2,7 @@
 
 /// The course of a strike: which body gained or lost energy, and when.
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -20,16 +21,20 @@ struct StrikePart {
   double elastic_start = 0.0;  ///< U_e, J
   double elastic_end = 0.0;    ///< J
 
-  double length() const { return end - start; }
   double elastic_change() const { return elastic_end - elastic_start; }
 };
+
+/// In order of time; a zone before its sub-zones. Zones and sub-zones run from their first contact
+/// to their last separation; separations lie between them. Elastic energies are left 0.
+std::vector<StrikePart> strike_parts(const Result& result);
+
+/// Indices of the sub-impacts after the first in which the contact yielded further.
+std::vector<std::size_t> yielding_again(const Result& result);
 
 /// Poisson's division of an impact, applied to the elastic energy U_e of the beam: compression
 /// while U_e rises overall, recovery while U_e falls.
 struct StrikeAccount {
-  /// In order of time; a zone before its sub-zones. Zones and sub-zones run from their first
-  /// contact to their last separation; separations lie between them.
-  std::vector<StrikePart> parts;
+  std::vector<StrikePart> parts;    ///< strike_parts() with their elastic energies
   double strike_end = 0.0;          ///< s, last separation (or the end of the run)
   double largest_elastic = 0.0;     ///< J, of U_e
   double largest_elastic_at = 0.0;  ///< s: compression before, recovery after

@@ -4,8 +4,6 @@ table = 'plan.csv'
 sequences = ''
 low_error = low_work = 1e300
 high_error = high_work = 0
-least(a, b) = a < b ? a : b
-most(a, b) = a > b ? a : b
 # A run of which no sub-impact was compared has the error 0 and is not drawn.
 stats table using (sequences = added(sequences, strcol('sequence')), \
                    low_error = column('error_s') > 0 ? least(column('error_s'), low_error) : low_error, \
@@ -19,8 +17,6 @@ set format y '10^{%L}'
 set xlabel 'largest error of an event time before the horizon (µs)'
 set ylabel 'counted work (evaluations times unknowns)'
 # Whole decades, so that each axis has two labelled tics at least.
-decade_below(x) = 10.0**floor(log10(x))
-decade_above(x) = 10.0**ceil(log10(x))
 set xrange [decade_below(0.5*least(1e6*low_error, reference_us)):decade_above(2*most(1e6*high_error, wanted_us))]
 set yrange [decade_below(0.5*low_work):decade_above(2*high_work)]
 set key outside right top Left reverse samplen 2 spacing 1.25
@@ -30,8 +26,6 @@ set label 1 'wanted' at wanted_us, graph 0.02 left offset 0.5,0 tc rgb '#404040'
 of(k) = strcol('sequence') eq word(sequences, k)
 right(k) = of(k) && strcol('verdict') eq 'right' ? 1e6*column('error_s') : NaN
 marked(k, admitted) = of(k) && column('admitted') == admitted ? 1e6*column('error_s') : NaN
-filled(k) = int(word('7 5 9 13 11 15', (k - 1)%6 + 1))
-hollow(k) = int(word('6 4 8 12 10 14', (k - 1)%6 + 1))
 plot for [k=1:words(sequences)] table using (right(k)):'counted_work' \
        with lines lt colour(k) dt dashes(k) lw 1.5 notitle, \
      for [k=1:words(sequences)] table using (marked(k, 0)):'counted_work' \

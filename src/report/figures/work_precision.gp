@@ -4,8 +4,6 @@
 methods = ''
 low_error = low_cost = 1e300
 high_error = high_cost = 0
-least(a, b) = a < b ? a : b  # NaN is neither less nor more
-most(a, b) = a > b ? a : b
 stats $points using (methods = added(methods, strcol('method')), \
                      low_error = least(column('error_us'), low_error), \
                      high_error = most(column('error_us'), high_error), \
@@ -13,23 +11,19 @@ stats $points using (methods = added(methods, strcol('method')), \
                      high_cost = most(column('cost'), high_cost), 0) nooutput
 if (high_error == 0) { low_error = 0.1; high_error = 10 }
 if (high_cost == 0) { low_cost = 0.1; high_cost = 10 }
-decade_below(x) = 10.0**floor(log10(x))
-decade_above(x) = 10.0**ceil(log10(1.0001*x))
-strip = decade_above(high_error)  # to the right of it: runs that broke down
+strip = decade_above(1.0001*high_error)  # to the right of it: runs that broke down
 edge = 50*strip
 
 of(panel, k, marks) = column('panel') == panel && strcol('method') eq word(methods, k) \
                       && strstrt(marks, strcol('mark'))
 error(panel, k, marks) = of(panel, k, marks) ? column('error_us') : NaN
-filled(k) = int(word('7 5 9 13 11 15', (k - 1)%6 + 1))
-hollow(k) = int(word('6 4 8 12 10 14', (k - 1)%6 + 1))
 
 set multiplot
 set logscale xy
 set bmargin screen 0.14
 set tmargin screen 0.9
 set xrange [decade_below(low_error):edge]
-set yrange [decade_below(low_cost):decade_above(high_cost)]
+set yrange [decade_below(low_cost):decade_above(1.0001*high_cost)]
 set xlabel 'largest error of an event time (µs)'
 set format x '10^{%L}'
 set format y '10^{%L}'

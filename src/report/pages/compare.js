@@ -1,8 +1,6 @@
 'use strict';
 // A page that compares runs: one line per run in every chart.
 
-const byId = (id) => document.getElementById(id);
-
 const comparedCharts = [
   {id: 'chart-force', label: 'force, N', name: 'force_N', factor: 1},
   {id: 'chart-deflection', label: 'deflection f_c, mm', name: 'f_c_m', factor: 1e3},
@@ -27,9 +25,7 @@ class ComparisonPage {
     this.view = new View(end);
     this.unit = unit;
     this.charts = [];
-    this.runs = runs.map((run) => ({...run, history: Object.fromEntries(
-      Object.entries(run.history).map(([name, column]) => [name, unpacked(column)]))}))
-      .filter((run) => run.history.time_s);
+    this.runs = runs.map((run) => ({...run, history: unpackedColumns(run.history)})).filter((run) => run.history.time_s);
     byId('strike').hidden = typeof Dygraph === 'undefined' || this.runs.length === 0;
     if (!byId('strike').hidden) this.addCharts();
     this.addTables();
@@ -43,8 +39,7 @@ class ComparisonPage {
 
   addCharts() {
     const {unit, view, runs} = this;
-    const bands = runs[0].sub_impacts.map(({start, end, decided}) =>
-      ({from: start * unit.per_second, to: end * unit.per_second, decided}));
+    const bands = bandsOf(runs[0].sub_impacts, unit);
     for (const {id, label, name, factor} of comparedCharts) {
       this.charts.push(new TimeChart(byId(id), {rows: mergedRows(runs, unit, name, factor), valueLabel: label,
         labels: runs.map((run) => run.name), unit, bands, view}));
@@ -69,13 +64,8 @@ class ComparisonPage {
 
   show() {
     this.charts.forEach((chart) => chart.showPart());
-    const {from, to, end} = this.view;
-    byId('part').textContent = from === 0 && to === end ? 'whole strike'
-      : `${printed(from * this.unit.per_second, 7)} to ${printed(to * this.unit.per_second, 7)} ${this.unit.name}`;
+    byId('part').textContent = this.view.words(this.unit);
   }
 }
 
-document.documentElement.classList.add('live');
-requestAnimationFrame(() => setTimeout(() => {
-  window.page = new ComparisonPage(JSON.parse(byId('data').textContent));
-}));
+startPage((data) => new ComparisonPage(data));

@@ -1,6 +1,14 @@
 'use strict';
 // The numbers of a page, packed by page_data.cpp, and a strike made of them.
 
+const byId = (id) => document.getElementById(id);
+
+// Makes window.page of the data of this page, once the page is painted.
+function startPage(make) {
+  document.documentElement.classList.add('live');
+  requestAnimationFrame(() => setTimeout(() => { window.page = make(JSON.parse(byId('data').textContent)); }));
+}
+
 // An array of numbers: 64-bit or 32-bit floating point, or signed 24-bit multiples of a step.
 function unpacked(column) {
   const text = atob(column.f64 ?? column.f32 ?? column.i24);
@@ -12,6 +20,10 @@ function unpacked(column) {
     numbers[k] = (((bytes[i] | (bytes[i + 1] << 8) | (bytes[i + 2] << 16)) << 8) >> 8) * column.step;
   }
   return numbers;
+}
+
+function unpackedColumns(columns) {
+  return Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, unpacked(column)]));
 }
 
 // The number of leading entries of an ascending array that are at most x.
@@ -43,8 +55,7 @@ const eventKinds = {
 class Strike {
   constructor(data) {
     Object.assign(this, data);
-    this.history = Object.fromEntries(
-      Object.entries(data.history).map(([name, column]) => [name, unpacked(column)]));
+    this.history = unpackedColumns(data.history);
     this.times = this.history.time_s ?? new Float64Array(0);
     if (data.shapes) {
       for (const name of ['times', 'positions', 'displacement', 'moment', 'plastic']) {
@@ -131,6 +142,11 @@ class View {
     this.listeners.forEach((change) => change('part'));
   }
   showAll() { this.setPart(0, this.end); }
+  // The part, in words, in a unit of time.
+  words({name, per_second: perSecond}) {
+    return this.from === 0 && this.to === this.end ? 'whole strike'
+      : `${printed(this.from * perSecond, 7)} to ${printed(this.to * perSecond, 7)} ${name}`;
+  }
   zoom(factor) {
     const half = 0.5 * factor * (this.to - this.from);
     this.setPart(this.time - half, this.time + half);

@@ -14,6 +14,11 @@ function overlay(canvas, name) {
   return mark;
 }
 
+// Bands of sub-impacts in a unit of time.
+function bandsOf(hits, {per_second: perSecond}) {
+  return hits.map(({start, end, decided}) => ({from: start * perSecond, to: end * perSecond, decided}));
+}
+
 // A zoomable chart over time. rows: [time, value, ...] in the units of the labels.
 class TimeChart {
   constructor(place, {rows, labels, valueLabel, unit, bands = [], view}) {
@@ -172,12 +177,8 @@ class Loop {
     const mm = (i) => 1e3 * strike.history.indentation_m[i], newton = (i) => strike.history.force_N[i];
     const visible = this.pieces.map((piece) => ({...piece, rows: this.shown(piece)})).filter((p) => p.rows.length > 1);
     let low = Infinity, high = 0, most = 0;
-    for (const {rows} of visible) {
-      for (const i of rows) {
-        low = Math.min(low, mm(i));
-        high = Math.max(high, mm(i));
-        most = Math.max(most, newton(i));
-      }
+    for (const i of visible.flatMap(({rows}) => rows)) {
+      [low, high, most] = [Math.min(low, mm(i)), Math.max(high, mm(i)), Math.max(most, newton(i))];
     }
     if (!(high > low)) [low, high, most] = [0, 1e3 * strike.max_indentation || 1, strike.max_force || 1];
     const margin = 0.06 * (high - low);
@@ -262,7 +263,9 @@ class Timeline {
     axes.inside((draw) => {
       this.drawHorizon(axes, draw);
       for (const bar of this.bars) this.marks.forEach((mark) => this.drawBar(axes, bar, mark));
-      for (const mark of this.marks) this.drawMark(axes, draw, mark);
+      for (const {kind, time, value, decided} of this.marks) {
+        this.drawMark(axes, kind, axes.toX(time * unit.per_second), axes.toY(1e6 * value), decided);
+      }
     });
     this.drawKey(axes);
     this.drawTime();
@@ -296,43 +299,31 @@ class Timeline {
     axes.line([[x, axes.bottom], [x, axes.toY(value)]], {colour: colour(tone), width});
   }
 
-  drawMark(axes, draw, {kind, time, value, decided}) {
-    const x = axes.toX(time * this.strike.time_unit.per_second), y = axes.toY(1e6 * value);
-    const name = kind === 'contact' ? 'line1' : 'line2';
+  drawMark(axes, kind, x, y, isFilled) {
+    const {draw} = axes;
     draw.beginPath();
-    if (kind === 'contact') draw.arc(x, y, 4, 0, 2 * Math.PI);
-    else draw.rect(x - 3.5, y - 3.5, 7, 7);
-    draw.fillStyle = colour(decided ? name : 'paper');
-    draw.strokeStyle = colour(name);
+    if (kind === 'separation') draw.rect(x - 3.5, y - 3.5, 7, 7);
+    else draw.arc(x, y, 4, 0, 2 * Math.PI);
+    draw.strokeStyle = colour({contact: 'line1', separation: 'line2', open: 'text'}[kind]);
+    draw.fillStyle = isFilled ? draw.strokeStyle : colour('paper');
     draw.lineWidth = 1.4;
     draw.fill();
     draw.stroke();
   }
-
   drawKey(axes) {
-    const y = 8;
-    const {draw} = axes;
     const words = [['contact', 'contacts'], ['separation', 'separations'], ['open', 'open: not decided']];
     words.forEach(([kind, text], i) => {
       const x = axes.left + 12 + 100 * i;
-      draw.beginPath();
-      if (kind === 'separation') draw.rect(x - 3.5, y - 3.5, 7, 7);
-      else draw.arc(x, y, 4, 0, 2 * Math.PI);
-      draw.strokeStyle = colour(kind === 'separation' ? 'line2' : kind === 'contact' ? 'line1' : 'text');
-      draw.fillStyle = kind === 'open' ? colour('paper') : draw.strokeStyle;
-      draw.lineWidth = 1.4;
-      draw.fill();
-      draw.stroke();
-      axes.text(text, x + 9, y);
+      this.drawMark(axes, kind, x, 8, kind !== 'open');
+      axes.text(text, x + 9, 8);
     });
     let x = axes.left + 12;
     for (const {words: text, colour: tone, width} of [...this.bars].reverse()) {
       axes.line([[x, 19], [x, 33]], {colour: colour(tone), width});
       axes.text(text, x + 9, 26);
-      x += 24 + draw.measureText(text).width;
+      x += 24 + axes.draw.measureText(text).width;
     }
   }
-
   drawTime() {
     const {axes, view, strike, cursor} = this;
     const x = axes.toX(view.time * strike.time_unit.per_second);
@@ -375,7 +366,7 @@ function addThemeButton(restyle) {
     forgetColours();
     restyle();
   };
-  const button = document.getElementById('theme');
+  const button = byId('theme');
   let at = 0;
   button.addEventListener('click', () => {
     at = (at + 1) % names.length;

@@ -1,10 +1,6 @@
 'use strict';
 // Joins the panels of a page: one time and one part of the strike for all of them.
 
-const byId = (id) => document.getElementById(id);
-
-function dataOfPage() { return JSON.parse(byId('data').textContent); }
-
 function addStillsButton() {
   byId('show-stills').addEventListener('click', () => {
     const open = byId('stills').classList.toggle('open');
@@ -34,12 +30,6 @@ function chartRows(strike, columns) {
   const {times, history, time_unit: unit} = strike;
   return Array.from(times, (time, i) =>
     [time * unit.per_second, ...columns.map(({name, factor = 1}) => factor * history[name][i])]);
-}
-
-function bandsOf(strike) {
-  const {per_second} = strike.time_unit;
-  return strike.sub_impacts.map(({start, end, decided}) =>
-    ({from: start * per_second, to: end * per_second, decided}));
 }
 
 const timeCharts = [
@@ -91,7 +81,7 @@ class Page {
       const columns = all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0));
       this.charts.push(new TimeChart(byId(id), {
         rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel: label,
-        unit: strike.time_unit, bands: bandsOf(strike), view: this.view}));
+        unit: strike.time_unit, bands: bandsOf(strike.sub_impacts, strike.time_unit), view: this.view}));
     }
   }
 
@@ -128,12 +118,8 @@ class Page {
     this.charts.forEach((chart) => chart.showPart());
     this.loop?.drawPart();
     this.timeline?.drawPart();
-    const {per_second, name} = this.strike.time_unit;
-    const {from, to, end} = this.view;
-    byId('part').textContent = from === 0 && to === end ? 'whole strike'
-      : `${printed(from * per_second, 7)} to ${printed(to * per_second, 7)} ${name}`;
+    byId('part').textContent = this.view.words(this.strike.time_unit);
   }
-
   drawTime() {
     const {time, end} = this.view;
     this.motion?.drawAt(time);
@@ -320,8 +306,7 @@ class Page {
   }
 }
 
-document.documentElement.classList.add('live');
 if (typeof Dygraph === 'undefined') byId('stills').classList.add('open');
 addStillsButton();
 addCopyButton();
-requestAnimationFrame(() => setTimeout(() => { window.page = new Page(dataOfPage()); }));
+startPage((data) => new Page(data));

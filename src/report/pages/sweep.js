@@ -1,8 +1,6 @@
 'use strict';
 // The page of a sweep: what its map shows, and the run that is chosen.
 
-const byId = (id) => document.getElementById(id);
-
 class SweepPage {
   constructor(data) {
     this.runs = new SweptRuns(data);
@@ -110,5 +108,4 @@ class SweepPage {
   }
 }
 
-document.documentElement.classList.add('live');
-requestAnimationFrame(() => setTimeout(() => { window.page = new SweepPage(JSON.parse(byId('data').textContent)); }));
+startPage((data) => new SweepPage(data));

@@ -37,7 +37,7 @@ class SweptRuns {
   column(name) { return this.columns.find((column) => column.name === name); }
 
   readSubImpacts({counts, ...packed}) {
-    this.subImpactColumns = Object.fromEntries(Object.entries(packed).map(([name, values]) => [name, unpacked(values)]));
+    this.subImpactColumns = unpackedColumns(packed);
     let first = 0;
     this.places = counts.map((count) => {
       const place = {first, count};

@@ -4,7 +4,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/versions.h"
 #include "subimpact/report/figures.h"
-#include "subimpact/report/html_report.h"
+#include "subimpact/report/pages.h"
 #include "subimpact/study/compare.h"
 
 static_assert(__cplusplus >= 202002L, "C++20 comes with subimpact::subimpact");

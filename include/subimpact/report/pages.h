@@ -1,0 +1,58 @@
+#pragma once
+
+/// Finished runs as pages of HTML. A page needs nothing else: style, figures, data and scripts are
+/// in it, nothing is fetched. It is XML as well.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "subimpact/io/read_results.h"
+#include "subimpact/io/read_sweep.h"
+#include "subimpact/report/figures.h"
+
+namespace subimpact {
+
+/// A run as a page. With scripts it shows the beam moving and panels that share one time; without
+/// scripts, and printed, it is a still report. The figures' SVG files are read from
+/// `figure_directory`, and the library of the zoomable charts from `dygraphs` (empty: where
+/// Debian's libjs-dygraphs has it); without the library the page lacks those charts and states how
+/// to get them. Throws ResultsError if a figure cannot be read.
+std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
+                        const std::filesystem::path& figure_directory,
+                        const std::filesystem::path& dygraphs = {});
+
+struct WrittenReport {
+  std::filesystem::path page;  ///< empty if it could not be written; `figures.failed` has the cause
+  DrawnFigures figures;
+  std::string charts_missing;  ///< why the page has no zoomable charts; empty: it has
+};
+
+/// Draws the figures of a run into the directory and writes report.html beside them, without those
+/// that failed. Throws GnuplotMissing.
+WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,
+                                const std::filesystem::path& dygraphs = {});
+
+/// Runs beside each other as a page: the keys in which their cases differ, curves in common charts,
+/// and the sub-impacts of each run matched with those of the first. `names` are the runs' names,
+/// one per run.
+std::string comparison_report(const std::vector<FinishedRun>& runs,
+                              const std::vector<std::string>& names,
+                              const std::filesystem::path& dygraphs = {});
+
+/// Writes comparison.html into a directory. Throws OutputError.
+void write_comparison_report(const std::filesystem::path& directory,
+                             const std::vector<FinishedRun>& runs,
+                             const std::vector<std::string>& names,
+                             const std::filesystem::path& dygraphs = {});
+
+/// A sweep as a page: a map of its runs over two of their keys, with those marked whose counts are
+/// not decided, and the numbers and sub-impacts of the run that is chosen on the map. `name`: of
+/// the sweep, a directory for example.
+std::string sweep_report(const SweptRuns& runs, const std::string& name);
+
+/// Writes sweep.html into a directory. Throws OutputError.
+void write_sweep_report(const std::filesystem::path& directory, const SweptRuns& runs,
+                        const std::string& name);
+
+}  // namespace subimpact
