@@ -32,24 +32,13 @@ double difference(const SubImpact& here, const SubImpact& there) {
 // Why a sub-impact with this error in its times is not certain; empty if it is.
 std::string unresolved_reason(const std::vector<SubImpact>& all, std::size_t i, double error,
                               double share) {
-  const SubImpact& here = all[i];
-  const auto reason = [&](const char* what, double length) {
-    return error > share * length
-               ? fmt::format(
-                     "the estimated error of sub-impact {}, {:.2g} us, is not small beside {}, "
-                     "{:.2g} us",
-                     i + 1, us * error, what, us * length)
-               : std::string();
-  };
-  std::string text;
-  if (here.end) text = reason("its duration", *here.end - here.start);
-  if (text.empty() && i > 0 && all[i - 1].end) {
-    text = reason("the separation before it", here.start - *all[i - 1].end);
+  for (const LengthBeside& beside : lengths_beside(all, i)) {
+    if (!(error > share * beside.length)) continue;
+    return fmt::format(
+        "the estimated error of sub-impact {}, {:.2g} us, is not small beside {}, {:.2g} us", i + 1,
+        us * error, beside.words, us * beside.length);
   }
-  if (text.empty() && i + 1 < all.size() && here.end) {
-    text = reason("the separation after it", all[i + 1].start - *here.end);
-  }
-  return text;
+  return {};
 }
 
 struct Doubt {

@@ -116,6 +116,22 @@ std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>
                   unmatched.first ? "is missing or merged here" : "the reference does not have")};
 }
 
+std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std::size_t number) {
+  using Kind = LengthBeside::Kind;
+  const SubImpact& here = all[number];
+  std::vector<LengthBeside> list;
+  if (here.end) list.push_back({Kind::duration, "its duration", *here.end - here.start});
+  if (number > 0 && all[number - 1].end) {
+    list.push_back(
+        {Kind::separation_before, "the separation before it", here.start - *all[number - 1].end});
+  }
+  if (number + 1 < all.size() && here.end) {
+    list.push_back(
+        {Kind::separation_after, "the separation after it", all[number + 1].start - *here.end});
+  }
+  return list;
+}
+
 std::string leading_words(std::size_t n_corresponding) {
   if (n_corresponding == 0) return "not even the first corresponds";
   if (n_corresponding == 1) return "the first corresponds";

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "case/meshes.h"
 #include "case/problem.h"
@@ -109,18 +108,10 @@ bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubIm
   for (std::size_t i = 0; i < reference.size(); ++i) {
     const SubImpact& s = reference[i];
     double error = std::abs(run[i].start - s.start);
-    double shortest = std::numeric_limits<double>::infinity();
-    if (s.end && run[i].end) {
-      error = std::max(error, std::abs(*run[i].end - *s.end));
-      shortest = *s.end - s.start;
+    if (s.end && run[i].end) error = std::max(error, std::abs(*run[i].end - *s.end));
+    for (const LengthBeside& beside : lengths_beside(reference, i)) {
+      if (error + error_of(s) > recognisable * beside.length) return false;
     }
-    if (i > 0 && reference[i - 1].end) {
-      shortest = std::min(shortest, s.start - *reference[i - 1].end);
-    }
-    if (i + 1 < reference.size() && s.end) {
-      shortest = std::min(shortest, reference[i + 1].start - *s.end);
-    }
-    if (error + error_of(s) > recognisable * shortest) return false;
   }
   return true;
 }

@@ -84,23 +84,14 @@ std::string unpredictable_reason(const Deviations& deviation, std::size_t i) {
                                                 : "its standard deviation is not known";
   }
   const double largest = std::max(*start, *end);
-  if (here.end) {
-    const double duration = *here.end - here.start;
-    consider(excess("its start or end", largest, share_of_length, "its duration", duration));
-    consider(excess("its duration",
-                    deviation.of_difference(EventQuantity::end, i, EventQuantity::start, i),
-                    share_of_change, "itself", duration));
-  }
-  if (i > 0 && all[i - 1].end) {
-    const double gap = here.start - *all[i - 1].end;
-    consider(excess("its start or end", largest, share_of_length, "the separation before it", gap));
-    consider(excess("the separation before it",
-                    deviation.of_difference(EventQuantity::start, i, EventQuantity::end, i - 1),
-                    share_of_change, "itself", gap));
-  }
-  if (here.end && i + 1 < all.size()) {
-    consider(excess("its start or end", largest, share_of_length, "the separation after it",
-                    all[i + 1].start - *here.end));
+  for (const LengthBeside& beside : lengths_beside(all, i)) {
+    consider(excess("its start or end", largest, share_of_length, beside.words, beside.length));
+    if (beside.kind == LengthBeside::Kind::separation_after) continue;
+    const auto change =
+        beside.kind == LengthBeside::Kind::duration
+            ? deviation.of_difference(EventQuantity::end, i, EventQuantity::start, i)
+            : deviation.of_difference(EventQuantity::start, i, EventQuantity::end, i - 1);
+    consider(excess(beside.words, change, share_of_change, "itself", beside.length));
   }
   const auto peak = here.end ? deviation.of(EventQuantity::peak_force, i) : std::optional(0.0);
   if (peak && deviations * *peak > here.peak_force) {

@@ -114,9 +114,9 @@ void run(Trial& trial, const Reference& reference, double run_seconds) {
 
 double shortest_of(const std::vector<SubImpact>& sub_impacts, double shortest) {
   for (std::size_t i = 0; i < sub_impacts.size(); ++i) {
-    if (sub_impacts[i].end)
-      shortest = std::min(shortest, *sub_impacts[i].end - sub_impacts[i].start);
-    if (i > 0) shortest = std::min(shortest, sub_impacts[i].start - *sub_impacts[i - 1].end);
+    for (const LengthBeside& beside : lengths_beside(sub_impacts, i)) {
+      shortest = std::min(shortest, beside.length);
+    }
   }
   return shortest;
 }

@@ -36,6 +36,17 @@ std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>
                                                   const std::vector<SubImpact>& reference,
                                                   const std::vector<SubImpact>& run);
 
+/// A time beside which errors of a sub-impact must be small.
+struct LengthBeside {
+  enum class Kind { duration, separation_before, separation_after };
+  Kind kind;
+  const char* words;  ///< "its duration", "the separation before it"
+  double length;      ///< s
+};
+
+/// The duration of a sub-impact (if it has ended) and the separations before and after it.
+std::vector<LengthBeside> lengths_beside(const std::vector<SubImpact>& all, std::size_t number);
+
 /// "the first 3 correspond": how many leading sub-impacts correspond, in words.
 std::string leading_words(std::size_t n_corresponding);
 
