@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "integrate/arkode_erk.h"
+#include "integrate/sundials.h"
 #include "integrate/nystrom_tables.h"
 #include "parts.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "integrate/coefficient_table.h"
+#include "integrate/options.h"
 
 namespace subimpact {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ode/event_functions.h"
+#include "ode/integrator.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

@@ -6,10 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "integrate/arkode_ark.h"
-#include "integrate/arkode_erk.h"
+#include "integrate/sundials.h"
 #include "integrate/central_difference.h"
-#include "integrate/cvode.h"
 #include "integrate/exponential.h"
 #include "integrate/nystrom.h"
 #include "lumped_mesh.h"

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "ode/event_functions.h"
 #include "ode/integrator.h"
 
 namespace subimpact {

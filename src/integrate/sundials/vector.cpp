@@ -120,7 +120,7 @@ ContextPointer make_context() {
   const int flag = SUNContext_Create(nullptr, &context);
 #endif
   if (flag != 0) throw std::runtime_error("SUNContext_Create failed");
-  return ContextPointer(context);
+  return {context, [](SUNContext made) { SUNContext_Free(&made); }};
 }
 
 namespace {

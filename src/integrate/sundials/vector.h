@@ -10,10 +10,7 @@
 
 namespace subimpact {
 
-struct FreeContext {
-  void operator()(SUNContext context) const { SUNContext_Free(&context); }
-};
-using ContextPointer = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext>;
+using ContextPointer = std::shared_ptr<std::remove_pointer_t<SUNContext>>;
 
 struct FreeVector {
   void operator()(N_Vector vector) const { N_VDestroy(vector); }

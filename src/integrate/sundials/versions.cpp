@@ -1,4 +1,4 @@
-#include "integrate/versions.h"
+#include "integrate/sundials.h"
 
 #include <klu.h>
 #include <sundials/sundials_version.h>
