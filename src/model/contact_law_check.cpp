@@ -1,10 +1,10 @@
-#include "subimpact/model/contact_law_check.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "subimpact/model/contact_law.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "model/element_rule.h"
 #include "model/hermite_element.h"
 #include "model/hermite_nodes.h"
 #include "subimpact/model/beam_mesh.h"

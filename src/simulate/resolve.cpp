@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "integrate/klu_mass_solver.h"
+#include "integrate/sundials.h"
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
 #include "numerics/mass_solver.h"
@@ -54,12 +54,12 @@ double energy_tolerance(const Options& options, const ResolvedSettings& used) {
                     most_tolerated_energy);
 }
 
-SectionField make_sections(const Problem& problem, SectionField::Storage storage) {
+SectionField make_sections(const Problem& problem) {
   const Beam& beam = problem.beam;
   const auto& section = problem.section;
   const std::size_t n = problem.mesh->n_sections();
   if (problem.may_yield && std::isfinite(beam.yield_stress)) {
-    return SectionField(n, SectionLaw(beam, section.value_or(Fibres::continuous())), storage);
+    return SectionField(n, SectionLaw(beam, section.value_or(Fibres::continuous())));
   }
   return SectionField(n, (section ? section->slope() : 1.0) * beam.bending_stiffness());
 }
@@ -191,9 +191,9 @@ std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Optio
 }  // namespace
 
 StruckBeam make_struck_beam(const Problem& problem, const Options& options,
-                            SectionField::Storage storage, Coordinates coordinates) {
+                            Coordinates coordinates) {
   std::shared_ptr<const BeamMesh> mesh = problem.mesh;
-  SectionField sections = make_sections(problem, storage);
+  SectionField sections = make_sections(problem);
   if (coordinates == Coordinates::chosen && !sections.can_yield() &&
       in_modes(options, *mesh, problem.beam.damping)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
@@ -245,8 +245,8 @@ ResolvedRun resolve(const Problem& problem, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   check(problem, options);
   const bool few = problem.mesh->n_unknowns() <= most_modes_before_run;
-  StruckBeam beam = make_struck_beam(problem, options, SectionField::Storage::when_yielded,
-                                     few ? Coordinates::chosen : Coordinates::of_mesh);
+  StruckBeam beam =
+      make_struck_beam(problem, options, few ? Coordinates::chosen : Coordinates::of_mesh);
   ResolvedRun run(std::make_unique<RunParts>(problem, options, std::move(beam)));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   run.parts().setup_seconds = taken.count();

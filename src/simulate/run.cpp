@@ -9,7 +9,7 @@
 #include "simulate/memory.h"
 #include "simulate/recorder.h"
 #include "simulate/run_parts.h"
-#include "subimpact/model/contact_law_check.h"
+#include "subimpact/model/contact_law.h"
 #include "system/no_more_contact.h"
 
 namespace subimpact {

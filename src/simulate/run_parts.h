@@ -18,10 +18,8 @@ enum class Coordinates {
   of_mesh  ///< the mesh's own
 };
 
-/// The struck beam of a problem. `storage` is for comparisons of lazily and eagerly stored
-/// sections.
+/// The struck beam of a problem.
 StruckBeam make_struck_beam(const Problem& problem, const Options& options,
-                            SectionField::Storage storage = SectionField::Storage::when_yielded,
                             Coordinates coordinates = Coordinates::chosen);
 
 /// What a run is made of.
