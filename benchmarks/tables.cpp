@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "integrate/sundials.h"
-#include "integrate/nystrom_tables.h"
+#include "integrate/nystrom.h"
 #include "parts.h"
 
 namespace subimpact::benchmarks {

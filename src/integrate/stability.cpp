@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "integrate/nystrom_tables.h"
+#include "integrate/nystrom.h"
 
 namespace subimpact {
 namespace {

@@ -23,6 +23,17 @@ void SparseFunctional::add(double factor, const SparseFunctional& other) {
   std::erase_if(terms, [](const Term& term) { return term.coefficient == 0.0; });
 }
 
+void BeamMesh::add_stencil(std::size_t first, std::span<const double> coefficients) {
+  stencils_.push_back({first, stencil_coefficients_.size(), coefficients.size()});
+  stencil_coefficients_.insert(stencil_coefficients_.end(), coefficients.begin(),
+                               coefficients.end());
+}
+
+BeamMesh::SectionStencil BeamMesh::section_stencil(std::size_t section) const {
+  const auto [first, begin, size] = stencils_.at(section);
+  return {first, std::span(stencil_coefficients_).subspan(begin, size)};
+}
+
 std::size_t BeamMesh::stiffness_bandwidth() const {
   std::size_t bandwidth = shear_stiffness_.half_bandwidth();
   for (std::size_t i = 0; i < n_sections(); ++i) {

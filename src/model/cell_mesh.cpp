@@ -63,8 +63,6 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
     throw std::invalid_argument("cell mesh: the spacing of points is for free ends");
   }
   const double inverse = 1.0 / (spacing_ * spacing_);
-  stencil_ = {inverse, -2.0 * inverse, inverse};
-  struck_stencil_ = {2.0 * inverse, -2.0 * inverse};
   first_sections_ = end_stencils(ends_[0]);
   if (!symmetric()) last_sections_ = end_stencils(ends_[1]);
   std::reverse(last_sections_.begin(), last_sections_.end());
@@ -204,6 +202,14 @@ void CellMesh::place_sections() {
     weights_.push_back(copies * spacing_);
   }
   if (symmetric()) weights_.back() = spacing_;
+  const double inverse = 1.0 / (spacing_ * spacing_);
+  const std::size_t n_inner = n_unknowns() - 2;
+  for (const EndStencil& stencil : first_sections_) add_stencil(0, stencil);
+  for (std::size_t i = 0; i < n_inner; ++i) {
+    add_stencil(i, std::array{inverse, -2.0 * inverse, inverse});
+  }
+  if (symmetric()) add_stencil(n_inner, std::array{2.0 * inverse, -2.0 * inverse});
+  for (const EndStencil& stencil : last_sections_) add_stencil(n_inner, stencil);
 }
 
 void CellMesh::place_strike(double position) {
@@ -279,15 +285,6 @@ void CellMesh::bending_forces(std::span<const double> moments, std::span<double>
     f[n - 2] -= weight * end[0] * *m;
     f[n - 1] -= weight * end[1] * *m++;
   }
-}
-
-BeamMesh::SectionStencil CellMesh::section_stencil(std::size_t section) const {
-  const std::size_t n = n_unknowns();
-  if (section < first_sections_.size()) return {0, first_sections_[section]};
-  const std::size_t inner = section - first_sections_.size();
-  if (inner < n - 2) return {inner, stencil_};
-  if (symmetric()) return {n - 2, struck_stencil_};
-  return {n - 2, last_sections_[inner - (n - 2)]};
 }
 
 double CellMesh::highest_frequency(double bending_stiffness) const {

@@ -134,14 +134,15 @@ void HermiteMesh::place_hinge(std::size_t node, double x) {
 // The unknowns are consecutive but for those held, in whatever order.
 void HermiteMesh::add_row(std::span<const std::size_t> unknowns,
                           std::span<const double> coefficients) {
-  Row row{none, 0, {}};
-  for (const std::size_t unknown : unknowns) row.first = std::min(row.first, unknown);
+  const std::size_t first = std::ranges::min(unknowns);
+  HermiteElement::Coefficients row;
+  std::size_t size = 0;
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     if (unknowns[i] == none) continue;
-    row.coefficients[unknowns[i] - row.first] = coefficients[i];
-    ++row.size;
+    row[unknowns[i] - first] = coefficients[i];
+    ++size;
   }
-  rows_.push_back(row);
+  add_stencil(first, std::span(row).first(size));
 }
 
 void HermiteMesh::add_local(const std::array<std::size_t, 4>& unknowns,
@@ -258,11 +259,6 @@ void HermiteMesh::bending_forces(std::span<const double> moments, std::span<doub
     default:
       return bending_forces_in_runs<4>(moments.data(), forces.data());
   }
-}
-
-BeamMesh::SectionStencil HermiteMesh::section_stencil(std::size_t section) const {
-  const Row& row = rows_[section];
-  return {row.first, std::span(row.coefficients).first(row.size)};
 }
 
 SparseFunctional HermiteMesh::of_element(std::size_t element,

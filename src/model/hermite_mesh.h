@@ -48,7 +48,6 @@ class HermiteMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  SectionStencil section_stencil(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
   /// Bisected to 5e-6 from above.
@@ -116,11 +115,6 @@ class HermiteMesh final : public BeamMesh {
   std::vector<Run> runs_;
   std::vector<Single> singles_;
   std::vector<Hinge> hinges_;
-  struct Row {
-    std::size_t first, size;
-    HermiteElement::Coefficients coefficients;
-  };
-  std::vector<Row> rows_;  // of B
 };
 
 }  // namespace subimpact

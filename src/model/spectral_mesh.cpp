@@ -193,8 +193,7 @@ void SpectralMesh::place_sections() {
         const std::size_t turn = element.unknowns[2 * a + 1];
         if (turn != held) row[turn - first] = shapes.slope[q][a] / (gyration_ * element.length);
       }
-      stencils_.push_back(std::move(row));
-      stencil_starts_.push_back(first);
+      add_stencil(first, row);
     }
     start += element.length;
   }
@@ -318,10 +317,6 @@ double SpectralMesh::shear_energy(std::span<const double> unknowns) const {
     }
   }
   return 0.5 * copies_ * shear_stiffness_per_length_ * sum;
-}
-
-BeamMesh::SectionStencil SpectralMesh::section_stencil(std::size_t section) const {
-  return {stencil_starts_[section], stencils_[section]};
 }
 
 // No assembly of elements, and no support, has a higher frequency than its highest element.

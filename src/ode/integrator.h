@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "numerics/trajectory_root.h"
+#include "numerics/bracketed_root.h"
 #include "ode/second_order_ode.h"
 #include "subimpact/ode/work_counts.h"
 

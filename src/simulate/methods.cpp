@@ -6,10 +6,9 @@
 #include "integrate/central_difference.h"
 #include "integrate/exponential.h"
 #include "integrate/nystrom.h"
-#include "integrate/nystrom_tables.h"
 #include "integrate/sundials.h"
 #include "system/free_flight.h"
-#include "system/modal_beam.h"
+#include "system/struck_beam.h"
 
 namespace subimpact {
 namespace {

@@ -7,8 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "numerics/bracketed_root.h"
 #include "numerics/hermite.h"
-#include "numerics/trajectory_root.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -38,11 +39,29 @@ constexpr double never = std::numeric_limits<double>::infinity();
 // Rows and shapes nearer than this, relative to the time, are of one instant.
 constexpr double same_instant = 1e-12;
 
+// The sections nearest to the given positions; in a half model their mirror images stand for those
+// of the other half.
+std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
+                                     const BeamMesh& mesh) {
+  std::vector<std::size_t> sections;
+  const auto& positions = mesh.section_positions();
+  for (const double fraction : fractions) {
+    const double x = length * (mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction);
+    const auto nearest =
+        std::min_element(positions.begin(), positions.end(),
+                         [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
+    sections.push_back(static_cast<std::size_t>(nearest - positions.begin()));
+  }
+  return sections;
+}
+
 }  // namespace
 
 Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
-                   Result& result)
+                   Result& result, RowSink* rows)
     : result_(result),
+      kept_rows_(result),
+      rows_(rows != nullptr ? *rows : kept_rows_),
       interval_(interval),
       events_(events),
       audit_(audit),
@@ -61,15 +80,12 @@ void Recorder::on_approach(double end, StruckBeam& beam) {
   }
 }
 
-void Recorder::keep_fields(const FieldOptions& options) {
-  deformation_.emplace(accounts_.beam(), options.length);
-  auto fields = std::make_unique<FieldRecorder>(accounts_.beam(), options, result_);
+void Recorder::keep_fields(const RunParts& parts) {
+  const double length = parts.problem.beam.length;
+  sections_ = sections_at(parts.given.output.sections, length, parts.beam.mesh());
+  deformation_.emplace(parts.beam, length);
+  auto fields = std::make_unique<FieldRecorder>(parts, result_, rows_);
   if (fields->is_needed()) fields_ = std::move(fields);
-}
-
-void Recorder::send_rows_to(RowSink& rows) {
-  rows_ = &rows;
-  if (fields_) fields_->send_rows_to(rows);
 }
 
 void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
@@ -130,6 +146,16 @@ void Recorder::add_rows(double time, bool row, bool shape, const State& y, Accou
 }
 
 void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
+  check_push(time, y, beam);
+  if (observer_ != nullptr) observer_->on_step({time, y, beam});
+}
+
+void Recorder::on_reversal(const Transition& reversal) {
+  result_.transitions.push_back(reversal);
+  if (observer_ != nullptr) observer_->on_reversal(reversal);
+}
+
+void Recorder::check_push(double time, const State& y, const StruckBeam& beam) {
   if (!in_contact_ || steps_in_contact_.back() == 0) return;
   const double force = beam.contact_force(y);
   if (force >= 0.0) return;
@@ -220,6 +246,7 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
   } else if (event.kind == EventKind::contact_unloads) {
     follow_peak(beam.indentation(y), beam);
   }
+  if (observer_ != nullptr) observer_->before_event(event, {event.time, y, beam});
 }
 
 void Recorder::after_event(const Transition& event, const State& y, StruckBeam& beam) {
@@ -242,6 +269,7 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
     result_.first_contact_yield = event.time;
   }
   add_event_row(event, y);
+  if (observer_ != nullptr) observer_->after_event(event, {event.time, y, beam});
 }
 
 void Recorder::begin(NearMissKind kind, const StruckBeam& beam) {
@@ -302,11 +330,7 @@ void Recorder::add_row(double time, const State& y, Accounts& accounts) {
 void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
   ++result_.n_history_rows;
   last_row_time_ = row.time;
-  if (rows_ != nullptr) {
-    rows_->add(row);
-  } else {
-    result_.history.push_back(row);
-  }
+  rows_.add(row);
   add_section_rows(row.time, y, accounts);
   if (fields_) fields_->follow(row.time, y, accounts);
 }
@@ -332,13 +356,8 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
   for (const std::size_t section : sections_) {
     const double kappa = bending.curvatures[section];
     const double moment = bending.moments[section];
-    const SectionRow row{time, beam.mesh().section_positions()[section], kappa, moment,
-                         kappa - moment / beam.sections().stiffness()};
-    if (rows_ != nullptr) {
-      rows_->add(row);
-    } else {
-      result_.section_history.push_back(row);
-    }
+    rows_.add(SectionRow{time, beam.mesh().section_positions()[section], kappa, moment,
+                         kappa - moment / beam.sections().stiffness()});
   }
 }
 

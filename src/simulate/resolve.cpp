@@ -11,11 +11,9 @@
 #include "numerics/mass_solver.h"
 #include "simulate/method_settings.h"
 #include "simulate/methods.h"
-#include "simulate/modal_choice.h"
-#include "simulate/run_options.h"
 #include "simulate/run_parts.h"
 #include "system/beam_field.h"
-#include "system/contact_event_functions.h"
+#include "system/contact_events.h"
 #include "system/contact_resonance.h"
 
 namespace subimpact {
@@ -163,8 +161,8 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.energy_tolerance = energy_tolerance(options, used);
   used.shape_interval = shape_interval(options, beam.mesh());
   if (used.shape_interval > 0.0) {
-    used.n_shape_points =
-        BeamField(beam, problem.beam.length, most_shape_points(options)).whole_size();
+    const auto most = static_cast<std::size_t>(options.output.shape_points);
+    used.n_shape_points = BeamField(beam, problem.beam.length, most).whole_size();
   }
   used.memory = memory_of(options, beam);
   used.decomposition = decomposition_of(options, beam);
@@ -210,8 +208,7 @@ RunParts::RunParts(const Problem& of, const Options& options, StruckBeam struck_
       given(options),
       check_contact_law(problem.check_contact_law),
       beam(std::move(struck_beam)),
-      settings(settings_of(problem, options, beam)),
-      run(run_options(problem, options, settings, beam.mesh())) {}
+      settings(settings_of(problem, options, beam)) {}
 
 void RunParts::complete() {
   if (modes_are_left_out(given, beam)) beam = make_struck_beam(problem, given);

@@ -4,21 +4,6 @@
 
 namespace subimpact {
 
-std::span<const EventKind> event_kinds(ContactBranch branch) {
-  static constexpr EventKind separated[] = {EventKind::contact_begins};
-  static constexpr EventKind elastic[] = {EventKind::contact_ends, EventKind::contact_yields};
-  static constexpr EventKind plastic[] = {EventKind::contact_unloads};
-  switch (branch) {
-    case ContactBranch::separated:
-      return separated;
-    case ContactBranch::elastic:
-      return elastic;
-    case ContactBranch::plastic:
-      return plastic;
-  }
-  return {};
-}
-
 std::span<const EventFunction> ContactState::event_functions() const {
   static constexpr EventFunction separated[] = {{EventKind::contact_begins}};
   static constexpr EventFunction elastic[] = {{EventKind::contact_ends},

@@ -3,19 +3,9 @@
 namespace subimpact {
 
 std::string_view to_string(EventKind kind) {
-  switch (kind) {
-    case EventKind::contact_begins:
-      return "contact_begins";
-    case EventKind::contact_yields:
-      return "contact_yields";
-    case EventKind::contact_unloads:
-      return "contact_unloads";
-    case EventKind::contact_ends:
-      return "contact_ends";
-    case EventKind::section_reverses:
-      return "section_reverses";
-  }
-  return "unknown";
+  static constexpr std::string_view names[] = {
+      "contact_begins", "contact_yields", "contact_unloads", "contact_ends", "section_reverses"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace subimpact

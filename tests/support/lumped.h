@@ -15,8 +15,8 @@
 #include "simulate/event_loop.h"
 #include "simulate/recorder.h"
 #include "struck_beam_of.h"
-#include "system/contact_event_functions.h"
-#include "system/modal_beam.h"
+#include "system/contact_events.h"
+#include "system/struck_beam.h"
 
 namespace subimpact {
 

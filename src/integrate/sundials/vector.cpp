@@ -1,12 +1,15 @@
 #include "integrate/sundials/vector.h"
 
 #include <nvector/nvector_serial.h>
+#include <sundials/sundials_version.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <stdexcept>
 
+#include "integrate/sundials.h"
 #include "numerics/vector_sum.h"
 
 namespace subimpact {
@@ -161,6 +164,14 @@ VectorPointer make_vector(std::size_t n, SUNContext context, VectorOperations op
 
 std::span<double> entries(N_Vector vector) {
   return {NV_DATA_S(vector), static_cast<std::size_t>(NV_LENGTH_S(vector))};
+}
+
+std::string sundials_version() {
+  std::array<char, 64> text{};
+  if (SUNDIALSGetVersion(text.data(), static_cast<int>(text.size())) != 0) {
+    throw std::runtime_error("SUNDIALSGetVersion failed");
+  }
+  return text.data();
 }
 
 }  // namespace subimpact
