@@ -48,7 +48,6 @@ class Nystrom final : public Integrator {
   void restart(double t, const State& y) override;
   void step() override;
   void state_at(double t, State& y) override;
-  WorkCounts work() const override { return work_; }
 
  private:
   using Vector = AlignedVector;
@@ -69,7 +68,6 @@ class Nystrom final : public Integrator {
   std::vector<Vector> stages_;          // accelerations of the last step's stages
   std::vector<Vector> partial_stages_;  // of a partial step; the first is not used
   Vector end_acceleration_;             // at time(), the next step's first stage
-  WorkCounts work_;
 };
 
 }  // namespace subimpact

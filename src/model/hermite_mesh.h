@@ -61,7 +61,7 @@ class HermiteMesh final : public BeamMesh {
   std::string description() const override;
 
   /// Of the elements from left to right, m.
-  std::span<const double> element_lengths() const { return nodes_.lengths(); }
+  std::span<const double> element_lengths() const { return nodes_.lengths; }
 
  private:
   static constexpr std::size_t none = HermiteNodes::none;
@@ -110,7 +110,6 @@ class HermiteMesh final : public BeamMesh {
   double slope_unit_;  // h, m
   double mass_per_length_;
   double rotary_inertia_;
-  double copies_;  // 2 where the mirrored half is folded in
   ElementRule gauss_;
   std::vector<Run> runs_;
   std::vector<Single> singles_;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,8 +33,7 @@ struct ElementGrading {
 ///
 /// There is a node at the strike; to its left and right the numbers of elements share n as the
 /// strike shares the length. Elements are equal on either side, or graded towards the strike.
-class HermiteNodes {
- public:
+struct HermiteNodes {
   struct Options {
     ElementGrading grading;
     bool hinges = false;  ///< one at the strike, and one at each clamped end
@@ -57,34 +55,27 @@ class HermiteNodes {
   HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool half,
                const Options& options);
 
-  const Options& options() const { return options_; }
-  bool is_half() const { return half_; }
-  const std::array<EndSupport, 2>& ends() const { return ends_; }
-  std::size_t n_elements_whole() const { return half_ ? 2 * n_elements() : n_elements(); }
-  std::size_t n_elements() const { return lengths_.size(); }  ///< of the part modelled
-  std::size_t n_unknowns() const { return n_unknowns_; }
-  std::span<const double> lengths() const { return lengths_; }  ///< of the elements, m
-  std::span<const Node> all() const { return nodes_; }
-  const Node& operator[](std::size_t node) const { return nodes_[node]; }
-  const Node& struck() const { return nodes_[struck_]; }
+  std::size_t n_elements() const { return lengths.size(); }  ///< of the part modelled
+  std::size_t n_elements_whole() const { return half ? 2 * n_elements() : n_elements(); }
+  const Node& struck_node() const { return nodes[struck]; }
   bool is_hinge(std::size_t node) const;
   /// Of displacement and slope at the left node, then at the right one.
   std::array<std::size_t, 4> unknowns_of(std::size_t element) const;
   /// The element that contains x (m), and where in it, from 0 to 1.
   std::pair<std::size_t, double> element_at(double x) const;
 
+  Options options;
+  bool half;
+  std::array<EndSupport, 2> ends;
+  std::size_t struck = 0;       ///< index of the node under the strike
+  std::vector<double> lengths;  ///< of the elements, m
+  std::vector<Node> nodes;
+  std::size_t n_unknowns = 0;
+
  private:
   void place(double left_length, double right_length, std::size_t n_elements);
   std::vector<double> lengths_of_side(std::size_t count, double length, double within) const;
   void number_unknowns();
-
-  Options options_;
-  bool half_;
-  std::array<EndSupport, 2> ends_;
-  std::size_t struck_ = 0;
-  std::vector<double> lengths_;
-  std::vector<Node> nodes_;
-  std::size_t n_unknowns_ = 0;
 };
 
 }  // namespace subimpact

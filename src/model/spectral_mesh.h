@@ -75,7 +75,7 @@ class SpectralMesh final : public BeamMesh {
   std::size_t n_elements_;  // of the whole beam
   std::size_t n_before_;    // the strike
   std::vector<Element> elements_;
-  double copies_, gyration_, mass_per_length_;
+  double gyration_, mass_per_length_;
   double shear_stiffness_per_length_;  // kGA, N
 };
 

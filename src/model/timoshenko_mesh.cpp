@@ -59,6 +59,9 @@ TimoshenkoMesh::TimoshenkoMesh(const Beam& beam, double position, std::size_t n_
     translation_.assign(n_unknowns(), 0.0);
     for (std::size_t i = 0; i < n_nodes_; ++i) translation_[node(i)] = 1.0;
   }
+  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
+    if (ends_[end] != EndSupport::free) end_faces_.push_back(end_face(end));
+  }
   assemble_mass();
   assemble_shear();
   place_sections();
@@ -114,10 +117,7 @@ void TimoshenkoMesh::assemble_moment() {
 
 void TimoshenkoMesh::assemble_shear() {
   shear_stiffness_ = BandedMatrix(n_unknowns(), 2);
-  struct Term {
-    std::size_t unknown;
-    double coefficient;
-  };
+  using Term = SparseFunctional::Term;
   // Half the square of a shear strain, weighted.
   const auto add = [&](std::initializer_list<Term> strain, double weight) {
     for (const Term& a : strain) {
@@ -133,9 +133,7 @@ void TimoshenkoMesh::assemble_shear() {
     add({{node(i), -1.0 / length}, {node(i) + 1, turn}, {node(i + 1), 1.0 / length}},
         copies() * shear_stiffness_per_length_ * length);
   }
-  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
-    if (ends_[end] == EndSupport::free) continue;
-    const EndFace face = end_face(end);
+  for (const EndFace& face : end_faces_) {
     if (face.turn != 0.0) {
       add({{face.rotation, face.turn}, {face.node, face.rise}}, face.stiffness);
     } else {
@@ -313,9 +311,7 @@ void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
 
 void TimoshenkoMesh::add_shear_of_ends(std::span<const double> unknowns,
                                        std::span<double> forces) const {
-  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
-    if (ends_[end] == EndSupport::free) continue;
-    const EndFace face = end_face(end);
+  for (const EndFace& face : end_faces_) {
     const double force = face.stiffness * face.strain(unknowns);
     forces[face.node] -= face.rise * force;
     if (face.turn != 0.0) forces[face.rotation] -= face.turn * force;
@@ -341,9 +337,7 @@ double TimoshenkoMesh::shear_energy(std::span<const double> unknowns) const {
     sum += length * strain * strain;
   }
   sum *= copies() * shear_stiffness_per_length_;
-  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
-    if (ends_[end] == EndSupport::free) continue;
-    const EndFace face = end_face(end);
+  for (const EndFace& face : end_faces_) {
     const double strain = face.strain(unknowns);
     sum += face.stiffness * strain * strain;
   }

@@ -63,7 +63,6 @@ class TimoshenkoMesh final : public BeamMesh {
   };
   std::size_t node(std::size_t cell) const { return n_before_ + 2 * cell; }  // its unknown
   bool has_far_end() const { return !symmetric(); }
-  double copies() const { return symmetric() ? 2.0 : 1.0; }
   double cell_length(std::size_t cell) const;
   void assemble_mass();
   void assemble_shear();
@@ -93,6 +92,7 @@ class TimoshenkoMesh final : public BeamMesh {
     }
   };
   EndFace end_face(std::size_t end) const;
+  std::vector<EndFace> end_faces_;
   void add_shear_of_ends(std::span<const double> unknowns, std::span<double> forces) const;
 
   std::array<Side, 2> sides_;

@@ -103,7 +103,7 @@ class Integrator {
   /// Whether the acceleration that step() computes last is that at state().
   virtual bool ends_at_last_evaluation() const { return false; }
 
-  virtual WorkCounts work() const = 0;
+  virtual WorkCounts work() const { return work_; }
 
  protected:
   /// Before the first step: both ends of the last one.
@@ -120,6 +120,7 @@ class Integrator {
 
   double t0_ = 0.0, t1_ = 0.0;
   State y0_, y1_;
+  WorkCounts work_;  // as far as the method counts them itself
 };
 
 }  // namespace subimpact

@@ -15,30 +15,7 @@ constexpr double most_followed = 4000.0;
 // Plastic curvature in units of the yield curvature below which it is rounding.
 constexpr double least_plastic = 1e-9;
 
-constexpr int n_rotations =
-    17;  // that a deformation looks at, both ends of the part modelled among them
-
 }  // namespace
-
-Deformation::Deformation(const StruckBeam& beam, double length) : beam_(beam) {
-  const double end = beam.mesh().symmetric() ? 0.5 * length : length;
-  for (int i = 0; i < n_rotations; ++i) {
-    const auto rotation = beam.mesh().rotation_at(end * i / (n_rotations - 1));
-    if (rotation) rotations_.push_back(*rotation);
-  }
-}
-
-void Deformation::include(const State& y) {
-  const auto unknowns = beam_.beam_positions(y);
-  for (const SparseFunctional& rotation : rotations_) {
-    largest_rotation_ = std::max(largest_rotation_, std::abs(rotation(unknowns)));
-  }
-  include_displacement(beam_.mesh().struck_point()(unknowns));
-}
-
-void Deformation::include_displacement(double of_struck_point) {
-  largest_displacement_ = std::max(largest_displacement_, std::abs(of_struck_point));
-}
 
 FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& rows)
     : beam_(parts.beam),

@@ -34,6 +34,9 @@ double maximum_in(const Function& f, double low, double high) {
 // end.
 constexpr double tolerated_rounding = 64.0;
 
+// Places at which the largest rotation is looked for, both ends of the part modelled among them.
+constexpr int n_rotations = 17;
+
 constexpr double never = std::numeric_limits<double>::infinity();
 
 // Rows and shapes nearer than this, relative to the time, are of one instant.
@@ -44,13 +47,9 @@ constexpr double same_instant = 1e-12;
 std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
                                      const BeamMesh& mesh) {
   std::vector<std::size_t> sections;
-  const auto& positions = mesh.section_positions();
   for (const double fraction : fractions) {
     const double x = length * (mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction);
-    const auto nearest =
-        std::min_element(positions.begin(), positions.end(),
-                         [x](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
-    sections.push_back(static_cast<std::size_t>(nearest - positions.begin()));
+    sections.push_back(mesh.nearest_section(x));
   }
   return sections;
 }
@@ -83,7 +82,11 @@ void Recorder::on_approach(double end, StruckBeam& beam) {
 void Recorder::keep_fields(const RunParts& parts) {
   const double length = parts.problem.beam.length;
   sections_ = sections_at(parts.given.output.sections, length, parts.beam.mesh());
-  deformation_.emplace(parts.beam, length);
+  const double end = parts.beam.mesh().symmetric() ? 0.5 * length : length;
+  for (int i = 0; i < n_rotations; ++i) {
+    const auto rotation = parts.beam.mesh().rotation_at(end * i / (n_rotations - 1));
+    if (rotation) rotations_.push_back(*rotation);
+  }
   auto fields = std::make_unique<FieldRecorder>(parts, result_, rows_);
   if (fields->is_needed()) fields_ = std::move(fields);
 }
@@ -251,7 +254,7 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
 
 void Recorder::after_event(const Transition& event, const State& y, StruckBeam& beam) {
   if (event.kind == EventKind::contact_ends) {
-    if (deformation_) deformation_->include(y);
+    follow_deformation(y);
     SubImpact& ended = result_.sub_impacts.back();
     ended.end = event.time;
     ended.end_rate = beam.indentation_rate(y);
@@ -270,6 +273,18 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
   }
   add_event_row(event, y);
   if (observer_ != nullptr) observer_->after_event(event, {event.time, y, beam});
+}
+
+void Recorder::follow_deformation(const State& y) {
+  const auto unknowns = accounts_.beam().beam_positions(y);
+  for (const SparseFunctional& rotation : rotations_) {
+    result_.largest_rotation = std::max(result_.largest_rotation, std::abs(rotation(unknowns)));
+  }
+  follow_displacement(accounts_.beam().mesh().struck_point()(unknowns));
+}
+
+void Recorder::follow_displacement(double of_struck_point) {
+  result_.largest_displacement = std::max(result_.largest_displacement, std::abs(of_struck_point));
 }
 
 void Recorder::begin(NearMissKind kind, const StruckBeam& beam) {
@@ -299,11 +314,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     add_row(time, y, accounts_);
   }
   if (fields_) fields_->finish(time, y, accounts_, is_good);
-  if (deformation_) {
-    deformation_->include(y);
-    result_.largest_rotation = deformation_->largest_rotation();
-    result_.largest_displacement = deformation_->largest_displacement();
-  }
+  follow_deformation(y);
   if (in_contact_) close_sub_impact(y, beam);
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
@@ -365,7 +376,7 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   const Energies energies = accounts.energies(y);
   audit_.check(time, y, energies);
   const Accounts::Displacements at = accounts.displacements(y);
-  if (deformation_) deformation_->include_displacement(at.struck);
+  follow_displacement(at.struck);
   const StruckBeam& beam = accounts.beam();
   HistoryRow row{};
   row.time = time;

@@ -60,6 +60,9 @@ class Recorder final : public RunObserver {
  private:
   // A contact (opening) or a separation (closing) begins, and what was before it ends.
   void begin(NearMissKind kind, const StruckBeam& beam);
+  // How far the beam leaves its straight shape, at separations, rows and the end.
+  void follow_deformation(const State& y);
+  void follow_displacement(double of_struck_point);
   void close_sub_impact(const State& y, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   // A history row, a shape, or both.
@@ -102,10 +105,10 @@ class Recorder final : public RunObserver {
   double velocity_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N
   State state_;
-  SectionCorrection correction_;            // of a state within a step
-  std::vector<std::size_t> sections_;       // whose bending is kept
-  std::unique_ptr<FieldRecorder> fields_;   // none: no field is kept
-  std::optional<Deformation> deformation_;  // seen at separations, at rows and at the end
+  SectionCorrection correction_;           // of a state within a step
+  std::vector<std::size_t> sections_;      // whose bending is kept
+  std::unique_ptr<FieldRecorder> fields_;  // none: no field is kept
+  std::vector<SparseFunctional> rotations_;
   std::vector<long> steps_in_contact_;
 };
 

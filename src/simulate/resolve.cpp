@@ -206,7 +206,6 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
 RunParts::RunParts(const Problem& of, const Options& options, StruckBeam struck_beam)
     : problem(of),
       given(options),
-      check_contact_law(problem.check_contact_law),
       beam(std::move(struck_beam)),
       settings(settings_of(problem, options, beam)) {}
 

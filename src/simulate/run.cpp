@@ -125,7 +125,7 @@ void add_remedy(Outcome& outcome, const RunParts& parts) {
 // A law that is wrong from the start makes a result that is wrong from the start. The largest
 // indentation of the run bounds what is looked at.
 std::optional<std::string> rule_broken_by_law(const RunParts& parts) {
-  if (!parts.check_contact_law) return std::nullopt;
+  if (!parts.problem.check_contact_law) return std::nullopt;
   const ContactLaw& law = parts.beam.contact().law();
   const double deepest = law.indentation_at(parts.settings.initial_energy);
   return broken_rule(law, std::min(deepest, parts.problem.beam.thickness));

@@ -35,7 +35,6 @@ struct RunParts {
 
   Problem problem;
   Options given;
-  bool check_contact_law;
   StruckBeam beam;
   ResolvedSettings settings;
   std::vector<std::string> warnings;  ///< for the result, before those of the run

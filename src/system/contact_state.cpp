@@ -4,6 +4,12 @@
 
 namespace subimpact {
 
+std::string_view to_string(EventKind kind) {
+  static constexpr std::string_view names[] = {
+      "contact_begins", "contact_yields", "contact_unloads", "contact_ends", "section_reverses"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 std::span<const EventFunction> ContactState::event_functions() const {
   static constexpr EventFunction separated[] = {{EventKind::contact_begins}};
   static constexpr EventFunction elastic[] = {{EventKind::contact_ends},

@@ -79,6 +79,7 @@ class BeamMesh {
   std::span<const double> section_positions() const { return positions_; }  ///< x, m
   const SparseFunctional& struck_point() const { return struck_point_; }    ///< S
   const SparseFunctional& first_end() const { return first_end_; }          ///< w(0)
+  std::size_t nearest_section(double x) const;  ///< the first of those nearest to x (m)
   /// Index of the section at (or nearest to) the struck point.
   std::size_t struck_section() const { return struck_section_; }
   /// Unknowns of a rigid translation by 1 m; empty where a support prevents it.
@@ -150,6 +151,8 @@ class BeamMesh {
   BeamMesh(std::size_t n_unknowns, std::size_t half_bandwidth, bool symmetric)
       : mass_(n_unknowns, half_bandwidth), symmetric_(symmetric) {}
 
+  /// 2 where the mirrored half is folded in.
+  double copies() const { return symmetric_ ? 2.0 : 1.0; }
   /// Stores the row of B of the next section, from the first one on.
   void add_stencil(std::size_t first, std::span<const double> coefficients);
 

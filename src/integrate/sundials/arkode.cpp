@@ -178,7 +178,7 @@ class OneStepIntegrator final : public Integrator {
     main_.drain_root();
     t0_ = t1_;
     t1_ = reached;
-    ++steps_;
+    ++work_.steps;
   }
 
   void state_at(double t, State& y) override {
@@ -190,17 +190,15 @@ class OneStepIntegrator final : public Integrator {
     partial_.reset(t0_, y0_);
     partial_.step();
     partial_.read(y);
-    ++partial_steps_;
+    ++work_.partial_steps;
   }
 
   std::optional<Root> root() const override { return main_.root(); }
 
   WorkCounts work() const override {
-    WorkCounts counts;
+    WorkCounts counts = work_;
     main_.add_counts(counts);
     partial_.add_counts(counts);
-    counts.steps = steps_;
-    counts.partial_steps = partial_steps_;
     return counts;
   }
 
@@ -220,8 +218,6 @@ class OneStepIntegrator final : public Integrator {
 
   Solver main_;
   Solver partial_;
-  long steps_ = 0;
-  long partial_steps_ = 0;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ class CvodeIntegrator : public Integrator, protected SolverFrame {
   }
 
   void restart(double t, const State& y) override {
-    before_restart_ = counts_so_far();
+    work_ = CvodeIntegrator::work();
     reset(t, y);
     stand_at(t, y);
   }
@@ -40,7 +40,7 @@ class CvodeIntegrator : public Integrator, protected SolverFrame {
     read(y1_);
     t0_ = t1_;
     t1_ = reached;
-    ++steps_;
+    ++work_.steps;
   }
 
   std::optional<Root> root() const override { return SolverFrame::root(); }
@@ -48,28 +48,16 @@ class CvodeIntegrator : public Integrator, protected SolverFrame {
   void state_at(double t, State& y) override {
     check(CVodeGetDky(memory(), t, 0, vector()), "GetDky");
     read(y);
-    ++partial_steps_;
+    ++work_.partial_steps;
   }
 
+  // What the library counts are the numbers since the last restart.
   WorkCounts work() const override {
-    WorkCounts counts = counts_so_far();
-    counts.steps = steps_;
-    counts.partial_steps = partial_steps_;
-    return counts;
-  }
-
- private:
-  // The library's own counts are those since the last restart.
-  WorkCounts counts_so_far() const {
-    WorkCounts counts = before_restart_;
+    WorkCounts counts = work_;
     add_counts(counts);
     counts.right_hand_sides = right_hand_sides_;
     return counts;
   }
-
-  long steps_ = 0;
-  long partial_steps_ = 0;
-  WorkCounts before_restart_;
 };
 
 struct FreeNonlinearSolver {

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "integrate/sundials/sparse.h"
-#include "integrate/sundials/vector.h"
+#include "integrate/sundials/linear_algebra.h"
 #include "ode/integrator.h"
 
 namespace subimpact {

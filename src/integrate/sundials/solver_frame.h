@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "integrate/sundials/vector.h"
+#include "integrate/sundials/linear_algebra.h"
 
 namespace subimpact {
 
