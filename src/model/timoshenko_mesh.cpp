@@ -59,9 +59,6 @@ TimoshenkoMesh::TimoshenkoMesh(const Beam& beam, double position, std::size_t n_
     translation_.assign(n_unknowns(), 0.0);
     for (std::size_t i = 0; i < n_nodes_; ++i) translation_[node(i)] = 1.0;
   }
-  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
-    if (ends_[end] != EndSupport::free) end_faces_.push_back(end_face(end));
-  }
   assemble_mass();
   assemble_shear();
   place_sections();
@@ -133,7 +130,9 @@ void TimoshenkoMesh::assemble_shear() {
     add({{node(i), -1.0 / length}, {node(i) + 1, turn}, {node(i + 1), 1.0 / length}},
         copies() * shear_stiffness_per_length_ * length);
   }
-  for (const EndFace& face : end_faces_) {
+  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
+    if (ends_[end] == EndSupport::free) continue;
+    const EndFace face = end_face(end);
     if (face.turn != 0.0) {
       add({{face.rotation, face.turn}, {face.node, face.rise}}, face.stiffness);
     } else {
@@ -311,7 +310,9 @@ void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
 
 void TimoshenkoMesh::add_shear_of_ends(std::span<const double> unknowns,
                                        std::span<double> forces) const {
-  for (const EndFace& face : end_faces_) {
+  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
+    if (ends_[end] == EndSupport::free) continue;
+    const EndFace face = end_face(end);
     const double force = face.stiffness * face.strain(unknowns);
     forces[face.node] -= face.rise * force;
     if (face.turn != 0.0) forces[face.rotation] -= face.turn * force;
@@ -337,7 +338,9 @@ double TimoshenkoMesh::shear_energy(std::span<const double> unknowns) const {
     sum += length * strain * strain;
   }
   sum *= copies() * shear_stiffness_per_length_;
-  for (const EndFace& face : end_faces_) {
+  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
+    if (ends_[end] == EndSupport::free) continue;
+    const EndFace face = end_face(end);
     const double strain = face.strain(unknowns);
     sum += face.stiffness * strain * strain;
   }

@@ -92,7 +92,6 @@ class TimoshenkoMesh final : public BeamMesh {
     }
   };
   EndFace end_face(std::size_t end) const;
-  std::vector<EndFace> end_faces_;
   void add_shear_of_ends(std::span<const double> unknowns, std::span<double> forces) const;
 
   std::array<Side, 2> sides_;
