@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "integrate/klu_mass_solver.h"
+#include "integrate/sundials.h"
 #include "model/cell_mesh.h"
 #include "parts.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "integrate/klu_mass_solver.h"
+#include "integrate/sundials.h"
 #include "measure.h"
 #include "simulate/run_parts.h"
 

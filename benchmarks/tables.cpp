@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "integrate/arkode_erk.h"
-#include "integrate/nystrom_tables.h"
+#include "integrate/sundials.h"
+#include "integrate/nystrom.h"
 #include "parts.h"
 
 namespace subimpact::benchmarks {

@@ -30,7 +30,6 @@ class CentralDifference final : public Integrator {
   /// The scheme is reversible in time: a step from the end with the velocity reversed.
   void state_before_end(double t, State& y) override;
   bool ends_at_last_evaluation() const override { return true; }
-  WorkCounts work() const override { return work_; }
 
  private:
   // One step of length h (which may be negative) from (from, a_from) into y; leaves a(q) at its end
@@ -45,7 +44,6 @@ class CentralDifference final : public Integrator {
   double origin_ = 0.0;  // times are origin + k step, free of accumulated rounding
   long steps_from_origin_ = 0;
   AlignedVector a0_, a1_, a_partial_;
-  WorkCounts work_;
 };
 
 }  // namespace subimpact

@@ -38,7 +38,6 @@ class Exponential final : public Integrator {
   void step() override;
   void state_at(double t, State& y) override;
   bool integrate_squared_velocities(double t, std::span<double> result) override;
-  WorkCounts work() const override { return work_; }
 
  private:
   struct Ends {
@@ -70,7 +69,6 @@ class Exponential final : public Integrator {
   double force_length_ = 0.0;
   double lambda1_ = 0.0, rate1_ = 0.0;  // at time()
   double size_ = 0.0;                   // sum |c_i q_i| at the step's start
-  WorkCounts work_;
 };
 
 }  // namespace subimpact

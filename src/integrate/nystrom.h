@@ -1,13 +1,37 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
-#include "integrate/nystrom_tables.h"
 #include "integrate/options.h"
 #include "numerics/lanes.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
+
+/// An embedded Runge-Kutta-Nystroem table for q'' = a(q): stages
+///
+///     q_i = q + c_i h v + h^2 sum_j a_ij k_j,   k_i = a(q_i),
+///     q' = q + h v + h^2 sum position_i k_i,    v' = v + h sum velocity_i k_i,
+///
+/// and differences to the embedded method (order `embedded_order`) for the error estimate.
+struct NystromTable : CoefficientTable {
+  std::vector<double> c;
+  std::vector<std::vector<double>> a;  ///< a[i] has i entries
+  std::vector<double> position, velocity;
+  std::vector<double> position_error, velocity_error;
+
+  std::size_t n_stages() const { return c.size(); }
+  /// Whether the last stage is the acceleration at the step's end, and so the next step's first.
+  bool first_same_as_last() const;
+};
+
+/// All tables; the first is the default.
+const std::vector<NystromTable>& nystrom_tables();
+
+/// The first for an empty name. Throws std::invalid_argument for an unknown one.
+const NystromTable& nystrom_table(const std::string& name);
 
 /// Explicit Runge-Kutta-Nystroem methods for q'' = a(q): as the acceleration does not depend on the
 /// velocity, stages carry positions only, which halves the vector work and, order for order, needs
@@ -24,7 +48,6 @@ class Nystrom final : public Integrator {
   void restart(double t, const State& y) override;
   void step() override;
   void state_at(double t, State& y) override;
-  WorkCounts work() const override { return work_; }
 
  private:
   using Vector = AlignedVector;
@@ -45,7 +68,6 @@ class Nystrom final : public Integrator {
   std::vector<Vector> stages_;          // accelerations of the last step's stages
   std::vector<Vector> partial_stages_;  // of a partial step; the first is not used
   Vector end_acceleration_;             // at time(), the next step's first stage
-  WorkCounts work_;
 };
 
 }  // namespace subimpact

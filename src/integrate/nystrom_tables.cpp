@@ -1,4 +1,4 @@
-#include "integrate/nystrom_tables.h"
+#include "integrate/nystrom.h"
 
 #include <stdexcept>
 

@@ -7,14 +7,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "integrate/nystrom_tables.h"
+#include "integrate/nystrom.h"
 
 namespace subimpact {
-namespace {
 
 using Complex = std::complex<double>;
-
-}  // namespace
 
 double spectral_radius(const std::array<std::array<double, 2>, 2>& m) {
   const double half_trace = 0.5 * (m[0][0] + m[1][1]);

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "integrate/versions.h"
+#include "integrate/sundials.h"
 
 namespace subimpact {
 

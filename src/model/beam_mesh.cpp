@@ -1,6 +1,8 @@
 #include "subimpact/model/beam_mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "numerics/lanes.h"
 
@@ -23,6 +25,23 @@ void SparseFunctional::add(double factor, const SparseFunctional& other) {
   std::erase_if(terms, [](const Term& term) { return term.coefficient == 0.0; });
 }
 
+std::size_t BeamMesh::nearest_section(double x) const {
+  const auto nearest =
+      std::ranges::min_element(positions_, {}, [x](double at) { return std::abs(at - x); });
+  return static_cast<std::size_t>(nearest - positions_.begin());
+}
+
+void BeamMesh::add_stencil(std::size_t first, std::span<const double> coefficients) {
+  stencils_.push_back({first, stencil_coefficients_.size(), coefficients.size()});
+  stencil_coefficients_.insert(stencil_coefficients_.end(), coefficients.begin(),
+                               coefficients.end());
+}
+
+BeamMesh::SectionStencil BeamMesh::section_stencil(std::size_t section) const {
+  const auto [first, begin, size] = stencils_.at(section);
+  return {first, std::span(stencil_coefficients_).subspan(begin, size)};
+}
+
 std::size_t BeamMesh::stiffness_bandwidth() const {
   std::size_t bandwidth = shear_stiffness_.half_bandwidth();
   for (std::size_t i = 0; i < n_sections(); ++i) {
@@ -33,11 +52,8 @@ std::size_t BeamMesh::stiffness_bandwidth() const {
 
 double BeamMesh::curvature(std::size_t section, std::span<const double> unknowns) const {
   const SectionStencil row = section_stencil(section);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < row.coefficients.size(); ++i) {
-    sum += row.coefficients[i] * unknowns[row.first + i];
-  }
-  return sum;
+  return std::inner_product(row.coefficients.begin(), row.coefficients.end(),
+                            unknowns.subspan(row.first).begin(), 0.0);
 }
 
 SparseFunctional BeamMesh::curvature_functional(std::size_t section) const {

@@ -63,8 +63,6 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
     throw std::invalid_argument("cell mesh: the spacing of points is for free ends");
   }
   const double inverse = 1.0 / (spacing_ * spacing_);
-  stencil_ = {inverse, -2.0 * inverse, inverse};
-  struck_stencil_ = {2.0 * inverse, -2.0 * inverse};
   first_sections_ = end_stencils(ends_[0]);
   if (!symmetric()) last_sections_ = end_stencils(ends_[1]);
   std::reverse(last_sections_.begin(), last_sections_.end());
@@ -103,26 +101,25 @@ SparseFunctional CellMesh::cell(std::size_t i) const {
 }
 
 void CellMesh::assemble_mass() {
-  const double copies = symmetric() ? 2.0 : 1.0;  // the mirrored cells are folded in
   const double cell_mass = mass_per_length_ * spacing_;
   const double coupling = rotary_inertia_ / spacing_;
   const std::size_t n_kept = symmetric() ? n_cells_ / 2 + 1 : n_cells_;
   momentum_functional_.assign(n_unknowns(), 0.0);
   for (std::size_t i = 0; i < n_kept; ++i) {
     const auto [unknown, share] = cell(i).terms.front();
-    const double mass = symmetric() && i + 1 == n_kept ? cell_mass : copies * cell_mass;
+    const double mass = symmetric() && i + 1 == n_kept ? cell_mass : copies() * cell_mass;
     mass_.at(unknown, unknown) += mass * share * share;
     momentum_functional_[unknown] += mass * share;
     if (i + 1 == n_kept) break;
     const auto [next, next_share] = cell(i + 1).terms.front();
-    mass_.at(unknown, unknown) += copies * coupling * share * share;
-    mass_.at(next, next) += copies * coupling * next_share * next_share;
+    mass_.at(unknown, unknown) += copies() * coupling * share * share;
+    mass_.at(next, next) += copies() * coupling * next_share * next_share;
     // The same entry twice over if both cells share one unknown.
     mass_.at(unknown, next) -=
-        (unknown == next ? 2.0 : 1.0) * copies * coupling * share * next_share;
+        (unknown == next ? 2.0 : 1.0) * copies() * coupling * share * next_share;
   }
   // Half a link to the upside-down mirror image.
-  if (ends_[0] == EndSupport::pinned) mass_.at(0, 0) += copies * 2.0 * coupling;
+  if (ends_[0] == EndSupport::pinned) mass_.at(0, 0) += copies() * 2.0 * coupling;
   if (!symmetric() && ends_[1] == EndSupport::pinned) {
     mass_.at(n_unknowns() - 1, n_unknowns() - 1) += 2.0 * coupling;
   }
@@ -194,16 +191,23 @@ std::optional<SparseFunctional> CellMesh::rotation_at(double x) const {
 }
 
 void CellMesh::place_sections() {
-  const double copies = symmetric() ? 2.0 : 1.0;
   const std::size_t first = ends_[0] == EndSupport::free ? 1 : 0;
   const std::size_t end = symmetric()                    ? n_cells_ / 2 + 1
                           : ends_[1] == EndSupport::free ? n_cells_ - 1
                                                          : n_cells_;
   for (std::size_t i = first; i < end; ++i) {
     positions_.push_back((static_cast<double>(i) + first_centre_) * spacing_);
-    weights_.push_back(copies * spacing_);
+    weights_.push_back(copies() * spacing_);
   }
   if (symmetric()) weights_.back() = spacing_;
+  const double inverse = 1.0 / (spacing_ * spacing_);
+  const std::size_t n_inner = n_unknowns() - 2;
+  for (const EndStencil& stencil : first_sections_) add_stencil(0, stencil);
+  for (std::size_t i = 0; i < n_inner; ++i) {
+    add_stencil(i, std::array{inverse, -2.0 * inverse, inverse});
+  }
+  if (symmetric()) add_stencil(n_inner, std::array{2.0 * inverse, -2.0 * inverse});
+  for (const EndStencil& stencil : last_sections_) add_stencil(n_inner, stencil);
 }
 
 void CellMesh::place_strike(double position) {
@@ -218,17 +222,8 @@ void CellMesh::place_strike(double position) {
   const double at = std::clamp(position * length - first_centre_, 0.0, cells - 1.0);
   const auto left = std::min(static_cast<std::size_t>(at), n_cells_ - 2);
   const double share = at - static_cast<double>(left);
-  const auto add = [&](std::size_t i, double part) {
-    const auto [unknown, coefficient] = cell(i).terms.front();
-    if (part == 0.0) return;
-    if (!struck_point_.terms.empty() && struck_point_.terms.back().unknown == unknown) {
-      struck_point_.terms.back().coefficient += part * coefficient;
-    } else {
-      struck_point_.terms.push_back({unknown, part * coefficient});
-    }
-  };
-  add(left, 1.0 - share);
-  add(left + 1, share);
+  struck_point_.add(1.0 - share, cell(left));
+  struck_point_.add(share, cell(left + 1));
   const auto nearest = static_cast<std::size_t>(std::lround(at));
   struck_section_ = std::clamp<std::size_t>(nearest, first, first + n_sections() - 1) - first;
 }
@@ -250,7 +245,7 @@ void CellMesh::curvatures(std::span<const double> unknowns, std::span<double> ka
 void CellMesh::bending_forces(std::span<const double> moments, std::span<double> forces) const {
   // m[i] belongs to the section centred on unknown i + 1; the mirror's share makes the struck
   // cell's row half of the others', which is what folding its neighbour's force does.
-  const double scale = (symmetric() ? 2.0 : 1.0) / spacing_;
+  const double scale = copies() / spacing_;
   const std::size_t n = n_unknowns();
   const double* m = moments.data() + first_sections_.size();
   double* f = forces.data();
@@ -279,15 +274,6 @@ void CellMesh::bending_forces(std::span<const double> moments, std::span<double>
     f[n - 2] -= weight * end[0] * *m;
     f[n - 1] -= weight * end[1] * *m++;
   }
-}
-
-BeamMesh::SectionStencil CellMesh::section_stencil(std::size_t section) const {
-  const std::size_t n = n_unknowns();
-  if (section < first_sections_.size()) return {0, first_sections_[section]};
-  const std::size_t inner = section - first_sections_.size();
-  if (inner < n - 2) return {inner, stencil_};
-  if (symmetric()) return {n - 2, struck_stencil_};
-  return {n - 2, last_sections_[inner - (n - 2)]};
 }
 
 double CellMesh::highest_frequency(double bending_stiffness) const {

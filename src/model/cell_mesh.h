@@ -46,7 +46,6 @@ class CellMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  SectionStencil section_stencil(std::size_t section) const override;
   /// Linear between centres, as the strike is shared between them.
   std::optional<SparseFunctional> displacement_at(double x) const override;
   /// Linear between the faces of cells, where it is the difference of the centres beside them.
@@ -76,8 +75,6 @@ class CellMesh final : public BeamMesh {
   double mass_per_length_;
   double rotary_inertia_;
   std::array<EndSupport, 2> ends_;
-  std::array<double, 3> stencil_;           // of an inner cell
-  std::array<double, 2> struck_stencil_;    // of the struck cell under symmetry
   std::vector<EndStencil> first_sections_;  // outermost first
   std::vector<EndStencil> last_sections_;   // outermost last; unknowns in order
 };

@@ -2,11 +2,75 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "subimpact/model/contact_law.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {
+
+/// K = 4/3 E* sqrt(R) with 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2: the elastic sphere of radius
+/// R (m) on an elastic flat (Pa; an infinite modulus is a rigid body), N/m^1.5.
+double hertz_stiffness(double radius, double modulus_1, double poisson_1, double modulus_2,
+                       double poisson_2);
+
+/// A power of the indentation, with or without yielding: all laws that a case file can name.
+///
+/// Model: with the indentation `lambda` (m), its largest value so far `lambda_m`, the yield
+/// indentation `lambda_s` and the residual indentation `lambda_r = max(lambda_m - lambda_s, 0)`,
+/// the force F (N) is
+///
+///     separated  lambda <= lambda_r                            F = 0
+///     elastic    lambda_r < lambda <= max(lambda_m, lambda_s)  F = K [lambda^n - lambda_r^n]
+///     plastic    lambda > max(lambda_m, lambda_s), growing     F = K [lambda^n
+///                                                                     - (lambda - lambda_s)^n]
+///
+/// F is continuous; its slope jumps at lambda_r and where unloading begins. Valid while the
+/// indentation is small beside the nose's radius and the beam's thickness. See contact_laws.h for
+/// the laws of a scene.
+///
+/// Source: the struck-beam paper's equations (3)-(6), with the radical over 2R alone and the units
+/// mended; exact for the columns (the tests compare with a sum over a thousand of them). Hertz
+/// (1882), as in K. L. Johnson, Contact Mechanics, section 4.2.
+class PowerContact final : public ContactLaw {
+ public:
+  /// `stiffness` K > 0 (N/m^n), `exponent` n >= 1, `yield_indentation` lambda_s > 0 (m, may be
+  /// infinite). Throws std::invalid_argument otherwise.
+  PowerContact(double stiffness, double exponent, double yield_indentation,
+               std::string name = "power law");
+
+  double stiffness() const { return stiffness_; }
+  double exponent() const { return exponent_; }
+  double yield_indentation() const { return yield_indentation_; }
+
+  std::string name() const override { return name_; }
+  ContactScales scales() const override { return {stiffness_, exponent_}; }
+  double residual_indentation(ContactHistory history) const override {
+    const double residual = history.max_indentation - yield_indentation_;
+    return residual > 0.0 ? residual : 0.0;
+  }
+  double yield_threshold(ContactHistory history) const override {
+    return history.max_indentation > yield_indentation_ ? history.max_indentation
+                                                        : yield_indentation_;
+  }
+  double elastic_force(ContactHistory history, double indentation) const override;
+  double elastic_slope(ContactHistory history, double indentation) const override;
+  double plastic_force(double indentation) const override;
+  double plastic_slope(double indentation) const override;
+  double recoverable_energy(ContactHistory history, double indentation) const override;
+  /// K lambda_r^n lambda_s for n = 3/2.
+  double dissipated_energy(ContactHistory history) const override;
+
+ private:
+  double power(double indentation) const;           // signed lambda^n
+  double power_slope(double indentation) const;     // its derivative
+  double power_integral(double indentation) const;  // its integral from zero
+
+  double stiffness_;
+  double exponent_;
+  double yield_indentation_;
+  std::string name_;
+};
 
 /// One way to give a law its constants.
 struct ContactConstants {

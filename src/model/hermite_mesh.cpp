@@ -25,32 +25,26 @@ HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elemen
 
 HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t sections_per_element,
                          HermiteNodes nodes)
-    : BeamMesh(nodes.n_unknowns(), 3, nodes.is_half()),
+    : BeamMesh(nodes.n_unknowns, 3, nodes.half),
       nodes_(std::move(nodes)),
       slope_unit_(beam.length / static_cast<double>(nodes_.n_elements_whole())),
       mass_per_length_(beam.mass_per_length()),
-      rotary_inertia_(beam.rotary_inertia()),
-      copies_(symmetric() ? 2.0 : 1.0) {
-  struck_point_.terms = {{nodes_.struck().displacement, 1.0}};
-  if (nodes_.ends()[0] == EndSupport::free) first_end_.terms = {{0, 1.0}};
+      rotary_inertia_(beam.rotary_inertia()) {
+  struck_point_.terms = {{nodes_.struck_node().displacement, 1.0}};
+  if (nodes_.ends[0] == EndSupport::free) first_end_.terms = {{0, 1.0}};
   beam_mass_ = beam.mass();
   if (beam.is_free()) {
     translation_.assign(n_unknowns(), 0.0);
-    for (const HermiteNodes::Node& node : nodes_.all()) translation_[node.displacement] = 1.0;
+    for (const HermiteNodes::Node& node : nodes_.nodes) translation_[node.displacement] = 1.0;
   }
   assemble_mass();
   if (!symmetric()) assemble_moment();
   gather_elements(sections_per_element);
-  const double struck_at = position * beam.length;
-  const auto nearer = [&](double x, double y) {
-    return std::abs(x - struck_at) < std::abs(y - struck_at);
-  };
-  struck_section_ = static_cast<std::size_t>(
-      std::min_element(positions_.begin(), positions_.end(), nearer) - positions_.begin());
+  struck_section_ = nearest_section(position * beam.length);
 }
 
 HermiteElement HermiteMesh::element(std::size_t e) const {
-  return {nodes_.lengths()[e], slope_unit_};
+  return {nodes_.lengths[e], slope_unit_};
 }
 
 void HermiteMesh::assemble_mass() {
@@ -58,11 +52,11 @@ void HermiteMesh::assemble_mass() {
   for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
     const auto unknowns = nodes_.unknowns_of(e);
     const HermiteElement::Matrix mass = element(e).mass(mass_per_length_, rotary_inertia_);
-    add_local(unknowns, element(e).momentum(copies_ * mass_per_length_), momentum_functional_);
+    add_local(unknowns, element(e).momentum(copies() * mass_per_length_), momentum_functional_);
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = i; j < 4; ++j) {
         if (unknowns[i] == none || unknowns[j] == none) continue;
-        mass_.at(unknowns[i], unknowns[j]) += copies_ * mass[i][j];
+        mass_.at(unknowns[i], unknowns[j]) += copies() * mass[i][j];
       }
     }
   }
@@ -74,7 +68,7 @@ void HermiteMesh::assemble_moment() {
   for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
     add_local(nodes_.unknowns_of(e), element(e).moment(mass_per_length_, rotary_inertia_, left),
               moment_functional_);
-    left += nodes_.lengths()[e];
+    left += nodes_.lengths[e];
   }
 }
 
@@ -87,7 +81,7 @@ void HermiteMesh::gather_elements(std::size_t sections_per_element) {
     const bool hinge_after = nodes_.is_hinge(e + 1);
     const bool beside_hinge = hinge_before || hinge_after;
     const auto unknowns = nodes_.unknowns_of(e);
-    const double length = nodes_.lengths()[e];
+    const double length = nodes_.lengths[e];
     const bool complete = std::find(unknowns.begin(), unknowns.end(), none) == unknowns.end();
     const std::size_t section = positions_.size();
     if (beside_hinge || !complete) {
@@ -112,21 +106,21 @@ void HermiteMesh::place_element(std::size_t e, double left, const ElementRule& r
   const auto unknowns = nodes_.unknowns_of(e);
   for (std::size_t g = 0; g < rule.size(); ++g) {
     positions_.push_back(left + 0.5 * (1.0 + rule.points[g]) * f.length);
-    weights_.push_back(copies_ * rule.weights[g] * f.length);
+    weights_.push_back(copies() * rule.weights[g] * f.length);
     add_row(unknowns, f.curvature(rule.of_curvature[g]));
   }
 }
 
 void HermiteMesh::place_hinge(std::size_t node, double x) {
-  const std::span<const double> lengths = nodes_.lengths();
+  const std::span<const double> lengths = nodes_.lengths;
   const double before = node > 0 ? lengths[node - 1] : 0.0;
   const double after = node < lengths.size() ? lengths[node] : 0.0;
   const double length = hinge_share * (before + after);
   const double inverse = 1.0 / (length * slope_unit_);
-  const HermiteNodes::Node& here = nodes_[node];
+  const HermiteNodes::Node& here = nodes_.nodes[node];
   hinges_.push_back({positions_.size(), here.slope_before, here.slope_after, inverse});
   positions_.push_back(x);
-  weights_.push_back(copies_ * length);
+  weights_.push_back(copies() * length);
   add_row(std::array{here.slope_before, here.displacement, here.slope_after},
           std::array{-inverse, 0.0, inverse});
 }
@@ -134,14 +128,15 @@ void HermiteMesh::place_hinge(std::size_t node, double x) {
 // The unknowns are consecutive but for those held, in whatever order.
 void HermiteMesh::add_row(std::span<const std::size_t> unknowns,
                           std::span<const double> coefficients) {
-  Row row{none, 0, {}};
-  for (const std::size_t unknown : unknowns) row.first = std::min(row.first, unknown);
+  const std::size_t first = std::ranges::min(unknowns);
+  HermiteElement::Coefficients row;
+  std::size_t size = 0;
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     if (unknowns[i] == none) continue;
-    row.coefficients[unknowns[i] - row.first] = coefficients[i];
-    ++row.size;
+    row[unknowns[i] - first] = coefficients[i];
+    ++size;
   }
-  rows_.push_back(row);
+  add_stencil(first, std::span(row).first(size));
 }
 
 void HermiteMesh::add_local(const std::array<std::size_t, 4>& unknowns,
@@ -203,7 +198,7 @@ void HermiteMesh::bending_forces_in_runs(const double* moments, double* forces) 
   std::copy_n(gauss_.weights.data(), points, weight);
   for (const Run& run : runs_) {
     const HermiteElement f = run.element;
-    const double scale = copies_ * f.length;
+    const double scale = copies() * f.length;
     const double* m = moments + run.first_section;
     double* force = forces + run.first_unknown;
     double left_force = force[0];  // on an element's first node, so far
@@ -239,7 +234,7 @@ void HermiteMesh::bending_forces(std::span<const double> moments, std::span<doub
       sum += one.rule.of_curvature[g][0] * m;
       first_moment += one.rule.of_curvature[g][1] * m;
     }
-    const double scale = copies_ * f.length;
+    const double scale = copies() * f.length;
     const double mean = scale * f.mean * sum;
     const double shear = scale * f.of_displacements * first_moment;
     const double slopes = scale * f.of_slopes * first_moment;
@@ -260,11 +255,6 @@ void HermiteMesh::bending_forces(std::span<const double> moments, std::span<doub
   }
 }
 
-BeamMesh::SectionStencil HermiteMesh::section_stencil(std::size_t section) const {
-  const Row& row = rows_[section];
-  return {row.first, std::span(row.coefficients).first(row.size)};
-}
-
 SparseFunctional HermiteMesh::of_element(std::size_t element,
                                          const HermiteElement::Coefficients& coefficients) const {
   const auto unknowns = nodes_.unknowns_of(element);
@@ -283,10 +273,10 @@ std::optional<SparseFunctional> HermiteMesh::displacement_at(double x) const {
 
 std::optional<SparseFunctional> HermiteMesh::rotation_at(double x) const {
   const auto [e, z] = nodes_.element_at(x);
-  const auto at_start = nodes_.is_hinge(e) ? nodes_[e].slope_before : none;
+  const auto at_start = nodes_.is_hinge(e) ? nodes_.nodes[e].slope_before : none;
   if (z == 0.0 && e > 0 && at_start != none) {  // the mean of both sides
     SparseFunctional slope;
-    for (const std::size_t unknown : {at_start, nodes_[e].slope_after}) {
+    for (const std::size_t unknown : {at_start, nodes_.nodes[e].slope_after}) {
       slope.terms.push_back({unknown, 0.5 / slope_unit_});
     }
     return slope;
@@ -338,12 +328,12 @@ double HermiteMesh::highest_frequency(double bending_stiffness) const {
 
 // Of equal elements, with nothing between them.
 bool HermiteMesh::is_chain() const {
-  const auto [shortest, longest] = std::ranges::minmax(nodes_.lengths());
+  const auto [shortest, longest] = std::ranges::minmax(nodes_.lengths);
   return hinges_.empty() && longest / shortest - 1.0 < 1e-14;
 }
 
 bool HermiteMesh::has_closed_modes() const {
-  return is_chain() && subimpact::has_closed_modes(nodes_.ends());
+  return is_chain() && subimpact::has_closed_modes(nodes_.ends);
 }
 
 bool HermiteMesh::prefers_modes() const {
@@ -354,7 +344,7 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
   std::optional<NaturalModes> modes;
   if (is_chain()) {
     modes = hermite_chain_modes({nodes_.n_elements_whole(), slope_unit_, mass_per_length_,
-                                 rotary_inertia_, bending_stiffness, nodes_.ends(), symmetric()});
+                                 rotary_inertia_, bending_stiffness, nodes_.ends, symmetric()});
   }
   if (!modes) return dense_natural_modes(*this, bending_stiffness);
   normalise(*modes, mass_);
@@ -364,8 +354,8 @@ NaturalModes HermiteMesh::natural_modes(double bending_stiffness) const {
 std::string HermiteMesh::description() const {
   std::string text = std::to_string(nodes_.n_elements_whole()) + " Hermite elements of " +
                      std::to_string(gauss_.size()) + " sections";
-  if (nodes_.options().grading.refinement != 1.0) {
-    const auto [shortest, longest] = std::ranges::minmax(nodes_.lengths());
+  if (nodes_.options.grading.refinement != 1.0) {
+    const auto [shortest, longest] = std::ranges::minmax(nodes_.lengths);
     char range[64];
     std::snprintf(range, sizeof range, ", from %.4g to %.4g mm long", 1e3 * shortest,
                   1e3 * longest);

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "model/element_rule.h"
 #include "model/hermite_element.h"
 #include "model/hermite_nodes.h"
 #include "subimpact/model/beam_mesh.h"
@@ -49,7 +48,6 @@ class HermiteMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  SectionStencil section_stencil(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
   /// Bisected to 5e-6 from above.
@@ -63,7 +61,7 @@ class HermiteMesh final : public BeamMesh {
   std::string description() const override;
 
   /// Of the elements from left to right, m.
-  std::span<const double> element_lengths() const { return nodes_.lengths(); }
+  std::span<const double> element_lengths() const { return nodes_.lengths; }
 
  private:
   static constexpr std::size_t none = HermiteNodes::none;
@@ -112,16 +110,10 @@ class HermiteMesh final : public BeamMesh {
   double slope_unit_;  // h, m
   double mass_per_length_;
   double rotary_inertia_;
-  double copies_;  // 2 where the mirrored half is folded in
   ElementRule gauss_;
   std::vector<Run> runs_;
   std::vector<Single> singles_;
   std::vector<Hinge> hinges_;
-  struct Row {
-    std::size_t first, size;
-    HermiteElement::Coefficients coefficients;
-  };
-  std::vector<Row> rows_;  // of B
 };
 
 }  // namespace subimpact

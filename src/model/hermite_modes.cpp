@@ -6,10 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "model/hermite_chain_shapes.h"
-#include "model/hermite_chain_waves.h"
+#include "model/hermite_chain.h"
 #include "numerics/bracketed_root.h"
-#include "numerics/lanes.h"
 #include "numerics/sin_cos.h"
 
 namespace subimpact {

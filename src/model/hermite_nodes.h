@@ -2,14 +2,30 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "model/element_grading.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {
+
+/// Elements that are shorter near the strike: at the strike `refinement` times shorter than far
+/// from it, and growing in proportion to the distance d over `refined_length`,
+///
+///     size(d) ~ 1/r + (1 - 1/r) d/refined_length for d < refined_length, else 1,  r = refinement.
+///
+/// There neighbours grow by a constant ratio. Twice as many elements halve every one, so a finer
+/// mesh of the same grading holds all nodes of the coarser. A refinement of 1: equal elements.
+struct ElementGrading {
+  double refinement = 1.0;      ///< 1 or above
+  double refined_length = 0.0;  ///< m, above 0 where refinement is above 1
+
+  /// Integral of dx/size from the strike to the distance d: how many elements lie there, in units
+  /// of the size far from the strike, m.
+  double elements_within(double d) const;
+  /// The distance d that holds so many: the inverse, m.
+  double distance_of(double elements) const;
+};
 
 /// Where the nodes of a mesh of cubic Hermite elements lie, and which unknowns they have: node by
 /// node the displacement w and the slope, but what supports hold (w at a pinned end, both at a
@@ -17,8 +33,7 @@ namespace subimpact {
 ///
 /// There is a node at the strike; to its left and right the numbers of elements share n as the
 /// strike shares the length. Elements are equal on either side, or graded towards the strike.
-class HermiteNodes {
- public:
+struct HermiteNodes {
   struct Options {
     ElementGrading grading;
     bool hinges = false;  ///< one at the strike, and one at each clamped end
@@ -40,34 +55,27 @@ class HermiteNodes {
   HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool half,
                const Options& options);
 
-  const Options& options() const { return options_; }
-  bool is_half() const { return half_; }
-  const std::array<EndSupport, 2>& ends() const { return ends_; }
-  std::size_t n_elements_whole() const { return half_ ? 2 * n_elements() : n_elements(); }
-  std::size_t n_elements() const { return lengths_.size(); }  ///< of the part modelled
-  std::size_t n_unknowns() const { return n_unknowns_; }
-  std::span<const double> lengths() const { return lengths_; }  ///< of the elements, m
-  std::span<const Node> all() const { return nodes_; }
-  const Node& operator[](std::size_t node) const { return nodes_[node]; }
-  const Node& struck() const { return nodes_[struck_]; }
+  std::size_t n_elements() const { return lengths.size(); }  ///< of the part modelled
+  std::size_t n_elements_whole() const { return half ? 2 * n_elements() : n_elements(); }
+  const Node& struck_node() const { return nodes[struck]; }
   bool is_hinge(std::size_t node) const;
   /// Of displacement and slope at the left node, then at the right one.
   std::array<std::size_t, 4> unknowns_of(std::size_t element) const;
   /// The element that contains x (m), and where in it, from 0 to 1.
   std::pair<std::size_t, double> element_at(double x) const;
 
+  Options options;
+  bool half;
+  std::array<EndSupport, 2> ends;
+  std::size_t struck = 0;       ///< index of the node under the strike
+  std::vector<double> lengths;  ///< of the elements, m
+  std::vector<Node> nodes;
+  std::size_t n_unknowns = 0;
+
  private:
   void place(double left_length, double right_length, std::size_t n_elements);
   std::vector<double> lengths_of_side(std::size_t count, double length, double within) const;
   void number_unknowns();
-
-  Options options_;
-  bool half_;
-  std::array<EndSupport, 2> ends_;
-  std::size_t struck_ = 0;
-  std::vector<double> lengths_;
-  std::vector<Node> nodes_;
-  std::size_t n_unknowns_ = 0;
 };
 
 }  // namespace subimpact

@@ -1,13 +1,12 @@
 #include "model/rigid_mesh.h"
 
 #include <algorithm>
+#include <array>
 
 namespace subimpact {
 namespace {
 
 std::size_t degrees_of_freedom(double position) { return position == 0.5 ? 1 : 2; }
-
-constexpr double no_curvature[] = {0.0};
 
 }  // namespace
 
@@ -28,6 +27,7 @@ RigidMesh::RigidMesh(const Beam& beam, double position)
   momentum_functional_[0] = beam.mass();
   beam_mass_ = beam.mass();
   weights_ = {l};
+  add_stencil(0, std::array{0.0});
   positions_ = {position * l};
 }
 
@@ -38,8 +38,6 @@ void RigidMesh::curvatures(std::span<const double>, std::span<double> kappa) con
 void RigidMesh::bending_forces(std::span<const double>, std::span<double> forces) const {
   std::fill(forces.begin(), forces.end(), 0.0);
 }
-
-BeamMesh::SectionStencil RigidMesh::section_stencil(std::size_t) const { return {0, no_curvature}; }
 
 std::optional<SparseFunctional> RigidMesh::displacement_at(double x) const {
   SparseFunctional displacement{{{0, 1.0}}, {}};

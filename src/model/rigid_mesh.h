@@ -18,7 +18,6 @@ class RigidMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  SectionStencil section_stencil(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
   double highest_frequency(double bending_stiffness) const override;  ///< 0

@@ -30,15 +30,13 @@ void for_each_outside(std::span<const double> curvatures, const AlignedVector& l
 }  // namespace
 
 SectionField::SectionField(std::size_t n_sections, double stiffness)
-    : storage_(Storage::when_yielded),
-      stiffness_(stiffness),
+    : stiffness_(stiffness),
       low_(n_sections, -infinity),
       high_(n_sections, infinity),
       offset_(n_sections, 0.0) {}
 
-SectionField::SectionField(std::size_t n_sections, const SectionLaw& law, Storage storage)
+SectionField::SectionField(std::size_t n_sections, const SectionLaw& law)
     : law_(law),
-      storage_(storage),
       stiffness_(law.stiffness()),
       low_(n_sections),
       high_(n_sections),
@@ -48,9 +46,6 @@ SectionField::SectionField(std::size_t n_sections, const SectionLaw& law, Storag
   std::fill(low_.begin(), low_.end(), window.low);
   std::fill(high_.begin(), high_.end(), window.high);
   std::fill(offset_.begin(), offset_.end(), window.offset);
-  if (storage == Storage::always) {
-    for (std::size_t i = 0; i < n_sections; ++i) stored_history(i);
-  }
 }
 
 const SectionHistory& SectionField::history(std::size_t section) const {
@@ -88,15 +83,11 @@ void SectionField::moments(std::span<const double> curvatures, std::span<double>
     for (std::size_t i = 0; i < n; ++i) m[i] = stiffness * k[i] - offset[i];
     return;
   }
-  const bool all = storage_ == Storage::always;
   const auto correct_outside = [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) {
-      if (k[i] > high[i] || k[i] < low[i]) {
-        m[i] = law_->flowing_moment(history(i), k[i]);
-        if (outside != nullptr) outside->push_back({i, k[i]});
-      } else if (all) {
-        m[i] = law_->moment(history(i), k[i]);
-      }
+      if (!(k[i] > high[i] || k[i] < low[i])) continue;
+      m[i] = law_->flowing_moment(history(i), k[i]);
+      if (outside != nullptr) outside->push_back({i, k[i]});
     }
   };
   const auto linear = [=](std::size_t i) {
@@ -110,10 +101,10 @@ void SectionField::moments(std::span<const double> curvatures, std::span<double>
   for (; i + 4 * n_lanes <= n; i += 4 * n_lanes) {
     const LaneMask signs =
         linear(i) | linear(i + n_lanes) | linear(i + 2 * n_lanes) | linear(i + 3 * n_lanes);
-    if (all || any(signs < 0)) correct_outside(i, i + 4 * n_lanes);
+    if (any(signs < 0)) correct_outside(i, i + 4 * n_lanes);
   }
   for (; i + n_lanes <= n; i += n_lanes) {
-    if (all || any(linear(i) < 0)) correct_outside(i, i + n_lanes);
+    if (any(linear(i) < 0)) correct_outside(i, i + n_lanes);
   }
   for (std::size_t j = i; j < n; ++j) m[j] = stiffness * k[j] - offset[j];
   correct_outside(i, n);

@@ -17,16 +17,10 @@ namespace subimpact {
 /// has the sign of the curvature.
 class SectionField {
  public:
-  enum class Storage {
-    when_yielded,  ///< memory and law calls only where needed
-    always         ///< every section stored and evaluated: the same numbers, for comparison
-  };
-
   /// A field that never yields, M = stiffness kappa.
   SectionField(std::size_t n_sections, double stiffness);
   /// A field of one law.
-  SectionField(std::size_t n_sections, const SectionLaw& law,
-               Storage storage = Storage::when_yielded);
+  SectionField(std::size_t n_sections, const SectionLaw& law);
 
   std::size_t size() const { return low_.size(); }
   bool can_yield() const { return law_.has_value(); }
@@ -105,7 +99,6 @@ class SectionField {
   const AtRest& at_rest(std::size_t section) const;
 
   std::optional<SectionLaw> law_;
-  Storage storage_;
   double stiffness_;
   AlignedVector low_, high_, offset_;  // windows
   std::vector<int> slot_;              // index into memory_, -1: never yielded

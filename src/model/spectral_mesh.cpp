@@ -74,7 +74,6 @@ SpectralMesh::SpectralMesh(const Beam& beam, double position, std::size_t n_elem
     : BeamMesh(count_unknowns(beam, n_elements, extent == Extent::half), 0, extent == Extent::half),
       n_elements_(n_elements),
       n_before_(elements_before(position, n_elements)),
-      copies_(symmetric() ? 2.0 : 1.0),
       gyration_(beam.radius_of_gyration()),
       mass_per_length_(beam.mass_per_length()),
       shear_stiffness_per_length_(beam.shear_stiffness()) {
@@ -140,7 +139,7 @@ void SpectralMesh::assemble_mass(const Beam& beam) {
     for (std::size_t i = 0; i < element.unknowns.size(); ++i) {
       const std::size_t unknown = element.unknowns[i];
       if (unknown == held) continue;
-      const double mass = copies_ * per_length[i % 2] * element.length * node_weights[i / 2];
+      const double mass = copies() * per_length[i % 2] * element.length * node_weights[i / 2];
       mass_.at(unknown, unknown) += mass;
       if (i % 2 == 0) momentum_functional_[unknown] += mass;
       if (symmetric()) continue;
@@ -156,7 +155,7 @@ void SpectralMesh::assemble_shear() {
   for (const Element& element : elements_) {
     for (std::size_t q = 0; q < n_points; ++q) {
       const double weight =
-          copies_ * shear_stiffness_per_length_ * element.length * gauss<n_points>.weights[q];
+          copies() * shear_stiffness_per_length_ * element.length * gauss<n_points>.weights[q];
       Values row;  // the strain of 1 m in each unknown
       for (std::size_t a = 0; a < n_nodes; ++a) {
         row[2 * a] = shapes.slope[q][a] / element.length;
@@ -174,7 +173,6 @@ void SpectralMesh::assemble_shear() {
 
 void SpectralMesh::place_sections() {
   double start = 0.0;
-  double nearest = INFINITY;
   double struck = 0.0;
   for (std::size_t e = 0; e < n_before_; ++e) struck += elements_[e].length;
   for (const Element& element : elements_) {
@@ -182,22 +180,17 @@ void SpectralMesh::place_sections() {
     const std::size_t first = *std::ranges::min_element(element.unknowns);
     for (std::size_t q = 0; q < n_points; ++q) {
       positions_.push_back(start + gauss<n_points>.points[q] * element.length);
-      weights_.push_back(copies_ * gauss<n_points>.weights[q] * element.length);
-      const double distance = std::abs(positions_.back() - struck);
-      if (distance < nearest) {
-        nearest = distance;
-        struck_section_ = positions_.size() - 1;
-      }
+      weights_.push_back(copies() * gauss<n_points>.weights[q] * element.length);
       std::vector<double> row(static_cast<std::size_t>(kept), 0.0);
       for (std::size_t a = 0; a < n_nodes; ++a) {
         const std::size_t turn = element.unknowns[2 * a + 1];
         if (turn != held) row[turn - first] = shapes.slope[q][a] / (gyration_ * element.length);
       }
-      stencils_.push_back(std::move(row));
-      stencil_starts_.push_back(first);
+      add_stencil(first, row);
     }
     start += element.length;
   }
+  struck_section_ = nearest_section(struck);
 }
 
 SparseFunctional SpectralMesh::interpolated(double x, std::size_t which) const {
@@ -281,7 +274,7 @@ void SpectralMesh::bending_forces(std::span<const double> moments, std::span<dou
   for (const Element& element : elements_) {
     Values out{};
     for (std::size_t q = 0; q < n_points; ++q) {
-      const double moment = copies_ / gyration_ * gauss<n_points>.weights[q] * *m++;
+      const double moment = copies() / gyration_ * gauss<n_points>.weights[q] * *m++;
       for (std::size_t a = 0; a < n_nodes; ++a) out[2 * a + 1] -= moment * shapes.slope[q][a];
     }
     add(element, out, forces.data());
@@ -295,7 +288,7 @@ void SpectralMesh::add_shear_forces(std::span<const double> unknowns,
     read(element, unknowns.data(), values);
     Values out{};
     for (std::size_t q = 0; q < n_points; ++q) {
-      const double force = copies_ * shear_stiffness_per_length_ * gauss<n_points>.weights[q] *
+      const double force = copies() * shear_stiffness_per_length_ * gauss<n_points>.weights[q] *
                            strain_at(q, element, values);
       const double couple = force * element.length / gyration_;
       for (std::size_t a = 0; a < n_nodes; ++a) {
@@ -317,11 +310,7 @@ double SpectralMesh::shear_energy(std::span<const double> unknowns) const {
       sum += element.length * gauss<n_points>.weights[q] * strain * strain;
     }
   }
-  return 0.5 * copies_ * shear_stiffness_per_length_ * sum;
-}
-
-BeamMesh::SectionStencil SpectralMesh::section_stencil(std::size_t section) const {
-  return {stencil_starts_[section], stencils_[section]};
+  return 0.5 * copies() * shear_stiffness_per_length_ * sum;
 }
 
 // No assembly of elements, and no support, has a higher frequency than its highest element.

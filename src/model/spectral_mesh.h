@@ -38,7 +38,6 @@ class SpectralMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  SectionStencil section_stencil(std::size_t section) const override;
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   /// Polynomials of degree 4 in each element.
@@ -76,10 +75,8 @@ class SpectralMesh final : public BeamMesh {
   std::size_t n_elements_;  // of the whole beam
   std::size_t n_before_;    // the strike
   std::vector<Element> elements_;
-  double copies_, gyration_, mass_per_length_;
-  double shear_stiffness_per_length_;          // kGA, N
-  std::vector<std::vector<double>> stencils_;  // of the sections
-  std::vector<std::size_t> stencil_starts_;
+  double gyration_, mass_per_length_;
+  double shear_stiffness_per_length_;  // kGA, N
 };
 
 }  // namespace subimpact

@@ -114,10 +114,7 @@ void TimoshenkoMesh::assemble_moment() {
 
 void TimoshenkoMesh::assemble_shear() {
   shear_stiffness_ = BandedMatrix(n_unknowns(), 2);
-  struct Term {
-    std::size_t unknown;
-    double coefficient;
-  };
+  using Term = SparseFunctional::Term;
   // Half the square of a shear strain, weighted.
   const auto add = [&](std::initializer_list<Term> strain, double weight) {
     for (const Term& a : strain) {
@@ -231,15 +228,15 @@ void TimoshenkoMesh::place_sections() {
     const bool has_before = node(i) > 0;
     const bool has_after = node(i) + 1 < n_unknowns();
     if (is_mirror) {
-      stencils_.push_back({node(i) - 1, {-2.0 * slope, 0.0, 0.0}, 1});
+      add_stencil(node(i) - 1, std::array{-2.0 * slope});
     } else if (has_before && has_after) {
-      stencils_.push_back({node(i) - 1, {-slope, 0.0, slope}, 3});
+      add_stencil(node(i) - 1, std::array{-slope, 0.0, slope});
     } else if (has_after) {
-      stencils_.push_back({node(i) + 1, {slope, 0.0, 0.0}, 1});
+      add_stencil(node(i) + 1, std::array{slope});
     } else {
-      stencils_.push_back({node(i) - 1, {-slope, 0.0, 0.0}, 1});
+      add_stencil(node(i) - 1, std::array{-slope});
     }
-    if (i == struck) struck_section_ = stencils_.size() - 1;
+    if (i == struck) struck_section_ = n_sections() - 1;
   }
   if (struck < first) struck_section_ = 0;
   if (struck >= end) struck_section_ = n_sections() - 1;
@@ -247,17 +244,15 @@ void TimoshenkoMesh::place_sections() {
 
 void TimoshenkoMesh::curvatures(std::span<const double> unknowns, std::span<double> kappa) const {
   const std::size_t n = n_sections();
-  const bool first_is_between = stencils_.front().n_coefficients == 3;
-  const bool last_is_between = stencils_.back().n_coefficients == 3;
-  const std::size_t begin = first_is_between ? 0 : 1;
-  const std::size_t end = last_is_between ? n : n - 1;
-  const double* before = unknowns.data() + stencils_[begin].first - 2 * begin;
+  const std::size_t begin = section_stencil(0).coefficients.size() == 3 ? 0 : 1;
+  const std::size_t end = section_stencil(n - 1).coefficients.size() == 3 ? n : n - 1;
+  const double* before = unknowns.data() + section_stencil(begin).first - 2 * begin;
   const double* slope = slopes_.data();
   double* k = kappa.data();
   for (std::size_t i = begin; i < end; ++i) k[i] = slope[i] * (before[2 * i + 2] - before[2 * i]);
   for (const std::size_t i : {std::size_t{0}, n - 1}) {
-    const Stencil& row = stencils_[i];
-    if (row.n_coefficients == 1) k[i] = row.coefficients[0] * unknowns[row.first];
+    const auto [first, row] = section_stencil(i);
+    if (row.size() == 1) k[i] = row[0] * unknowns[first];
   }
 }
 
@@ -350,11 +345,6 @@ double TimoshenkoMesh::shear_energy(std::span<const double> unknowns) const {
     sum += face.stiffness * strain * strain;
   }
   return 0.5 * sum;
-}
-
-BeamMesh::SectionStencil TimoshenkoMesh::section_stencil(std::size_t section) const {
-  const Stencil& row = stencils_[section];
-  return {row.first, {row.coefficients.data(), row.n_coefficients}};
 }
 
 double TimoshenkoMesh::highest_frequency(double bending_stiffness) const {

@@ -45,7 +45,6 @@ class TimoshenkoMesh final : public BeamMesh {
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  SectionStencil section_stencil(std::size_t section) const override;
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   /// Straight between nodes; at the face of a free end continued from the two nodes next to it.
@@ -64,7 +63,6 @@ class TimoshenkoMesh final : public BeamMesh {
   };
   std::size_t node(std::size_t cell) const { return n_before_ + 2 * cell; }  // its unknown
   bool has_far_end() const { return !symmetric(); }
-  double copies() const { return symmetric() ? 2.0 : 1.0; }
   double cell_length(std::size_t cell) const;
   void assemble_mass();
   void assemble_shear();
@@ -104,14 +102,7 @@ class TimoshenkoMesh final : public BeamMesh {
   double mass_per_length_;
   double rotary_inertia_;
   double shear_stiffness_per_length_;  // kGA, N
-  // By section: the coefficients of the rotations before and after it.
-  struct Stencil {
-    std::size_t first;
-    std::array<double, 3> coefficients;
-    std::size_t n_coefficients;
-  };
-  std::vector<Stencil> stencils_;
-  std::vector<double> slopes_;  // curvature for a difference of 1 m between unknowns, 1/m2
+  std::vector<double> slopes_;         // curvature for a difference of 1 m between unknowns, 1/m2
 };
 
 }  // namespace subimpact

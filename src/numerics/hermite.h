@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "numerics/bracketed_root.h"
-#include "numerics/trajectory_root.h"
 
 namespace subimpact {
 

@@ -6,10 +6,26 @@
 #include <stdexcept>
 #include <string>
 
+#include "numerics/bracketed_root.h"
 #include "ode/second_order_ode.h"
 #include "subimpact/ode/work_counts.h"
 
 namespace subimpact {
+
+/// Functions of the state whose events an integrator finds by itself (Integrator::root). An event
+/// happens where a value rises through zero; a value that falls through zero, or is exactly zero,
+/// is none.
+class EventFunctions {
+ public:
+  virtual ~EventFunctions() = default;
+
+  /// Number of functions; changes between a step and a restart only.
+  virtual std::size_t size() const = 0;
+  /// Values at y = [q, v], without units, of order one, and numbers of order one with the sign of
+  /// their rates of change. A rate is NaN where it is not known: a value that rises through zero
+  /// and falls back within one step is then missed.
+  virtual void evaluate(std::span<const double> y, std::span<EventValue> values) const = 0;
+};
 
 /// Thrown by an integrator that cannot continue. `what()` is the whole message; its parts are
 /// stored for reports.
@@ -25,6 +41,16 @@ class IntegrationFailure : public std::runtime_error {
   double time;           ///< s, up to which the solution is good
   std::string function;  ///< library function or own routine
   std::string flag;      ///< name of the error
+};
+
+/// One step as the integrator took it, or a part of one: times (s) and states of both ends, which
+/// must outlive this.
+struct StepEnds {
+  double t0, t1;
+  const State& y0;
+  const State& y1;
+  bool event_free = false;  ///< proven to contain no event, whatever its ends suggest
+  double length() const { return t1 - t0; }
 };
 
 /// Integrates q'' = a(q), or a(q, v), over an interval in which a is smooth, with one method.
@@ -77,7 +103,7 @@ class Integrator {
   /// Whether the acceleration that step() computes last is that at state().
   virtual bool ends_at_last_evaluation() const { return false; }
 
-  virtual WorkCounts work() const = 0;
+  virtual WorkCounts work() const { return work_; }
 
  protected:
   /// Before the first step: both ends of the last one.
@@ -94,6 +120,7 @@ class Integrator {
 
   double t0_ = 0.0, t1_ = 0.0;
   State y0_, y1_;
+  WorkCounts work_;  // as far as the method counts them itself
 };
 
 }  // namespace subimpact

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "numerics/trajectory_root.h"
+#include "numerics/bracketed_root.h"
 #include "simulate/audit.h"
 
 namespace subimpact {
@@ -117,7 +117,7 @@ std::optional<EventFunction> EventLocator::event_of_integrator(const StepEnds& w
   if (!root || whole.t1 < integrator_.time()) return std::nullopt;
   end_ = whole.y1;
   y1 = &end_;
-  return EventFunction{event_kinds(beam_.contact().branch())[root->function]};
+  return beam_.contact().event_functions()[root->function];
 }
 
 bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "ode/integrator.h"
-#include "ode/step_ends.h"
 #include "subimpact/simulate/options.h"
 #include "system/contact_events.h"
 #include "system/section_correction.h"

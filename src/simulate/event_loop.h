@@ -6,8 +6,8 @@
 #include "ode/integrator.h"
 #include "simulate/audit.h"
 #include "simulate/event_location.h"
-#include "simulate/loss_quadrature.h"
 #include "simulate/observed_step.h"
+#include "simulate/quadratures.h"
 #include "subimpact/simulate/options.h"
 #include "system/struck_beam.h"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulate/run_parts.h"
+
 namespace subimpact {
 namespace {
 
@@ -15,17 +17,25 @@ constexpr double least_plastic = 1e-9;
 
 }  // namespace
 
-FieldRecorder::FieldRecorder(const StruckBeam& beam, const FieldOptions& options, Result& result)
-    : beam_(beam),
-      options_(options),
+FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& rows)
+    : beam_(parts.beam),
+      material_(parts.problem.beam),
+      end_time_(parts.given.end_time),
+      shape_interval_(parts.settings.shape_interval),
       result_(result),
-      field_(beam, options.length, options.shape_interval > 0.0 ? options.most_points : 0),
+      rows_(rows),
+      field_(beam_, material_.length,
+             shape_interval_ > 0.0 ? static_cast<std::size_t>(parts.given.output.shape_points) : 0),
       envelope_(field_.size()) {
-  const BeamMesh& mesh = beam.mesh();
-  if (options.reactions) reactions_.emplace(beam, options.length, options.struck_at);
-  if (reactions_ && !reactions_->exist()) reactions_.reset();
-  for (const double x : options.points) {
-    const double within = mesh.symmetric() ? std::min(x, options.length - x) : x;
+  const BeamMesh& mesh = beam_.mesh();
+  const double length = material_.length;
+  if (parts.given.output.interval > 0.0) {  // history rows hold reactions
+    reactions_.emplace(beam_, length, parts.problem.striker.position * length);
+    if (!reactions_->exist()) reactions_.reset();
+  }
+  for (const double fraction : parts.given.output.points) {
+    const double x = fraction * length;
+    const double within = mesh.symmetric() ? std::min(x, length - x) : x;
     points_.push_back({x, *mesh.displacement_at(within)});
   }
   for (std::size_t i = 0; i < field_.size(); ++i) envelope_[i].position = field_.position(i);
@@ -33,7 +43,7 @@ FieldRecorder::FieldRecorder(const StruckBeam& beam, const FieldOptions& options
 
 double FieldRecorder::next_shape() const {
   if (!has_shapes()) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(next_shape_) * options_.shape_interval;
+  return static_cast<double>(next_shape_) * shape_interval_;
 }
 
 void FieldRecorder::add_shape(double time, const State& y, Accounts& accounts) {
@@ -52,45 +62,30 @@ void FieldRecorder::add_shape(double time, const State& y, Accounts& accounts) {
 
 void FieldRecorder::add_row(double time, double position, double sense, std::size_t station,
                             const State& y) {
-  const ShapeRow row{time,
-                     position,
-                     field_.displacement(station),
-                     field_.velocity(station, y),
-                     sense * field_.rotation(station, y),
-                     field_.curvature(station),
-                     field_.moment(station),
-                     field_.plastic_curvature(station)};
   ++result_.n_shape_rows;
-  if (rows_ != nullptr) {
-    rows_->add(row);
-  } else {
-    result_.shapes.push_back(row);
-  }
+  rows_.add(ShapeRow{time, position, field_.displacement(station), field_.velocity(station, y),
+                     sense * field_.rotation(station, y), field_.curvature(station),
+                     field_.moment(station), field_.plastic_curvature(station)});
 }
 
 void FieldRecorder::follow(double time, const State& y, Accounts& accounts) {
   add_points(time, y);
   if (!has_shapes()) return;
-  if (time - last_followed_time_ < options_.end_time / most_followed) return;
+  if (time - last_followed_time_ < end_time_ / most_followed) return;
   field_.read(y, accounts);
   widen_envelope(time);
 }
 
 void FieldRecorder::add_points(double time, const State& y) {
   for (const Point& point : points_) {
-    const PointRow row{time, point.position, point.displacement(beam_.beam_positions(y)),
-                       point.displacement(beam_.beam_velocities(y))};
-    if (rows_ != nullptr) {
-      rows_->add(row);
-    } else {
-      result_.point_history.push_back(row);
-    }
+    rows_.add(PointRow{time, point.position, point.displacement(beam_.beam_positions(y)),
+                       point.displacement(beam_.beam_velocities(y))});
   }
 }
 
 void FieldRecorder::widen_envelope(double time) {
   last_followed_time_ = time;
-  const double outer = 0.5 * options_.thickness;
+  const double outer = 0.5 * material_.thickness;
   for (std::size_t i = 0; i < field_.size(); ++i) {
     EnvelopeRow& here = envelope_[i];
     here.displacement.include(field_.displacement(i), time);
@@ -127,12 +122,14 @@ void FieldRecorder::add_rest(const State& y, Accounts& accounts) {
   for (std::size_t i = 0; i < plastic.size(); ++i) {
     plastic[i] = bending.curvatures[i] - bending.moments[i] / beam_.sections().stiffness();
   }
-  const PermanentSet set(beam_.mesh(), options_.length, options_.shear_flexibility, plastic);
+  const double shear_flexibility =
+      material_.shears() ? material_.bending_stiffness() / material_.shear_stiffness() : 0.0;
+  const PermanentSet set(beam_.mesh(), material_.length, shear_flexibility, plastic);
   for (std::size_t i = 0; i < field_.size(); ++i) {
     envelope_[i].permanent_set = set.at(field_.position(i));
   }
-  result_.plastic_zones = plastic_zones(beam_.mesh(), options_.length, plastic,
-                                        least_plastic * options_.yield_curvature);
+  result_.plastic_zones = plastic_zones(beam_.mesh(), material_.length, plastic,
+                                        least_plastic * material_.yield_curvature());
 }
 
 }  // namespace subimpact

@@ -10,33 +10,18 @@
 
 namespace subimpact {
 
-/// Which fields along the beam a run keeps.
-struct FieldOptions {
-  double shape_interval = 0.0;     ///< s; 0: no shapes, no envelope
-  std::size_t most_points = 0;     ///< of a shape
-  std::vector<double> points;      ///< x of those whose motion is kept, m
-  bool reactions = false;          ///< whether there are history rows, which hold them
-  double end_time = 0.0;           ///< s
-  double length = 0.0;             ///< m
-  double thickness = 0.0;          ///< m
-  double struck_at = 0.0;          ///< m
-  double shear_flexibility = 0.0;  ///< E I/(k G A), m2; 0: sections do not shear
-  double yield_curvature = 0.0;    ///< 1/m; infinite: no plastic zones
-};
+struct RunParts;
 
 /// Records shapes, envelope, permanent set, plastic zones, support reactions and the motion of
 /// points. Shapes are of regular instants and of the events of the contact. The envelope follows
 /// the history rows, some 4000 of them at most, and all shapes.
 class FieldRecorder {
  public:
-  /// `beam` and `result` must outlive this.
-  FieldRecorder(const StruckBeam& beam, const FieldOptions& options, Result& result);
+  /// `rows` takes the rows. All must outlive this.
+  FieldRecorder(const RunParts& parts, Result& result, RowSink& rows);
 
   /// Whether there is anything to record.
   bool is_needed() const { return has_shapes() || !points_.empty() || reactions_; }
-
-  /// Rows go to `rows` in place of the result.
-  void send_rows_to(RowSink& rows) { rows_ = &rows; }
 
   /// Of the next shape, s; infinite: none.
   double next_shape() const;
@@ -51,7 +36,7 @@ class FieldRecorder {
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
 
  private:
-  bool has_shapes() const { return field_.size() > 0 && options_.shape_interval > 0.0; }
+  bool has_shapes() const { return field_.size() > 0 && shape_interval_ > 0.0; }
   void add_points(double time, const State& y);
   // The field must have been read.
   void widen_envelope(double time);
@@ -64,9 +49,11 @@ class FieldRecorder {
   };
 
   const StruckBeam& beam_;
-  FieldOptions options_;
+  const Beam& material_;
+  double end_time_;        // s
+  double shape_interval_;  // s
   Result& result_;
-  RowSink* rows_ = nullptr;
+  RowSink& rows_;
   BeamField field_;
   std::optional<SupportReactions> reactions_;  // of a beam with supports
   std::vector<Point> points_;

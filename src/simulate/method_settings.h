@@ -3,10 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "subimpact/model/scene.h"
-#include "subimpact/simulate/options.h"
-#include "subimpact/simulate/result.h"
 #include "subimpact/simulate/simulate.h"
+#include "system/struck_beam.h"
 
 namespace subimpact {
 
@@ -33,5 +31,19 @@ void check_contact_damping(const Problem& problem, const Options& options,
                            const ResolvedSettings& used);
 
 void check_beam_damping(const BeamDamping& damping, const Options& options, bool can_yield);
+
+/// Whether an elastic beam on this mesh is integrated in its natural modes, which a damping ratio
+/// needs. Explicit methods see the same motion in either unknowns, but a step in modes needs no
+/// mass solve.
+bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& damping);
+
+/// Whether resolve() has left a beam in the unknowns of its mesh that is to run in modes.
+bool modes_are_left_out(const Options& options, const StruckBeam& beam);
+
+/// The work of finding the modes that a run needs, in entries of right-hand sides.
+double decomposition_of(const Options& options, const StruckBeam& beam);
+
+/// What a run takes at most, in bytes; history goes to the disk.
+double memory_of(const Options& options, const StruckBeam& beam);
 
 }  // namespace subimpact

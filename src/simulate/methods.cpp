@@ -3,15 +3,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "integrate/arkode_ark.h"
-#include "integrate/arkode_erk.h"
 #include "integrate/central_difference.h"
-#include "integrate/cvode.h"
 #include "integrate/exponential.h"
 #include "integrate/nystrom.h"
-#include "integrate/nystrom_tables.h"
+#include "integrate/sundials.h"
 #include "system/free_flight.h"
-#include "system/modal_beam.h"
+#include "system/struck_beam.h"
 
 namespace subimpact {
 namespace {

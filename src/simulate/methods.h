@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "integrate/coefficient_table.h"
 #include "integrate/options.h"
 #include "ode/integrator.h"
 #include "subimpact/simulate/method_tables.h"

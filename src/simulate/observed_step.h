@@ -1,7 +1,6 @@
 #pragma once
 
 #include "ode/integrator.h"
-#include "ode/step_ends.h"
 #include "system/contact_events.h"
 #include "system/section_correction.h"
 

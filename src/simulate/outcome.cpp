@@ -10,23 +10,32 @@ std::string Result::brief_report() const {
 }
 
 std::string_view to_string(OutcomeKind kind) {
-  switch (kind) {
-    case OutcomeKind::completed:
-      return "completed";
-    case OutcomeKind::stopped:
-      return "stopped";
-    case OutcomeKind::inaccurate:
-      return "inaccurate";
-    case OutcomeKind::unstable:
-      return "unstable";
-    case OutcomeKind::chattering:
-      return "chattering";
-    case OutcomeKind::solver_failed:
-      return "solver-failed";
-    case OutcomeKind::left_validity:
-      return "left-validity";
+  static constexpr std::string_view names[] = {"completed",    "stopped",    "inaccurate",
+                                               "unstable",     "chattering", "solver-failed",
+                                               "left-validity"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(NearMissKind kind) {
+  return kind == NearMissKind::opening ? "opening" : "closing";
+}
+
+void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap) {
+  int zone = 0;
+  int subzone = 0;
+  const SubImpact* previous = nullptr;
+  for (SubImpact& here : sub_impacts) {
+    const double gap = previous && previous->end ? here.start - *previous->end : 0.0;
+    if (!previous || gap >= zone_gap) {
+      ++zone;
+      subzone = 1;
+    } else if (gap >= subzone_gap) {
+      ++subzone;
+    }
+    here.zone = zone;
+    here.subzone = subzone;
+    previous = &here;
   }
-  return "unknown";
 }
 
 }  // namespace subimpact

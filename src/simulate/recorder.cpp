@@ -7,8 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "numerics/bracketed_root.h"
 #include "numerics/hermite.h"
-#include "numerics/trajectory_root.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -33,16 +34,33 @@ double maximum_in(const Function& f, double low, double high) {
 // end.
 constexpr double tolerated_rounding = 64.0;
 
+// Places at which the largest rotation is looked for, both ends of the part modelled among them.
+constexpr int n_rotations = 17;
+
 constexpr double never = std::numeric_limits<double>::infinity();
 
 // Rows and shapes nearer than this, relative to the time, are of one instant.
 constexpr double same_instant = 1e-12;
 
+// The sections nearest to the given positions; in a half model their mirror images stand for those
+// of the other half.
+std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
+                                     const BeamMesh& mesh) {
+  std::vector<std::size_t> sections;
+  for (const double fraction : fractions) {
+    const double x = length * (mesh.symmetric() ? std::min(fraction, 1.0 - fraction) : fraction);
+    sections.push_back(mesh.nearest_section(x));
+  }
+  return sections;
+}
+
 }  // namespace
 
 Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
-                   Result& result)
+                   Result& result, RowSink* rows)
     : result_(result),
+      kept_rows_(result),
+      rows_(rows != nullptr ? *rows : kept_rows_),
       interval_(interval),
       events_(events),
       audit_(audit),
@@ -61,15 +79,16 @@ void Recorder::on_approach(double end, StruckBeam& beam) {
   }
 }
 
-void Recorder::keep_fields(const FieldOptions& options) {
-  deformation_.emplace(accounts_.beam(), options.length);
-  auto fields = std::make_unique<FieldRecorder>(accounts_.beam(), options, result_);
+void Recorder::keep_fields(const RunParts& parts) {
+  const double length = parts.problem.beam.length;
+  sections_ = sections_at(parts.given.output.sections, length, parts.beam.mesh());
+  const double end = parts.beam.mesh().symmetric() ? 0.5 * length : length;
+  for (int i = 0; i < n_rotations; ++i) {
+    const auto rotation = parts.beam.mesh().rotation_at(end * i / (n_rotations - 1));
+    if (rotation) rotations_.push_back(*rotation);
+  }
+  auto fields = std::make_unique<FieldRecorder>(parts, result_, rows_);
   if (fields->is_needed()) fields_ = std::move(fields);
-}
-
-void Recorder::send_rows_to(RowSink& rows) {
-  rows_ = &rows;
-  if (fields_) fields_->send_rows_to(rows);
 }
 
 void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
@@ -130,6 +149,16 @@ void Recorder::add_rows(double time, bool row, bool shape, const State& y, Accou
 }
 
 void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {
+  check_push(time, y, beam);
+  if (observer_ != nullptr) observer_->on_step({time, y, beam});
+}
+
+void Recorder::on_reversal(const Transition& reversal) {
+  result_.transitions.push_back(reversal);
+  if (observer_ != nullptr) observer_->on_reversal(reversal);
+}
+
+void Recorder::check_push(double time, const State& y, const StruckBeam& beam) {
   if (!in_contact_ || steps_in_contact_.back() == 0) return;
   const double force = beam.contact_force(y);
   if (force >= 0.0) return;
@@ -220,11 +249,12 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
   } else if (event.kind == EventKind::contact_unloads) {
     follow_peak(beam.indentation(y), beam);
   }
+  if (observer_ != nullptr) observer_->before_event(event, {event.time, y, beam});
 }
 
 void Recorder::after_event(const Transition& event, const State& y, StruckBeam& beam) {
   if (event.kind == EventKind::contact_ends) {
-    if (deformation_) deformation_->include(y);
+    follow_deformation(y);
     SubImpact& ended = result_.sub_impacts.back();
     ended.end = event.time;
     ended.end_rate = beam.indentation_rate(y);
@@ -242,6 +272,19 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
     result_.first_contact_yield = event.time;
   }
   add_event_row(event, y);
+  if (observer_ != nullptr) observer_->after_event(event, {event.time, y, beam});
+}
+
+void Recorder::follow_deformation(const State& y) {
+  const auto unknowns = accounts_.beam().beam_positions(y);
+  for (const SparseFunctional& rotation : rotations_) {
+    result_.largest_rotation = std::max(result_.largest_rotation, std::abs(rotation(unknowns)));
+  }
+  follow_displacement(accounts_.beam().mesh().struck_point()(unknowns));
+}
+
+void Recorder::follow_displacement(double of_struck_point) {
+  result_.largest_displacement = std::max(result_.largest_displacement, std::abs(of_struck_point));
 }
 
 void Recorder::begin(NearMissKind kind, const StruckBeam& beam) {
@@ -271,11 +314,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     add_row(time, y, accounts_);
   }
   if (fields_) fields_->finish(time, y, accounts_, is_good);
-  if (deformation_) {
-    deformation_->include(y);
-    result_.largest_rotation = deformation_->largest_rotation();
-    result_.largest_displacement = deformation_->largest_displacement();
-  }
+  follow_deformation(y);
   if (in_contact_) close_sub_impact(y, beam);
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
@@ -302,11 +341,7 @@ void Recorder::add_row(double time, const State& y, Accounts& accounts) {
 void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
   ++result_.n_history_rows;
   last_row_time_ = row.time;
-  if (rows_ != nullptr) {
-    rows_->add(row);
-  } else {
-    result_.history.push_back(row);
-  }
+  rows_.add(row);
   add_section_rows(row.time, y, accounts);
   if (fields_) fields_->follow(row.time, y, accounts);
 }
@@ -332,13 +367,8 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
   for (const std::size_t section : sections_) {
     const double kappa = bending.curvatures[section];
     const double moment = bending.moments[section];
-    const SectionRow row{time, beam.mesh().section_positions()[section], kappa, moment,
-                         kappa - moment / beam.sections().stiffness()};
-    if (rows_ != nullptr) {
-      rows_->add(row);
-    } else {
-      result_.section_history.push_back(row);
-    }
+    rows_.add(SectionRow{time, beam.mesh().section_positions()[section], kappa, moment,
+                         kappa - moment / beam.sections().stiffness()});
   }
 }
 
@@ -346,7 +376,7 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   const Energies energies = accounts.energies(y);
   audit_.check(time, y, energies);
   const Accounts::Displacements at = accounts.displacements(y);
-  if (deformation_) deformation_->include_displacement(at.struck);
+  follow_displacement(at.struck);
   const StruckBeam& beam = accounts.beam();
   HistoryRow row{};
   row.time = time;

@@ -5,35 +5,46 @@
 
 #include "simulate/event_loop.h"
 #include "simulate/field_recorder.h"
-#include "simulate/force_quadrature.h"
 #include "simulate/near_miss_search.h"
+#include "simulate/quadratures.h"
+#include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
-#include "system/deformation.h"
 
 namespace subimpact {
+
+/// Takes the rows of a run into its result.
+class KeptRows final : public RowSink {
+ public:
+  explicit KeptRows(Result& result) : result_(result) {}
+  void add(const HistoryRow& row) override { result_.history.push_back(row); }
+  void add(const SectionRow& row) override { result_.section_history.push_back(row); }
+  void add(const PointRow& row) override { result_.point_history.push_back(row); }
+  void add(const ShapeRow& row) override { result_.shapes.push_back(row); }
+
+ private:
+  Result& result_;
+};
 
 /// Records sub-impacts, near misses, transitions and history rows of a run.
 class Recorder final : public RunObserver {
  public:
   /// `interval` in s between history rows, 0 for none. `audit` checks rows and impulses before they
-  /// are stored.
+  /// are stored. `rows`, if any, takes the rows in place of the result.
   Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
-           Result& result);
+           Result& result, RowSink* rows = nullptr);
 
-  /// Keeps the bending of these sections (indices) too, at every history row.
-  void keep_sections(std::vector<std::size_t> sections) { sections_ = std::move(sections); }
+  /// Keeps the fields along the beam and the bending of single sections, as far as they are asked
+  /// for.
+  void keep_fields(const RunParts& parts);
 
-  /// Keeps the fields along the beam, as far as they are asked for.
-  void keep_fields(const FieldOptions& options);
-
-  /// Rows go to `rows` in place of the result.
-  void send_rows_to(RowSink& rows);
+  /// Shows the run to a user's observer, after it has been recorded.
+  void show(Observer& observer) { observer_ = &observer; }
 
   void on_approach(double end, StruckBeam& beam) override;
   void on_step(const ObservedStep& step, StruckBeam& beam) override;
   /// Checks that the contact force is compressive wherever the indentation is positive.
   void on_accepted(double time, const State& y, StruckBeam& beam) override;
-  void on_reversal(const Transition& reversal) override { result_.transitions.push_back(reversal); }
+  void on_reversal(const Transition& reversal) override;
   void before_event(const Transition& event, const State& y, StruckBeam& beam) override;
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
 
@@ -49,6 +60,9 @@ class Recorder final : public RunObserver {
  private:
   // A contact (opening) or a separation (closing) begins, and what was before it ends.
   void begin(NearMissKind kind, const StruckBeam& beam);
+  // How far the beam leaves its straight shape, at separations, rows and the end.
+  void follow_deformation(const State& y);
+  void follow_displacement(double of_struck_point);
   void close_sub_impact(const State& y, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   // A history row, a shape, or both.
@@ -64,6 +78,7 @@ class Recorder final : public RunObserver {
   // Contact only pushes: a force below zero by no more than the tolerance is none.
   void check_push(HistoryRow& row) const;
   void check_push(double time, double force) const;
+  void check_push(double time, const State& y, const StruckBeam& beam);
   void add_event_row(const Transition& event, const State& y);
   // `accounts`: of the histories that hold at y.
   void add_row(double time, const State& y, Accounts& accounts);
@@ -72,7 +87,9 @@ class Recorder final : public RunObserver {
   void add_section_rows(double time, const State& y, Accounts& accounts);
 
   Result& result_;
-  RowSink* rows_ = nullptr;  // none: the result keeps the rows
+  KeptRows kept_rows_;
+  RowSink& rows_;
+  Observer* observer_ = nullptr;
   double interval_;
   EventHandling events_;
   Audit& audit_;
@@ -88,10 +105,10 @@ class Recorder final : public RunObserver {
   double velocity_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N
   State state_;
-  SectionCorrection correction_;  // of a state within a step
-  std::vector<std::size_t> sections_;
-  std::unique_ptr<FieldRecorder> fields_;   // none: no field is kept
-  std::optional<Deformation> deformation_;  // seen at separations, at rows and at the end
+  SectionCorrection correction_;           // of a state within a step
+  std::vector<std::size_t> sections_;      // whose bending is kept
+  std::unique_ptr<FieldRecorder> fields_;  // none: no field is kept
+  std::vector<SparseFunctional> rotations_;
   std::vector<long> steps_in_contact_;
 };
 

@@ -5,17 +5,15 @@
 #include <cmath>
 #include <utility>
 
-#include "integrate/klu_mass_solver.h"
+#include "integrate/sundials.h"
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
 #include "numerics/mass_solver.h"
 #include "simulate/method_settings.h"
 #include "simulate/methods.h"
-#include "simulate/modal_choice.h"
-#include "simulate/run_options.h"
 #include "simulate/run_parts.h"
 #include "system/beam_field.h"
-#include "system/contact_event_functions.h"
+#include "system/contact_events.h"
 #include "system/contact_resonance.h"
 
 namespace subimpact {
@@ -54,12 +52,12 @@ double energy_tolerance(const Options& options, const ResolvedSettings& used) {
                     most_tolerated_energy);
 }
 
-SectionField make_sections(const Problem& problem, SectionField::Storage storage) {
+SectionField make_sections(const Problem& problem) {
   const Beam& beam = problem.beam;
   const auto& section = problem.section;
   const std::size_t n = problem.mesh->n_sections();
   if (problem.may_yield && std::isfinite(beam.yield_stress)) {
-    return SectionField(n, SectionLaw(beam, section.value_or(Fibres::continuous())), storage);
+    return SectionField(n, SectionLaw(beam, section.value_or(Fibres::continuous())));
   }
   return SectionField(n, (section ? section->slope() : 1.0) * beam.bending_stiffness());
 }
@@ -163,8 +161,8 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.energy_tolerance = energy_tolerance(options, used);
   used.shape_interval = shape_interval(options, beam.mesh());
   if (used.shape_interval > 0.0) {
-    used.n_shape_points =
-        BeamField(beam, problem.beam.length, most_shape_points(options)).whole_size();
+    const auto most = static_cast<std::size_t>(options.output.shape_points);
+    used.n_shape_points = BeamField(beam, problem.beam.length, most).whole_size();
   }
   used.memory = memory_of(options, beam);
   used.decomposition = decomposition_of(options, beam);
@@ -191,9 +189,9 @@ std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Optio
 }  // namespace
 
 StruckBeam make_struck_beam(const Problem& problem, const Options& options,
-                            SectionField::Storage storage, Coordinates coordinates) {
+                            Coordinates coordinates) {
   std::shared_ptr<const BeamMesh> mesh = problem.mesh;
-  SectionField sections = make_sections(problem, storage);
+  SectionField sections = make_sections(problem);
   if (coordinates == Coordinates::chosen && !sections.can_yield() &&
       in_modes(options, *mesh, problem.beam.damping)) {
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
@@ -208,10 +206,8 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
 RunParts::RunParts(const Problem& of, const Options& options, StruckBeam struck_beam)
     : problem(of),
       given(options),
-      check_contact_law(problem.check_contact_law),
       beam(std::move(struck_beam)),
-      settings(settings_of(problem, options, beam)),
-      run(run_options(problem, options, settings, beam.mesh())) {}
+      settings(settings_of(problem, options, beam)) {}
 
 void RunParts::complete() {
   if (modes_are_left_out(given, beam)) beam = make_struck_beam(problem, given);
@@ -245,8 +241,8 @@ ResolvedRun resolve(const Problem& problem, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   check(problem, options);
   const bool few = problem.mesh->n_unknowns() <= most_modes_before_run;
-  StruckBeam beam = make_struck_beam(problem, options, SectionField::Storage::when_yielded,
-                                     few ? Coordinates::chosen : Coordinates::of_mesh);
+  StruckBeam beam =
+      make_struck_beam(problem, options, few ? Coordinates::chosen : Coordinates::of_mesh);
   ResolvedRun run(std::make_unique<RunParts>(problem, options, std::move(beam)));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   run.parts().setup_seconds = taken.count();

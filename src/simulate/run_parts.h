@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ode/integrator.h"
-#include "simulate/run.h"
+#include "simulate/event_loop.h"
 #include "subimpact/simulate/simulate.h"
 #include "system/struck_beam.h"
 
@@ -18,10 +18,8 @@ enum class Coordinates {
   of_mesh  ///< the mesh's own
 };
 
-/// The struck beam of a problem. `storage` is for comparisons of lazily and eagerly stored
-/// sections.
+/// The struck beam of a problem.
 StruckBeam make_struck_beam(const Problem& problem, const Options& options,
-                            SectionField::Storage storage = SectionField::Storage::when_yielded,
                             Coordinates coordinates = Coordinates::chosen);
 
 /// What a run is made of.
@@ -37,14 +35,20 @@ struct RunParts {
 
   Problem problem;
   Options given;
-  bool check_contact_law;
   StruckBeam beam;
   ResolvedSettings settings;
-  RunOptions run;
   std::vector<std::string> warnings;  ///< for the result, before those of the run
   /// Those that follow from the result, after those of the run; may be empty.
   std::function<std::vector<std::string>(const Result&)> warnings_of_result;
   double setup_seconds = 0.0;
 };
+
+/// What the loop over steps needs of them.
+LoopOptions loop_options(const RunParts& parts);
+
+/// Runs the parts with an integrator: the lower half of simulate(ResolvedRun). Result::given and
+/// Result::used stay empty; messages of failures name no remedy.
+Result simulate(RunParts& parts, Integrator& integrator, const Progress& progress = {},
+                Observer* observer = nullptr, RowSink* rows = nullptr);
 
 }  // namespace subimpact

@@ -87,8 +87,7 @@ StruckBeam held_together(const Case& input, double stiffness) {
   trial.scene.contact.kind = ContactKind::linear;
   trial.scene.contact.stiffness = stiffness;
   trial.scene.striker.nose_radius.reset();
-  StruckBeam beam = make_struck_beam(problem_of(trial), trial, SectionField::Storage::when_yielded,
-                                     Coordinates::of_mesh);
+  StruckBeam beam = make_struck_beam(problem_of(trial), trial, Coordinates::of_mesh);
   beam.contact().set(ContactBranch::elastic, {});
   return beam;
 }

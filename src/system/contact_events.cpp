@@ -1,6 +1,7 @@
 #include "system/contact_events.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "numerics/hermite.h"
 
@@ -103,6 +104,24 @@ std::vector<InterpolatedEvent> interpolate_events(const ContactState& contact,
   std::stable_sort(events.begin(), events.end(),
                    [](const auto& a, const auto& b) { return a.time < b.time; });
   return events;
+}
+
+void ContactEventFunctions::evaluate(std::span<const double> y,
+                                     std::span<EventValue> values) const {
+  const ContactState& contact = beam_.contact();
+  const double lambda = beam_.indentation(y);
+  const double rate = beam_.indentation_rate(y);
+  const auto [position, velocity] = beam_.scales();
+  auto result = values.begin();
+  for (const EventFunction& function : contact.event_functions()) {
+    const EventValue at = contact.event_function(function, lambda, rate);
+    if (function.kind == EventKind::contact_unloads) {  // its rate would need the acceleration
+      *result++ = {at.value / velocity, std::numeric_limits<double>::quiet_NaN()};
+    } else {
+      *result++ = {(at.value - beam_.displacement_rounding(y)) / position,
+                   double_roots_ ? at.rate / velocity : std::numeric_limits<double>::quiet_NaN()};
+    }
+  }
 }
 
 }  // namespace subimpact

@@ -4,19 +4,10 @@
 
 namespace subimpact {
 
-std::span<const EventKind> event_kinds(ContactBranch branch) {
-  static constexpr EventKind separated[] = {EventKind::contact_begins};
-  static constexpr EventKind elastic[] = {EventKind::contact_ends, EventKind::contact_yields};
-  static constexpr EventKind plastic[] = {EventKind::contact_unloads};
-  switch (branch) {
-    case ContactBranch::separated:
-      return separated;
-    case ContactBranch::elastic:
-      return elastic;
-    case ContactBranch::plastic:
-      return plastic;
-  }
-  return {};
+std::string_view to_string(EventKind kind) {
+  static constexpr std::string_view names[] = {
+      "contact_begins", "contact_yields", "contact_unloads", "contact_ends", "section_reverses"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 std::span<const EventFunction> ContactState::event_functions() const {

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "numerics/trajectory_root.h"
+#include "numerics/bracketed_root.h"
 #include "subimpact/model/contact_law.h"
 #include "subimpact/system/events.h"
 
@@ -28,9 +28,6 @@ struct EventFunction {
     return a.kind == b.kind && a.by_rate == b.by_rate;
   }
 };
-
-/// The events that end a branch.
-std::span<const EventKind> event_kinds(ContactBranch branch);
 
 /// The contact between striker and beam in one run: the law, the branch in force and the history.
 /// Force and event functions depend on the indentation lambda (m) and its rate (m/s) alone.

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "ode/step_ends.h"
+#include "ode/integrator.h"
 #include "system/section_events.h"
 
 namespace subimpact {

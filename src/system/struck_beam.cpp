@@ -166,9 +166,7 @@ void StruckBeam::force(std::span<const double> y, Part part, std::span<double> r
   }
   result[n_] = 0.0;
   if (part == Part::stiff) return;
-  const double lambda = y[n_] - mesh_->struck_point()(unknowns);
-  const double contact =
-      contact_.is_damped() ? contact_.force(lambda, indentation_rate(y)) : contact_.force(lambda);
+  const double contact = contact_force(y);
   mesh_->struck_point().add_to(forces, contact);
   result[n_] = -contact;
 }
@@ -259,6 +257,26 @@ bool StruckBeam::commit_evaluated(const State& y) {
 BeamJacobian& StruckBeam::jacobian() const {
   if (!jacobian_) jacobian_ = std::make_unique<BeamJacobian>(*mesh_, striker_mass_);
   return *jacobian_;
+}
+
+ModalBeam::ModalBeam(const StruckBeam& beam) : beam_(beam) {
+  const auto& mesh = dynamic_cast<const ModalMesh&>(beam.mesh());
+  frequencies_.assign(mesh.frequencies().begin(), mesh.frequencies().end());
+  for (const SparseFunctional::Term& term : mesh.struck_point().terms) {
+    loads_.push_back(term.coefficient / mesh.mass().at(term.unknown, term.unknown));
+    displacements_.push_back(-term.coefficient);
+  }
+  if (!beam.damping().is_none()) {
+    for (const double damping : beam.modal_damping()) decay_rates_.push_back(0.5 * damping);
+    decay_rates_.push_back(0.0);  // the striker
+  }
+  frequencies_.push_back(0.0);
+  loads_.push_back(-1.0 / beam.striker_mass());
+  displacements_.push_back(1.0);
+}
+
+ForcedOscillators::Force ModalBeam::force(double lambda) const {
+  return {beam_.contact().force(lambda), beam_.contact().slope(lambda)};
 }
 
 }  // namespace subimpact

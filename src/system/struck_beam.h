@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "model/modal_mesh.h"
 #include "model/section_field.h"
 #include "numerics/mass_solver.h"
-#include "ode/second_order_ode.h"
+#include "ode/forced_oscillators.h"
 #include "subimpact/model/beam_mesh.h"
 #include "subimpact/model/scene.h"
 #include "system/beam_jacobian.h"
@@ -94,7 +95,7 @@ class StruckBeam final : public MechanicalSystem {
   }
   double indentation(std::span<const double> y) const;       ///< lambda, m
   double indentation_rate(std::span<const double> y) const;  ///< m/s
-  double contact_force(const State& y) const {
+  double contact_force(std::span<const double> y) const {
     return contact_.is_damped() ? contact_.force(indentation(y), indentation_rate(y))
                                 : contact_.force(indentation(y));
   }
@@ -171,6 +172,27 @@ class StruckBeam final : public MechanicalSystem {
   std::vector<SectionField::Outside> outside_;  // at the last evaluation
   std::vector<double> trial_;                   // accelerations
   SectionMotion committed_;
+};
+
+/// A struck beam on a modal mesh, as oscillators driven by the contact force; the striker is
+/// the last of them. Only while no section flows.
+class ModalBeam final : public ForcedOscillators {
+ public:
+  /// `beam`'s mesh must be a ModalMesh (std::bad_cast otherwise); both must outlive this.
+  explicit ModalBeam(const StruckBeam& beam);
+
+  std::span<const double> frequencies() const override { return frequencies_; }
+  std::span<const double> decay_rates() const override { return decay_rates_; }
+  std::span<const double> loads() const override { return loads_; }
+  std::span<const double> displacements() const override { return displacements_; }
+  Force force(double lambda) const override;
+  bool is_free() const override { return !beam_.contact().is_closed(); }
+  double critical_displacement() const override { return beam_.contact().residual_indentation(); }
+  SecondOrderOde::Scales scales() const override { return beam_.scales(); }
+
+ private:
+  const StruckBeam& beam_;
+  std::vector<double> frequencies_, decay_rates_, loads_, displacements_;
 };
 
 }  // namespace subimpact

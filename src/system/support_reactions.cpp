@@ -1,5 +1,7 @@
 #include "system/support_reactions.h"
 
+#include <numeric>
+
 #include "system/beam_field.h"
 
 namespace subimpact {
@@ -93,10 +95,8 @@ void SupportReactions::add_damping(Eliminated& to) const {
 
 double SupportReactions::value(const Eliminated& of, const State& y,
                                std::span<const double> moments) const {
-  const auto sum = [](std::span<const double> coefficients, std::span<const double> values) {
-    double result = 0.0;
-    for (std::size_t i = 0; i < coefficients.size(); ++i) result += coefficients[i] * values[i];
-    return result;
+  const auto sum = [](const std::vector<double>& coefficients, std::span<const double> values) {
+    return std::inner_product(coefficients.begin(), coefficients.end(), values.begin(), 0.0);
   };
   double value = beam_.contact_force(y) * of.of_force;
   value += sum(of.of_moments, moments);

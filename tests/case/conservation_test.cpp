@@ -51,7 +51,7 @@ Conserved followed(const Case& input) {
   const auto integrator = run.parts().make_integrator();
   Conserved conserved(beam, beam.initial_state());
   Audit accounts(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, conserved, accounts, run.parts().run.loop);
+  EventLoop loop(beam, *integrator, conserved, accounts, loop_options(run.parts()));
   loop.start();
   while (!loop.finished()) loop.advance();
   printf("%ld steps: energy %.1e, momentum %.1e, dissipation falls by %.1e J at most\n",

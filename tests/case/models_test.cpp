@@ -2,11 +2,7 @@
 
 #include <cmath>
 
-#include "case/problem.h"
 #include "paper_case.h"
-#include "simulate/event_loop.h"
-#include "simulate/recorder.h"
-#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -47,33 +43,6 @@ TEST_P(HalfAndWholeModel, GiveTheSameEvents) {
 INSTANTIATE_TEST_SUITE_P(, HalfAndWholeModel,
                          testing::Values(SectionKind::elastic, SectionKind::exact,
                                          SectionKind::layers),
-                         NamedAsPrinted{});
-
-State final_state(const Case& input, SectionField::Storage storage) {
-  const Problem problem = problem_of(input);
-  RunParts run(problem, input, make_struck_beam(problem, input, storage));
-  StruckBeam& beam = run.beam;
-  const ResolvedSettings& used = run.settings;
-  const auto integrator = run.make_integrator();
-  Result result;
-  Audit audit(beam, beam.initial_state());
-  Recorder recorder(beam, 0.0, used.events, audit, result);
-  EventLoop loop(beam, *integrator, recorder, audit, {input.end_time, used.events, 1e-10, 1.0});
-  loop.start();
-  while (!loop.finished()) loop.advance();
-  return loop.state();
-}
-
-class StoredSections : public testing::TestWithParam<SectionKind> {};
-
-TEST_P(StoredSections, LazilyOrEagerlyGiveIdenticalBits) {
-  const Case input = paper_case(GetParam(), 0.4e-3);
-  const State lazy = final_state(input, SectionField::Storage::when_yielded);
-  const State eager = final_state(input, SectionField::Storage::always);
-  EXPECT_EQ(lazy, eager);
-}
-
-INSTANTIATE_TEST_SUITE_P(, StoredSections, testing::Values(SectionKind::exact, SectionKind::layers),
                          NamedAsPrinted{});
 
 TEST(AMirroredStrike, GivesTheSameEvents) {

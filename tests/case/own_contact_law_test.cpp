@@ -246,10 +246,9 @@ TEST(AnOwnContactLaw, ThatBreaksItsContractIsCaughtByTheRunToo) {
       input.solver.method = method;
       input.parts.contact_law = std::make_shared<WrongLine>(fault);
       ResolvedRun run = resolve(input);
-      StruckBeam& beam = run.parts().beam;
       const auto integrator = run.parts().make_integrator();
-      run.parts().run.history_interval = 1e-5;
-      const Result result = simulate(beam, *integrator, run.parts().run);
+      run.parts().given.output.interval = 1e-5;
+      const Result result = simulate(run.parts(), *integrator);
       EXPECT_EQ(result.outcome.kind,
                 fault == Fault::none ? OutcomeKind::completed : OutcomeKind::inaccurate)
           << to_string(method) << ' ' << static_cast<int>(fault) << ' ' << result.outcome.message;

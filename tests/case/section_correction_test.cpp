@@ -26,14 +26,14 @@ State state_after(double step, double correction_tolerance) {
   RunObserver nobody;
   const auto first = run.parts().make_integrator();
   Audit audit(beam, beam.initial_state());
-  EventLoop beginning(beam, *first, nobody, audit, run.parts().run.loop);
+  EventLoop beginning(beam, *first, nobody, audit, loop_options(run.parts()));
   beginning.start();
   while (!beginning.finished()) beginning.advance();
   EXPECT_EQ(beam.sections().n_yielded(), 0u);
 
   run.parts().settings.step = step;
   const auto fixed = run.parts().make_integrator();
-  LoopOptions options = run.parts().run.loop;
+  LoopOptions options = loop_options(run.parts());
   options.end_time = 52e-6;
   options.correction_tolerance = correction_tolerance;
   EventLoop loop(beam, *fixed, nobody, audit, options);
@@ -92,7 +92,7 @@ TEST(SectionEvents, HardlyEverCutAStep) {
   StruckBeam& beam = run.parts().beam;
   const auto integrator = run.parts().make_integrator();
   Audit audit(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, counter, audit, run.parts().run.loop);
+  EventLoop loop(beam, *integrator, counter, audit, loop_options(run.parts()));
   loop.start();
   while (!loop.finished()) loop.advance();
   const WorkCounts work = integrator->work();
@@ -111,7 +111,7 @@ State state_late(double rtol) {
   RunObserver nobody;
   const auto integrator = run.parts().make_integrator();
   Audit audit(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, nobody, audit, run.parts().run.loop);
+  EventLoop loop(beam, *integrator, nobody, audit, loop_options(run.parts()));
   loop.start();
   while (!loop.finished()) loop.advance();
   return loop.state();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "integrate/arkode_erk.h"
+#include "integrate/sundials.h"
 #include "test_systems.h"
 
 namespace subimpact {

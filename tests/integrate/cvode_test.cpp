@@ -7,7 +7,7 @@
 #include <functional>
 #include <ostream>
 
-#include "integrate/cvode.h"
+#include "integrate/sundials.h"
 #include "mechanical_systems.h"
 #include "order_table.h"
 

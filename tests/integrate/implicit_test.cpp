@@ -8,7 +8,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "integrate/arkode_ark.h"
+#include "integrate/sundials.h"
 #include "mechanical_systems.h"
 #include "order_table.h"
 

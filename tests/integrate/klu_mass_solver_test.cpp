@@ -1,4 +1,4 @@
-#include "integrate/klu_mass_solver.h"
+#include "integrate/sundials.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "integrate/arkode_erk.h"
+#include "integrate/sundials.h"
 #include "integrate/central_difference.h"
 #include "integrate/nystrom.h"
 

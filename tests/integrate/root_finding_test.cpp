@@ -7,9 +7,7 @@
 #include <limits>
 #include <ostream>
 
-#include "integrate/arkode_ark.h"
-#include "integrate/arkode_erk.h"
-#include "integrate/cvode.h"
+#include "integrate/sundials.h"
 #include "mechanical_systems.h"
 
 namespace subimpact {

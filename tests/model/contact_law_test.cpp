@@ -8,7 +8,7 @@
 #include "built_in_law.h"
 #include "paper_scene.h"
 #include "random_walk.h"
-#include "subimpact/model/contact_law_check.h"
+#include "subimpact/model/contact_law.h"
 
 namespace subimpact {
 namespace {

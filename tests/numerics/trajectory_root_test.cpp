@@ -1,4 +1,4 @@
-#include "numerics/trajectory_root.h"
+#include "numerics/bracketed_root.h"
 
 #include <gtest/gtest.h>
 

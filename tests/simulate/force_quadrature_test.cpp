@@ -1,6 +1,6 @@
 // The integral of the contact force over steps.
 
-#include "simulate/force_quadrature.h"
+#include "simulate/quadratures.h"
 
 #include <gtest/gtest.h>
 

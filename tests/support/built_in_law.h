@@ -1,7 +1,6 @@
 #pragma once
 
 #include "model/contact_laws.h"
-#include "model/power_contact.h"
 
 namespace subimpact {
 

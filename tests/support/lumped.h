@@ -6,10 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "integrate/arkode_ark.h"
-#include "integrate/arkode_erk.h"
+#include "integrate/sundials.h"
 #include "integrate/central_difference.h"
-#include "integrate/cvode.h"
 #include "integrate/exponential.h"
 #include "integrate/nystrom.h"
 #include "lumped_mesh.h"
@@ -17,8 +15,8 @@
 #include "simulate/event_loop.h"
 #include "simulate/recorder.h"
 #include "struck_beam_of.h"
-#include "system/contact_event_functions.h"
-#include "system/modal_beam.h"
+#include "system/contact_events.h"
+#include "system/struck_beam.h"
 
 namespace subimpact {
 

@@ -8,7 +8,7 @@
 
 #include "beam_under_test.h"
 #include "dense.h"
-#include "model/power_contact.h"
+#include "model/contact_laws.h"
 
 namespace subimpact {
 namespace {

@@ -79,6 +79,7 @@ class BeamMesh {
   std::span<const double> section_positions() const { return positions_; }  ///< x, m
   const SparseFunctional& struck_point() const { return struck_point_; }    ///< S
   const SparseFunctional& first_end() const { return first_end_; }          ///< w(0)
+  std::size_t nearest_section(double x) const;  ///< the first of those nearest to x (m)
   /// Index of the section at (or nearest to) the struck point.
   std::size_t struck_section() const { return struck_section_; }
   /// Unknowns of a rigid translation by 1 m; empty where a support prevents it.
@@ -102,7 +103,8 @@ class BeamMesh {
     std::size_t first;
     std::span<const double> coefficients;
   };
-  virtual SectionStencil section_stencil(std::size_t section) const = 0;
+  /// By default the row that add_stencil() has stored.
+  virtual SectionStencil section_stencil(std::size_t section) const;
 
   /// Whether sections shear: K_s is not zero.
   virtual bool shears() const { return shear_stiffness_.size() > 0; }
@@ -149,6 +151,11 @@ class BeamMesh {
   BeamMesh(std::size_t n_unknowns, std::size_t half_bandwidth, bool symmetric)
       : mass_(n_unknowns, half_bandwidth), symmetric_(symmetric) {}
 
+  /// 2 where the mirrored half is folded in.
+  double copies() const { return symmetric_ ? 2.0 : 1.0; }
+  /// Stores the row of B of the next section, from the first one on.
+  void add_stencil(std::size_t first, std::span<const double> coefficients);
+
   BandedMatrix mass_;
   BandedMatrix shear_stiffness_{0, 0};  ///< K_s, N/m; of size zero where sections do not shear
   std::vector<double> weights_;
@@ -161,6 +168,13 @@ class BeamMesh {
   std::vector<double> moment_functional_;
   double beam_mass_ = 0.0;
   bool symmetric_;
+
+ private:
+  struct StoredStencil {
+    std::size_t first, begin, size;
+  };
+  std::vector<StoredStencil> stencils_;
+  std::vector<double> stencil_coefficients_;  // of all, one after another
 };
 
 }  // namespace subimpact

@@ -1,44 +1,71 @@
 #include "integrate/sundials/butcher_tables.h"
 
+#include <arkode/arkode_butcher_dirk.h>
 #include <arkode/arkode_butcher_erk.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
-#include "integrate/arkode_erk.h"
+#include "integrate/stability.h"
+#include "integrate/sundials.h"
 
 namespace subimpact {
 namespace {
 
+using Complex = std::complex<double>;
+
 struct Entry {
-  CoefficientTable table;
-  int sundials_id;  // ARKODE_ERK_NONE: built here
+  const char* name;
+  ARKODE_ERKTableID explicit_part;  // ARKODE_ERK_NONE: there is none, or it is built here
+  const char* note;
+  ARKODE_DIRKTableID implicit = ARKODE_DIRK_NONE;
 };
 
 // clang-format off
-const std::vector<Entry>& entries_of_tables() {
-  static const std::vector<Entry> entries = {
-      {{"dop853", 8, 5, 12, "Hairer, Norsett and Wanner, 8(5): fewest evaluations on an elastic beam"}, ARKODE_ERK_NONE},
-      {{"dormand-prince", 5, 4, 6, "Dormand and Prince 1980, 5(4): sound at every accuracy"}, ARKODE_DORMAND_PRINCE_7_4_5},
-      {{"bogacki-shampine", 3, 2, 3, "Bogacki and Shampine 1989, 3(2): low accuracy"}, ARKODE_BOGACKI_SHAMPINE_4_2_3},
-      {{"zonneveld", 4, 3, 5, "Zonneveld 1963, 4(3)"}, ARKODE_ZONNEVELD_5_3_4},
-      {{"cash-karp", 5, 4, 6, "Cash and Karp 1990, 5(4): the energy grows at every step, however short; for studies of that"}, ARKODE_CASH_KARP_6_4_5},
-      {{"verner", 6, 5, 8, "Verner 1978, 6(5)"}, ARKODE_VERNER_8_5_6},
-      {{"fehlberg-78", 8, 7, 13, "Fehlberg 1968, 8(7)"}, ARKODE_FEHLBERG_13_7_8},
-  };
-  return entries;
-}
+const Entry explicit_entries[] = {
+    {"dop853", ARKODE_ERK_NONE, "Hairer, Norsett and Wanner, 8(5): fewest evaluations on an elastic beam"},
+    {"dormand-prince", ARKODE_DORMAND_PRINCE_7_4_5, "Dormand and Prince 1980, 5(4): sound at every accuracy"},
+    {"bogacki-shampine", ARKODE_BOGACKI_SHAMPINE_4_2_3, "Bogacki and Shampine 1989, 3(2): low accuracy"},
+    {"zonneveld", ARKODE_ZONNEVELD_5_3_4, "Zonneveld 1963, 4(3)"},
+    {"cash-karp", ARKODE_CASH_KARP_6_4_5, "Cash and Karp 1990, 5(4): the energy grows at every step, however short; for studies of that"},
+    {"verner", ARKODE_VERNER_8_5_6, "Verner 1978, 6(5)"},
+    {"fehlberg-78", ARKODE_FEHLBERG_13_7_8, "Fehlberg 1968, 8(7)"},
+};
+
+// "ESDIRK": explicit first stage, one diagonal entry throughout. All are A-stable; "stiffly
+// accurate" ones (whose last stage is the step's end) are L-stable.
+const Entry implicit_entries[] = {
+    {"esdirk547", ARKODE_ERK_NONE, "Kennedy and Carpenter 2019, ESDIRK5(4)7L[2]SA", ARKODE_ESDIRK547L2SA_7_4_5},
+    {"esdirk437", ARKODE_ERK_NONE, "Kennedy and Carpenter 2019, ESDIRK4(3)7L[2]SA: least damping of its order", ARKODE_ESDIRK437L2SA_7_3_4},
+    {"esdirk436", ARKODE_ERK_NONE, "Kennedy and Carpenter 2016, ESDIRK4(3)6L[2]SA", ARKODE_ESDIRK436L2SA_6_3_4},
+    {"esdirk325", ARKODE_ERK_NONE, "Kennedy and Carpenter 2016, ESDIRK3(2)5L[2]SA", ARKODE_ESDIRK325L2SA_5_2_3},
+    {"ark437", ARKODE_ARK437L2SA_ERK_7_3_4, "Kennedy and Carpenter 2019, ARK4(3)7L[2]SA", ARKODE_ARK437L2SA_DIRK_7_3_4},
+    {"ark436", ARKODE_ARK436L2SA_ERK_6_3_4, "Kennedy and Carpenter 2003, ARK4(3)6L[2]SA", ARKODE_ARK436L2SA_DIRK_6_3_4},
+    {"ark548", ARKODE_ARK548L2SA_ERK_8_4_5, "Kennedy and Carpenter 2003, ARK5(4)8L[2]SA", ARKODE_ARK548L2SA_DIRK_8_4_5},
+    {"ark548b", ARKODE_ARK548L2SAb_ERK_8_4_5, "Kennedy and Carpenter 2019, ARK5(4)8L[2]SAb", ARKODE_ARK548L2SAb_DIRK_8_4_5},
+    {"ark324", ARKODE_ARK324L2SA_ERK_4_2_3, "Kennedy and Carpenter 2003, ARK3(2)4L[2]SA", ARKODE_ARK324L2SA_DIRK_4_2_3},
+    {"kvaerno-7-4-5", ARKODE_ERK_NONE, "Kvaerno 2004, ESDIRK5/4", ARKODE_KVAERNO_7_4_5},
+    {"sdirk-5-3-4", ARKODE_ERK_NONE, "Hairer and Wanner, SDIRK4: five implicit stages", ARKODE_SDIRK_5_3_4},
+    {"trbdf2", ARKODE_ERK_NONE, "Bank et al. 1985: trapezoidal rule, then BDF2", ARKODE_TRBDF2_3_3_2},
+    {"sdirk-2-1-2", ARKODE_ERK_NONE, "two implicit stages: the cheapest step", ARKODE_SDIRK_2_1_2},
+};
 // clang-format on
+
+ButcherTablePointer allocated(int stages) {
+  ButcherTablePointer table(ARKodeButcherTable_Alloc(stages, SUNTRUE));
+  if (!table) throw std::runtime_error("ARKodeButcherTable_Alloc failed");
+  return table;
+}
 
 // Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.10: the
 // order-8 method of DOP853 with its error estimator of order 5 as the embedded method (b_embedded =
 // b - er).
 ButcherTablePointer dop853() {
   constexpr int n = 12;
-  ButcherTablePointer table(ARKodeButcherTable_Alloc(n, SUNTRUE));
-  if (!table) throw std::runtime_error("ARKodeButcherTable_Alloc failed");
+  ButcherTablePointer table = allocated(n);
   table->q = 8;
   table->p = 5;
   // clang-format off
@@ -101,8 +128,7 @@ ButcherTablePointer dop853() {
 // first.
 ButcherTablePointer with_end_as_last_stage(const ARKodeButcherTableMem& from) {
   const int n = from.stages;
-  ButcherTablePointer table(ARKodeButcherTable_Alloc(n + 1, SUNTRUE));
-  if (!table) throw std::runtime_error("ARKodeButcherTable_Alloc failed");
+  ButcherTablePointer table = allocated(n + 1);
   table->q = from.q;
   table->p = from.p;
   for (int i = 0; i < n; ++i) {
@@ -126,28 +152,95 @@ bool ends_with_next_first(const ARKodeButcherTableMem& table) {
   return true;
 }
 
+// Of these entries, or of the pairs among them, the named one; the first for an empty name.
+const Entry& find(std::span<const Entry> entries, bool pair, const std::string& name,
+                  const char* what) {
+  for (const Entry& entry : entries) {
+    if (pair && entry.explicit_part == ARKODE_ERK_NONE) continue;
+    if (name.empty() || entry.name == name) return entry;
+  }
+  throw std::invalid_argument("unknown " + std::string(what) + " '" + name + "'");
+}
+
+ButcherTablePointer checked(ARKodeButcherTable table, const Entry& entry) {
+  if (!table) throw std::runtime_error(std::string("SUNDIALS has no table ") + entry.name);
+  return ButcherTablePointer(table);
+}
+
+ButcherTablePointer explicit_table(const Entry& entry) {
+  return checked(ARKodeButcherTable_LoadERK(entry.explicit_part), entry);
+}
+
+ButcherTablePointer implicit_table(const Entry& entry) {
+  return checked(ARKodeButcherTable_LoadDIRK(entry.implicit), entry);
+}
+
+std::vector<CoefficientTable> list(std::span<const Entry> entries, bool pairs = false) {
+  std::vector<CoefficientTable> list;
+  for (const Entry& entry : entries) {
+    if (pairs && entry.explicit_part == ARKODE_ERK_NONE) continue;
+    const bool is_explicit = entry.implicit == ARKODE_DIRK_NONE;
+    const ButcherTablePointer table =
+        is_explicit ? load_explicit_table(entry.name) : implicit_table(entry);
+    // An explicit one ends on the next step's first stage, which costs nothing.
+    list.push_back(
+        {entry.name, table->q, table->p, table->stages - (is_explicit ? 1 : 0), entry.note});
+  }
+  return list;
+}
+
+// Stages one after the other; none depends on a later one.
+Complex stability(const ARKodeButcherTableMem& table, Complex z) {
+  std::vector<Complex> stages(static_cast<std::size_t>(table.stages));
+  Complex end = 1.0;
+  for (int i = 0; i < table.stages; ++i) {
+    Complex sum = 1.0;
+    for (int j = 0; j < i; ++j) sum += z * table.A[i][j] * stages[static_cast<std::size_t>(j)];
+    stages[static_cast<std::size_t>(i)] = sum / (1.0 - z * table.A[i][i]);
+    end += z * table.b[i] * stages[static_cast<std::size_t>(i)];
+  }
+  return end;
+}
+
 }  // namespace
 
 const std::vector<CoefficientTable>& explicit_tables() {
-  static const std::vector<CoefficientTable> tables = [] {
-    std::vector<CoefficientTable> list;
-    for (const Entry& entry : entries_of_tables()) list.push_back(entry.table);
-    return list;
-  }();
+  static const std::vector<CoefficientTable> tables = list(explicit_entries);
+  return tables;
+}
+
+const std::vector<CoefficientTable>& dirk_tables() {
+  static const std::vector<CoefficientTable> tables = list(implicit_entries);
+  return tables;
+}
+
+const std::vector<CoefficientTable>& imex_tables() {
+  static const std::vector<CoefficientTable> tables = list(implicit_entries, true);
   return tables;
 }
 
 ButcherTablePointer load_explicit_table(const std::string& name) {
-  for (const Entry& entry : entries_of_tables()) {
-    if (!name.empty() && entry.table.name != name) continue;
-    ButcherTablePointer table = entry.sundials_id == ARKODE_ERK_NONE
-                                    ? dop853()
-                                    : ButcherTablePointer(ARKodeButcherTable_LoadERK(
-                                          static_cast<ARKODE_ERKTableID>(entry.sundials_id)));
-    if (!table) throw std::runtime_error("SUNDIALS has no table " + name);
-    return ends_with_next_first(*table) ? std::move(table) : with_end_as_last_stage(*table);
-  }
-  throw std::invalid_argument("unknown explicit Runge-Kutta table '" + name + "'");
+  const Entry& entry = find(explicit_entries, false, name, "explicit Runge-Kutta table");
+  ButcherTablePointer table =
+      entry.explicit_part == ARKODE_ERK_NONE ? dop853() : explicit_table(entry);
+  return ends_with_next_first(*table) ? std::move(table) : with_end_as_last_stage(*table);
+}
+
+ButcherTablePointer load_dirk_table(const std::string& name) {
+  return implicit_table(find(implicit_entries, false, name, "implicit Runge-Kutta table"));
+}
+
+ButcherTablePair load_imex_tables(const std::string& name) {
+  const Entry& entry = find(implicit_entries, true, name, "pair of Runge-Kutta tables");
+  return {implicit_table(entry), explicit_table(entry)};
+}
+
+Complex explicit_stability(const std::string& table, Complex z) {
+  return stability(*load_explicit_table(table), z);
+}
+
+Complex dirk_stability(const std::string& table, Complex z) {
+  return stability(*load_dirk_table(table), z);
 }
 
 }  // namespace subimpact

@@ -1,4 +1,4 @@
-#include "integrate/klu_mass_solver.h"
+#include "integrate/sundials.h"
 
 #include <klu.h>
 
@@ -61,6 +61,11 @@ class KluMassSolver final : public MassSolver {
 
 std::unique_ptr<MassSolver> make_klu_mass_solver(const BandedMatrix& mass) {
   return std::make_unique<KluMassSolver>(mass);
+}
+
+std::string klu_version() {
+  return std::to_string(KLU_MAIN_VERSION) + "." + std::to_string(KLU_SUB_VERSION) + "." +
+         std::to_string(KLU_SUBSUB_VERSION);
 }
 
 }  // namespace subimpact

@@ -1,10 +1,10 @@
 #include "integrate/sundials/solver_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
-
-#include "integrate/sundials/vector.h"
 
 namespace subimpact {
 namespace {
@@ -16,21 +16,159 @@ void keep_context_message(int, const char*, const char*, const char* text, SUNEr
 }
 #endif
 
+// A value without a root.
+constexpr double negative = -1.0;
+
+// Far below the rounding of functions of order one. The library finds a change of sign by the
+// product of two values, which must not underflow: its search would not end. Nor does it end where
+// values overflow or are no numbers, as in a step that blew up.
+constexpr double smallest = 1e-100;
+constexpr double largest = 1e100;
+
+double searchable(double value) {
+  if (std::isnan(value)) return negative;
+  if (std::abs(value) < smallest) return -smallest;
+  return std::clamp(value, -largest, largest);
+}
+
 }  // namespace
 
+int RootFinder::restart(void* memory, int (*callback)(sunrealtype, N_Vector, sunrealtype*, void*),
+                        std::span<const double> y) {
+  if (!is_on()) return 0;
+  const std::size_t n = functions_->size();
+  values_.resize(n);
+  root_.reset();
+  root_at_restart_ = risen_function(y);
+  flags_.assign(2 * n, 1);
+  // The library keeps what it stored of functions whose number does not change.
+  int flag = calls_.init_roots(memory, 0, nullptr);
+  if (flag != 0 || n == 0) return flag;
+  flag = calls_.init_roots(memory, static_cast<int>(2 * n), callback);
+  if (flag == 0) flag = calls_.set_root_directions(memory, flags_.data());
+  if (flag == 0) flag = calls_.set_no_root_warning(memory);
+  return flag;
+}
+
+void RootFinder::evaluate(std::span<const double> y, sunrealtype* result) {
+  const std::size_t n = values_.size();
+  if (is_silent_) {
+    std::fill_n(result, 2 * n, negative);
+    return;
+  }
+  functions_->evaluate(y, values_);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [value, rate] = values_[i];
+    result[i] = searchable(value);
+    result[n + i] = searchable(-rate);
+  }
+}
+
+std::optional<Integrator::Root> RootFinder::risen_function(std::span<const double> y) {
+  functions_->evaluate(y, values_);
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const auto [value, rate] = values_[i];
+    if (value > 0.0 && !(rate <= 0.0)) return Integrator::Root{i, 0.0};
+  }
+  return std::nullopt;
+}
+
+bool RootFinder::find_event(void* memory) {
+  calls_.get_roots(memory, flags_.data());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (flags_[i] == 0) continue;
+    root_ = Integrator::Root{i, tolerance(memory)};
+    return true;
+  }
+  return false;
+}
+
+double RootFinder::tolerance(void* memory) const {
+  sunrealtype time = 0.0, step = 0.0;
+  calls_.get_current_time(memory, &time);
+  calls_.get_last_step(memory, &step);
+  return 100.0 * std::numeric_limits<double>::epsilon() * (std::abs(time) + std::abs(step));
+}
+
+bool RootFinder::is_at_end(void* memory, double reached) const {
+  sunrealtype time = 0.0;
+  calls_.get_current_time(memory, &time);
+  return std::abs(time - reached) <= tolerance(memory);
+}
+
+// --- SolverFrame ---------------------------------------------------------------------------------
+
 SolverFrame::SolverFrame(SecondOrderOde& ode, const IntegratorOptions& options,
-                         const RootCalls& calls, [[maybe_unused]] SUNContext context)
+                         const LibraryCalls& calls, ContextPointer context)
     : ode_(ode),
       n_positions_(ode.n_positions()),
       roots_(options.event_functions, calls),
+      calls_(calls),
+      context_(std::move(context)),
+      y_(make_vector(2 * n_positions_, context_.get(), options.vector_operations)),
+      memory_(nullptr, {calls.free}),
       position_weight_(1.0 / (options.relative_tolerance * ode.scales().position)),
       velocity_weight_(1.0 / (options.relative_tolerance * ode.scales().velocity)) {
+  N_VConst(0.0, y_.get());
 #if SUNDIALS_VERSION_MAJOR >= 7
-  SUNContext_PushErrHandler(context, keep_context_message, &message_);
+  SUNContext_PushErrHandler(context_.get(), keep_context_message, &message_);
 #endif
 }
 
-int SolverFrame::rate(double, N_Vector y, N_Vector rate, void* frame) {
+void SolverFrame::own(void* memory) {
+  if (!memory)
+    throw IntegrationFailure(0.0, calls_.prefix + std::string("Create"), "no memory", "");
+  memory_.reset(memory);
+  check(calls_.set_user_data(memory, user_data()), "SetUserData");
+#if SUNDIALS_VERSION_MAJOR < 7
+  check(calls_.set_message_handler(memory, keep_message, user_data()), "SetErrHandlerFn");
+#endif
+}
+
+void SolverFrame::set_step_control(const IntegratorOptions& options) {
+  check(calls_.set_weights(memory(), error_weights), "WFtolerances");
+  check(calls_.set_max_num_steps(memory(), -1), "SetMaxNumSteps");
+  if (options.max_step) check(calls_.set_max_step(memory(), *options.max_step), "SetMaxStep");
+}
+
+void SolverFrame::reset(double t, const State& y) {
+  std::copy(y.begin(), y.end(), entries(vector()).begin());
+  check(calls_.restart(memory(), t, vector()), calls_.restart_name);
+  check(roots_.restart(memory(), event_values, y), "RootInit");
+  time_ = t;
+}
+
+int SolverFrame::evolve(double& reached) {
+  // Of the output time only the sign relative to the present time matters.
+  return calls_.evolve(memory(), time_ + std::max(1.0, 2.0 * time_), vector(), &reached,
+                       calls_.one_step);
+}
+
+double SolverFrame::step() {
+  double reached = time_;
+  check(roots_.step(memory(), reached, entries(vector()), [&] { return evolve(reached); }),
+        calls_.evolve_name);
+  return time_ = reached;
+}
+
+void SolverFrame::read(State& y) const {
+  const auto values = entries(vector());
+  y.assign(values.begin(), values.end());
+}
+
+void SolverFrame::add_counts(WorkCounts& counts) const {
+  long rejected = 0, iterations = 0, failures = 0;
+  calls_.get_rejected_steps(memory(), &rejected);
+  if (calls_.get_nonlinear_stats) {
+    calls_.get_nonlinear_stats(memory(), &iterations, &failures);
+  }
+  counts.rejected_steps += rejected;
+  counts.nonlinear_iterations += iterations;
+  counts.nonlinear_failures += failures;
+  counts.right_hand_sides += right_hand_sides_;
+}
+
+int SolverFrame::rate(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
   SolverFrame& self = of(frame);
   const std::size_t n = self.n_positions_;
   const auto in = entries(y);
@@ -42,6 +180,7 @@ int SolverFrame::rate(double, N_Vector y, N_Vector rate, void* frame) {
   });
 }
 
+// Weights 1/(rtol * scale) of positions and velocities: evaluated at every step, but constant.
 int SolverFrame::error_weights(N_Vector, N_Vector weights, void* frame) {
   const SolverFrame& self = of(frame);
   const auto out = entries(weights);
@@ -63,15 +202,13 @@ void SolverFrame::keep_message(int code, const char*, const char*, char* message
 }
 #endif
 
-void SolverFrame::check(int flag, const char* function, char* (*flag_name)(long int)) {
+void SolverFrame::check(int flag, const char* function) {
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   if (flag >= 0) return;
-  char* name = flag_name(flag);
+  char* name = calls_.flag_name(flag);
   const std::string copy = name ? name : std::to_string(flag);
   std::free(name);
-  throw IntegrationFailure(time_, function, copy, message_);
+  throw IntegrationFailure(time_, calls_.prefix + std::string(function), copy, message_);
 }
-
-double time_ahead(double t) { return t + std::max(1.0, 2.0 * t); }
 
 }  // namespace subimpact

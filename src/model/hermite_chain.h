@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
+#include "model/hermite_modes.h"
 #include "numerics/lanes.h"
 
-/// Waves in a chain of equal Hermite elements, of which its natural modes are made; equations and
-/// symbols are those of hermite_chain_modes.
+/// Waves in a chain of equal Hermite elements, and the shapes of the natural modes that are made of
+/// them; equations and symbols are those of hermite_chain_modes.
 namespace subimpact::chain {
 
 enum class Band { acoustic, optical, above };
@@ -89,5 +91,40 @@ double phi_of(const Waves& waves);
 /// Up to which decay waves from the ends, of the size 1 there, meet in the middle, m elements away,
 /// with more than rounding, e^-phi m.
 double largest_decay_felt(double m);
+
+/// W and Theta at the distances m, m - 1, ... from the middle.
+struct Columns {
+  std::vector<double> w, slope;  ///< of whole groups of lanes
+
+  explicit Columns(std::size_t n) : w((n + n_lanes - 1) / n_lanes * n_lanes), slope(w.size()) {}
+};
+
+/// Writes shapes of modes and rigid motion: computed for the nodes on one side of the middle, which
+/// the other side mirrors.
+class Shapes {
+ public:
+  /// `about_last` or `about_first`: the last or first end, pinned, is the middle of odd modes.
+  Shapes(const HermiteChain& chain, bool about_last, bool about_first);
+
+  /// Elements from the middle to the ends.
+  double m() const;
+  std::size_t n_unknowns() const;
+
+  /// n_unknowns numbers.
+  void write(const Mode& mode, double* shape);
+  void write_rigid(Parity parity, double* shape);
+
+ private:
+  void write(Parity parity, double* shape);
+
+  std::size_t n_nodes_;
+  bool one_sided_, backwards_;
+  std::size_t first_, last_;  // unknowns held at the ends
+  bool half_;
+  std::size_t n_inwards_;
+  Columns inwards_;
+  double largest_decay_;
+  std::vector<double> nodal_;
+};
 
 }  // namespace subimpact::chain
