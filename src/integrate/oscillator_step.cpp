@@ -6,7 +6,7 @@
 #include "integrate/damped_oscillator.h"
 #include "numerics/gauss.h"
 #include "numerics/lanes.h"
-#include "numerics/stumpff.h"
+#include "numerics/sin_cos.h"
 
 namespace subimpact {
 namespace {

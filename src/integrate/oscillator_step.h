@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "ode/forced_oscillators.h"
+#include "ode/second_order_ode.h"
 
 namespace subimpact {
 

@@ -33,11 +33,11 @@ double snapped(double at) {
 // Share of the first unknown in the outermost cell of a clamped end.
 constexpr double clamped_share = 1.0 / 9.0;
 
-// Sections of an end, outermost first, in units of 1/dx^2.
-std::vector<std::array<double, 2>> end_stencils(EndSupport end) {
-  if (end == EndSupport::pinned) return {{-3.0, 1.0}};
-  if (end == EndSupport::clamped) return {{1.0 - clamped_share, 0.0}, {-2.0 + clamped_share, 1.0}};
-  return {};
+// Sections of an end, outermost first; `unit` is 1/dx^2.
+std::vector<std::array<double, 2>> end_stencils(EndSupport end, double unit) {
+  if (end == EndSupport::pinned) return {{-3.0 * unit, unit}};
+  if (end == EndSupport::free) return {};
+  return {{(1.0 - clamped_share) * unit, 0.0}, {(-2.0 + clamped_share) * unit, unit}};
 }
 
 }  // namespace
@@ -63,15 +63,10 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
     throw std::invalid_argument("cell mesh: the spacing of points is for free ends");
   }
   const double inverse = 1.0 / (spacing_ * spacing_);
-  first_sections_ = end_stencils(ends_[0]);
-  if (!symmetric()) last_sections_ = end_stencils(ends_[1]);
+  first_sections_ = end_stencils(ends_[0], inverse);
+  if (!symmetric()) last_sections_ = end_stencils(ends_[1], inverse);
   std::reverse(last_sections_.begin(), last_sections_.end());
   for (EndStencil& stencil : last_sections_) std::swap(stencil[0], stencil[1]);
-  for (auto* sections : {&first_sections_, &last_sections_}) {
-    for (EndStencil& stencil : *sections) {
-      for (double& coefficient : stencil) coefficient *= inverse;
-    }
-  }
   if (beam.is_free()) translation_.assign(n_unknowns(), 1.0);
   beam_mass_ = spacing == Spacing::points
                    ? mass_per_length_ * spacing_ * static_cast<double>(n_cells)
@@ -89,15 +84,9 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
 // The displacement of a cell's centre.
 SparseFunctional CellMesh::cell(std::size_t i) const {
   const std::size_t slaved = is_clamped(ends_[0]) ? 1 : 0;
-  SparseFunctional displacement;
-  if (i < slaved) {
-    displacement.terms = {{0, clamped_share}};
-  } else if (i - slaved == n_unknowns()) {
-    displacement.terms = {{n_unknowns() - 1, clamped_share}};
-  } else {
-    displacement.terms = {{i - slaved, 1.0}};
-  }
-  return displacement;
+  if (i < slaved) return {{{0, clamped_share}}, {}};
+  if (i - slaved == n_unknowns()) return {{{n_unknowns() - 1, clamped_share}}, {}};
+  return {{{i - slaved, 1.0}}, {}};
 }
 
 void CellMesh::assemble_mass() {

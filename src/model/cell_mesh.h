@@ -7,29 +7,15 @@
 
 namespace subimpact {
 
-/// N equal cells of length dx = l/N with the displacement at their centres, second order in dx.
-///
-///     kappa_i = (w[i+1] - 2 w[i] + w[i-1])/dx^2 at the cells' centres
-///     Mass = rho A dx I + (J/dx) L,  L the Laplacian of the chain of cells (tridiagonal)
-///
-/// Ends lie half a cell outside the outermost centres:
-///
-///     free     no moment in the end cell, no rotary inertia in its outer half (the paper's)
-///     pinned   the displacement is continued antisymmetrically, w[-1] = -w[0]; so
-///              kappa_0 = (w[1] - 3 w[0])/dx^2
-///     clamped  the displacement is continued symmetrically, w[-1] = w[0]; w = 0 at the end of the
-///              parabola through the first centres, w[0] = w[1]/9, so w[0] is not an unknown
-///
-/// With the spacing `points`, for free ends, dx = l/(N - 1): the outermost centres are the ends of
-/// the beam, and the outer halves of the end cells lie beyond them. These are the equations of a
-/// beam that is longer and heavier by the part 1/(N - 1), an error of first order; the published
-/// run has them.
+/// N equal cells of length dx = l/N with the displacement at their centres, second order in dx
+/// (docs/theory.md, "Cells"). At a free end the end cell has no section; at a clamped end w[0] =
+/// w[1]/9 is not an unknown. With the spacing `points`, for free ends, dx = l/(N - 1): the
+/// outermost centres are the ends of the beam.
 ///
 /// A strike between two centres is shared between them by linear weights. In the symmetric half
 /// model (strike at mid-span, N odd, ends alike) the last unknown is the struck cell, N/2.
 class CellMesh final : public BeamMesh {
  public:
-  enum class Extent { whole, half };
   enum class Spacing { cells, points };
 
   static constexpr std::size_t fewest_cells = 5;
@@ -50,8 +36,7 @@ class CellMesh final : public BeamMesh {
   std::optional<SparseFunctional> displacement_at(double x) const override;
   /// Linear between the faces of cells, where it is the difference of the centres beside them.
   std::optional<SparseFunctional> rotation_at(double x) const override;
-  /// (4 c/dx^2)/sqrt(1 + 4 r^2/dx^2) with c = sqrt(E I/(rho A)): the infinite grid's. Supported
-  /// ends are constraints on mirrored grids, which cannot exceed it.
+  /// The infinite grid's, which the constraints of supported ends on mirrored grids cannot exceed.
   double highest_frequency(double bending_stiffness) const override;
   /// In closed form if both ends are free (see free_cell_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;

@@ -22,17 +22,9 @@ struct CellChain {
 /// chain also carries cosh(phi j) or sinh(phi j) with 4 sinh^2(phi/2) = sigma = s/(1 + rho s). At
 /// the ends there is neither moment nor shear; with c = (n_cells - 1)/2 the distance of an end from
 /// the middle that leaves, for symmetric modes cos(theta d) + (1 + rho s) cos(theta c) cosh(phi
-/// d)/cosh(phi c),
-///
-///     sin(theta c) sin(theta) + [(1 + rho s)^2 (sigma/2 + tanh(phi c) sinh phi) + s/2] cos(theta
-///     c) = 0
-///
-/// with one root in each ((k - 1/2) pi, k pi) of theta c, and for antisymmetric ones (sin, sinh)
-///
-///     cos(theta c) sin(theta) - [(1 + rho s)^2 (sigma/2 + coth(phi c) sinh phi) + s/2] sin(theta
-///     c) = 0
-///
-/// with one in each (k pi, (k + 1/2) pi), k = 1, 2, ... Rigid translation and rotation come first.
+/// d)/cosh(phi c), a condition on theta c (end_condition in cell_modes.cpp) with one root in each
+/// ((k - 1/2) pi, k pi), and for antisymmetric ones (sin, sinh) one with a root in each (k pi, (k +
+/// 1/2) pi), k = 1, 2, ... Rigid translation and rotation come first.
 /// Shapes are not normalised. Mode k of the result has entries for cells 0, 1, ..., n_kept - 1.
 NaturalModes free_cell_modes(const CellChain& chain, bool symmetric_only, std::size_t n_kept);
 

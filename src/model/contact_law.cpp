@@ -77,6 +77,11 @@ class BrokenRule : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+template <class... Values>
+void require(bool holds, fmt::format_string<const Values&...> broken, const Values&... values) {
+  if (!holds) throw BrokenRule(fmt::format(broken, values...));
+}
+
 // By Simpson's rule in s with x = from + (to - from) s^3: forces change fastest where a branch
 // begins.
 template <class F>
@@ -97,67 +102,31 @@ class Rules {
     first_yield_ = law.yield_threshold({});
     force_ = std::abs(law.force({}, depth));
     energy_ = force_ * depth;
-    if (!(depth > 0.0) || !std::isfinite(energy_) || !(energy_ > 0.0)) {
-      throw BrokenRule(
-          fmt::format("its force at an indentation of {:.4g} m is {:.4g} N, which is "
-                      "not above zero and finite",
-                      depth, law.force({}, depth)));
-    }
+    require(depth > 0.0 && std::isfinite(energy_) && energy_ > 0.0,
+            "its force at an indentation of {:.4g} m is {:.4g} N, which is not above zero and "
+            "finite",
+            depth, law.force({}, depth));
   }
 
   void check_history(double largest) {
     const ContactHistory history{largest};
     const double residual = law_.residual_indentation(history);
     const double threshold = law_.yield_threshold(history);
-    if (!(residual >= 0.0 && residual <= threshold)) {
-      throw BrokenRule(
-          fmt::format("its residual indentation {:.4g} m is not between 0 and its "
-                      "yield threshold {:.4g} m, {}",
-                      residual, threshold, words(history)));
-    }
-    if (!(residual >= last_residual_ && threshold >= last_threshold_)) {
-      throw BrokenRule(
-          "its residual indentation or its yield threshold falls while the largest "
-          "indentation grows, " +
-          words(history));
-    }
+    require(residual >= 0.0 && residual <= threshold,
+            "its residual indentation {:.4g} m is not between 0 and its yield threshold {:.4g} m, "
+            "{}",
+            residual, threshold, words(history));
+    require(residual >= last_residual_ && threshold >= last_threshold_,
+            "its residual indentation or its yield threshold falls while the largest indentation "
+            "grows, {}",
+            words(history));
     last_residual_ = residual;
     last_threshold_ = threshold;
-    check_elastic(history, residual, std::min(threshold, depth_));
-  }
-
-  void check_plastic() {
-    if (!(first_yield_ < depth_)) return;
-    const auto force = [this](double x) { return law_.plastic_force(x); };
-    const auto slope = [this](double x) { return law_.plastic_slope(x); };
-    check_branch("plastic", first_yield_, depth_, force, slope,
-                 work_done(depth_) - work_done(first_yield_), {});
-    double dissipated = law_.dissipated_energy({first_yield_});
-    for (int i = 1; i <= n_histories; ++i) {
-      const double x = first_yield_ + (depth_ - first_yield_) * i / n_histories;
-      check_same_force(law_.elastic_force({x}, x), law_.plastic_force(x), x,
-                       "where unloading begins");
-      const double more = law_.dissipated_energy({x});
-      if (!(more >= dissipated - tolerance * energy_)) {
-        throw BrokenRule("its dissipated energy falls while the largest indentation grows");
-      }
-      dissipated = more;
-    }
-  }
-
- private:
-  static std::string words(ContactHistory history) {
-    return fmt::format("where the largest indentation was {:.4g} m", history.max_indentation);
-  }
-  double work_done(double x) const {
-    return law_.recoverable_energy({x}, x) + law_.dissipated_energy({x});
-  }
-
-  void check_elastic(ContactHistory history, double residual, double end) const {
+    const double end = std::min(threshold, depth_);
     if (!(end > residual)) return;
     check_same_force(law_.elastic_force(history, residual), 0.0, residual,
                      "at the residual indentation");
-    if (law_.yield_threshold(history) < depth_) {
+    if (threshold < depth_) {
       check_same_force(law_.elastic_force(history, end), law_.plastic_force(end), end,
                        "where yielding begins");
     }
@@ -168,35 +137,54 @@ class Rules {
                  history);
   }
 
+  void check_plastic() {
+    if (!(first_yield_ < depth_)) return;
+    const auto force = [this](double x) { return law_.plastic_force(x); };
+    const auto slope = [this](double x) { return law_.plastic_slope(x); };
+    check_branch("plastic", first_yield_, depth_, force, slope,
+                 work_up_to(law_, depth_) - work_up_to(law_, first_yield_), {});
+    double dissipated = law_.dissipated_energy({first_yield_});
+    for (int i = 1; i <= n_histories; ++i) {
+      const double x = first_yield_ + (depth_ - first_yield_) * i / n_histories;
+      check_same_force(law_.elastic_force({x}, x), law_.plastic_force(x), x,
+                       "where unloading begins");
+      const double more = law_.dissipated_energy({x});
+      require(more >= dissipated - tolerance * energy_,
+              "its dissipated energy falls while the largest indentation grows");
+      dissipated = more;
+    }
+  }
+
+ private:
+  static std::string words(ContactHistory history) {
+    return fmt::format("where the largest indentation was {:.4g} m", history.max_indentation);
+  }
+
   template <class Force, class Slope>
   void check_branch(const char* branch, double from, double to, Force force, Slope slope,
                     double energy, ContactHistory history) const {
     for (int i = 1; i <= n_panels; ++i) {
       const double x = from + (to - from) * i / n_panels;
-      if (force(x) >= -tolerance * force_) continue;
-      throw BrokenRule(fmt::format("its {} force at {:.4g} m is {:.4g} N, {}: contact pushes",
-                                   branch, x, force(x), words(history)));
+      require(force(x) >= -tolerance * force_,
+              "its {} force at {:.4g} m is {:.4g} N, {}: contact pushes", branch, x, force(x),
+              words(history));
     }
     const double work = integral(force, from, to);
-    if (!(std::abs(work - energy) <= tolerance * energy_)) {
-      throw BrokenRule(
-          fmt::format("from {:.4g} to {:.4g} m the work of its {} force is {:.4g} J, but "
-                      "its energies grow by {:.4g} J, {}",
-                      from, to, branch, work, energy, words(history)));
-    }
+    require(std::abs(work - energy) <= tolerance * energy_,
+            "from {:.4g} to {:.4g} m the work of its {} force is {:.4g} J, but its energies grow "
+            "by {:.4g} J, {}",
+            from, to, branch, work, energy, words(history));
+    const double growth = force(to) - force(from);
     const double rise = integral(slope, from, to);
-    if (!(std::abs(rise - (force(to) - force(from))) <= slope_tolerance * force_)) {
-      throw BrokenRule(
-          fmt::format("from {:.4g} to {:.4g} m its {} force grows by {:.4g} N, but the "
-                      "integral of its slope is {:.4g} N, {}",
-                      from, to, branch, force(to) - force(from), rise, words(history)));
-    }
+    require(std::abs(rise - growth) <= slope_tolerance * force_,
+            "from {:.4g} to {:.4g} m its {} force grows by {:.4g} N, but the integral of its slope "
+            "is {:.4g} N, {}",
+            from, to, branch, growth, rise, words(history));
   }
 
   void check_same_force(double one, double other, double x, const char* place) const {
-    if (std::abs(one - other) <= tolerance * force_) return;
-    throw BrokenRule(fmt::format("its force jumps from {:.4g} to {:.4g} N {}, at {:.4g} m", one,
-                                 other, place, x));
+    require(std::abs(one - other) <= tolerance * force_,
+            "its force jumps from {:.4g} to {:.4g} N {}, at {:.4g} m", one, other, place, x);
   }
 
   const ContactLaw& law_;

@@ -16,18 +16,8 @@ double hertz_stiffness(double radius, double modulus_1, double poisson_1, double
 
 /// A power of the indentation, with or without yielding: all laws that a case file can name.
 ///
-/// Model: with the indentation `lambda` (m), its largest value so far `lambda_m`, the yield
-/// indentation `lambda_s` and the residual indentation `lambda_r = max(lambda_m - lambda_s, 0)`,
-/// the force F (N) is
-///
-///     separated  lambda <= lambda_r                            F = 0
-///     elastic    lambda_r < lambda <= max(lambda_m, lambda_s)  F = K [lambda^n - lambda_r^n]
-///     plastic    lambda > max(lambda_m, lambda_s), growing     F = K [lambda^n
-///                                                                     - (lambda - lambda_s)^n]
-///
-/// F is continuous; its slope jumps at lambda_r and where unloading begins. Valid while the
-/// indentation is small beside the nose's radius and the beam's thickness. See contact_laws.h for
-/// the laws of a scene.
+/// The branches are those of docs/theory.md, "Contact", with the exponent n in place of 1.5. Valid
+/// while the indentation is small beside the nose's radius and the beam's thickness.
 ///
 /// Source: the struck-beam paper's equations (3)-(6), with the radical over 2R alone and the units
 /// mended; exact for the columns (the tests compare with a sum over a thousand of them). Hertz
@@ -80,16 +70,8 @@ struct ContactConstants {
   const char* why_unused;
 };
 
-/// A contact law that a scene can name:
-///
-///     foundation  n = 3/2, K = 4 sqrt(2R) E b/(3h), lambda_s = Y h/E: independent columns of depth
-///                 h and modulus E/h, elastic-perfectly plastic at the yield stress Y, pressed by a
-///                 rigid cylinder of radius R
-///     hertz       n = 3/2, K given or that of a sphere on a flat surface (see hertz_stiffness);
-///                 lambda_s infinite
-///     linear      n = 1, K given; lambda_s infinite
-///
-/// (see PowerContact). A new one is a class of its own, an enumerator and a row of
+/// A contact law that a scene can name (docs/theory.md, "Contact"): a PowerContact of n = 3/2
+/// (foundation, hertz) or 1 (linear). A new one is a class of its own, an enumerator and a row of
 /// built_in_contact_laws().
 struct BuiltInContactLaw {
   ContactKind kind;

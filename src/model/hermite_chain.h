@@ -7,7 +7,7 @@
 #include "numerics/lanes.h"
 
 /// Waves in a chain of equal Hermite elements, and the shapes of the natural modes that are made of
-/// them; equations and symbols are those of hermite_chain_modes.
+/// them; equations and symbols are those of docs/theory.md, "Hermite elements".
 namespace subimpact::chain {
 
 enum class Band { acoustic, optical, above };

@@ -25,18 +25,11 @@ ElementRule gauss_rule(std::size_t n);
 /// length.
 constexpr double hinge_share = 0.05;
 
-/// Two sections of an element with a hinge at its start, its end, or both. Under a concentrated
-/// force the moment has a peak; where it comes near the plastic moment, curvatures grow as the
-/// inverse root of the distance and finally a hinge rotates. A linear curvature can represent
-/// neither. So the node has a section of its own, and the two other sections have curvatures such
-/// that
-///
-///     sum w M = mean of M,  sum w eta M = mean of eta M   for every linear M,
-///
-/// that is, the two unknowns of the element's curvature determine a linear moment from two sections
-/// exactly, for any section law. With the hinge's share of the weights the three integrate any
-/// quadratic, so that an elastic beam bends as it should under linear moments; the two alone
-/// integrate x^(-1/2), x the distance from the hinge (not between two hinges).
+/// Two sections of an element with a hinge at its start, its end, or both, which has a section of
+/// its own. With the hinge's share of the weights they integrate any quadratic and (not between two
+/// hinges) x^(-1/2), x the distance from the hinge; and they determine a linear moment exactly, for
+/// any section law: sum w of_curvature M = the means of M and of eta M for every linear M. See
+/// docs/theory.md, "Hermite elements".
 ElementRule rule_beside_hinges(bool at_start, bool at_end);
 
 /// One cubic Hermite element of length a with the unknowns w_0, h t_0, w_1, h t_1, all in m: the

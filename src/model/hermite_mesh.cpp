@@ -10,13 +10,9 @@
 #include "numerics/bracketed_root.h"
 
 namespace subimpact {
-namespace {
 
 constexpr std::size_t most_in_modes = 2000;  // shapes take n^2 numbers
-
-constexpr double bound_tolerance = 1e-5;  // of the highest squared frequency
-
-}  // namespace
+constexpr double bound_tolerance = 1e-5;     // of the highest squared frequency
 
 HermiteMesh::HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
                          std::size_t sections_per_element, Extent extent, const Options& options)
@@ -52,7 +48,8 @@ void HermiteMesh::assemble_mass() {
   for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
     const auto unknowns = nodes_.unknowns_of(e);
     const HermiteElement::Matrix mass = element(e).mass(mass_per_length_, rotary_inertia_);
-    add_local(unknowns, element(e).momentum(copies() * mass_per_length_), momentum_functional_);
+    of_element(e, element(e).momentum(copies() * mass_per_length_))
+        .add_to(momentum_functional_, 1.0);
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = i; j < 4; ++j) {
         if (unknowns[i] == none || unknowns[j] == none) continue;
@@ -66,8 +63,8 @@ void HermiteMesh::assemble_moment() {
   moment_functional_.assign(n_unknowns(), 0.0);
   double left = 0.0;
   for (std::size_t e = 0; e < nodes_.n_elements(); ++e) {
-    add_local(nodes_.unknowns_of(e), element(e).moment(mass_per_length_, rotary_inertia_, left),
-              moment_functional_);
+    of_element(e, element(e).moment(mass_per_length_, rotary_inertia_, left))
+        .add_to(moment_functional_, 1.0);
     left += nodes_.lengths[e];
   }
 }
@@ -137,14 +134,6 @@ void HermiteMesh::add_row(std::span<const std::size_t> unknowns,
     ++size;
   }
   add_stencil(first, std::span(row).first(size));
-}
-
-void HermiteMesh::add_local(const std::array<std::size_t, 4>& unknowns,
-                            const HermiteElement::Coefficients& values,
-                            std::span<double> result) const {
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (unknowns[i] != none) result[unknowns[i]] += values[i];
-  }
 }
 
 template <std::size_t points>
@@ -238,7 +227,10 @@ void HermiteMesh::bending_forces(std::span<const double> moments, std::span<doub
     const double mean = scale * f.mean * sum;
     const double shear = scale * f.of_displacements * first_moment;
     const double slopes = scale * f.of_slopes * first_moment;
-    add_local(one.unknowns, {-shear, mean - slopes, shear, -mean - slopes}, forces);
+    const HermiteElement::Coefficients own{-shear, mean - slopes, shear, -mean - slopes};
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (one.unknowns[i] != none) forces[one.unknowns[i]] += own[i];
+    }
   }
   for (const Hinge& hinge : hinges_) {
     const double couple = weights_[hinge.section] * hinge.inverse * moments[hinge.section];
@@ -275,11 +267,8 @@ std::optional<SparseFunctional> HermiteMesh::rotation_at(double x) const {
   const auto [e, z] = nodes_.element_at(x);
   const auto at_start = nodes_.is_hinge(e) ? nodes_.nodes[e].slope_before : none;
   if (z == 0.0 && e > 0 && at_start != none) {  // the mean of both sides
-    SparseFunctional slope;
-    for (const std::size_t unknown : {at_start, nodes_.nodes[e].slope_after}) {
-      slope.terms.push_back({unknown, 0.5 / slope_unit_});
-    }
-    return slope;
+    const double half = 0.5 / slope_unit_;
+    return SparseFunctional{{{at_start, half}, {nodes_.nodes[e].slope_after, half}}, {}};
   }
   if (symmetric() && e + 1 == nodes_.n_elements() && z == 1.0) return SparseFunctional{};
   return of_element(e, element(e).slope(z));

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "model/hermite_element.h"
@@ -11,40 +10,25 @@
 
 namespace subimpact {
 
-/// Cubic Hermite elements: displacement and slope at the nodes, fourth order in the element length.
+/// Cubic Hermite elements: displacement and slope at the nodes, fourth order in the element length
+/// (docs/theory.md, "Hermite elements"). The sections are 2 to 4 Gauss points per element; the mass
+/// is consistent and banded with three entries beside the diagonal.
 ///
-/// Inside an element the displacement is the cubic through both nodes' values and slopes, so the
-/// curvature is linear (HermiteElement), and known (with the section law that gives the moment) at
-/// 2 to 4 Gauss points, which are the sections: two integrate the elastic stiffness exactly. The
-/// mass is consistent and banded with three entries beside the diagonal.
-///
-/// Unknowns, node by node (HermiteNodes): w and h t, both in m, with h = l/n.
-///
-/// **Hinges.** Under a force between bodies, and at a clamped end, a beam that yields bends most in
-/// a single section, a plastic hinge: the slope is nearly discontinuous there. A mesh with hinges
-/// has a slope on either side of those nodes, t_- and t_+, and a section of length L between them,
-///
-///     kappa = (t_+ - t_-)/L,  L = hinge_share (a_- + a_+),
-///
-/// which is taken from the elements beside it (rule_beside_hinges). Unknowns there: h t_-, w, h
-/// t_+.
+/// Unknowns, node by node (HermiteNodes): w and h t, both in m, with h = l/n. A node with a hinge
+/// has a slope on either side, t_- and t_+, and a section of length L between them, kappa = (t_+ -
+/// t_-)/L, L = hinge_share (a_- + a_+), which is taken from the elements beside it
+/// (rule_beside_hinges). Unknowns there: h t_-, w, h t_+.
 class HermiteMesh final : public BeamMesh {
  public:
-  enum class Extent { whole, half };
-
   static constexpr std::size_t fewest_elements = HermiteNodes::fewest_elements;
 
   using Options = HermiteNodes::Options;
 
   /// `position` is the struck point as a fraction of the length, `n_elements` counts those of the
-  /// whole beam. Throws std::invalid_argument for fewer than 4 elements, other than 2, 3 or 4
-  /// sections per element, a strike on a support, a half model of an odd number of elements, of
-  /// unlike ends or struck off mid-span.
+  /// whole beam. Throws std::invalid_argument for other than 2, 3 or 4 sections per element, and
+  /// as HermiteNodes does.
   HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
-              std::size_t sections_per_element, Extent extent, const Options& options);
-  HermiteMesh(const Beam& beam, double position, std::size_t n_elements,
-              std::size_t sections_per_element, Extent extent)
-      : HermiteMesh(beam, position, n_elements, sections_per_element, extent, Options{}) {}
+              std::size_t sections_per_element, Extent extent, const Options& options = {});
 
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
@@ -94,8 +78,6 @@ class HermiteMesh final : public BeamMesh {
   void place_element(std::size_t e, double left, const ElementRule& rule);
   void place_hinge(std::size_t node, double x);
   void add_row(std::span<const std::size_t> unknowns, std::span<const double> coefficients);
-  void add_local(const std::array<std::size_t, 4>& unknowns,
-                 const HermiteElement::Coefficients& values, std::span<double> result) const;
   double highest_element_frequency_squared(double bending_stiffness) const;
   void assemble_mass();
   void assemble_moment();

@@ -10,12 +10,8 @@
 namespace subimpact {
 
 /// Elements that are shorter near the strike: at the strike `refinement` times shorter than far
-/// from it, and growing in proportion to the distance d over `refined_length`,
-///
-///     size(d) ~ 1/r + (1 - 1/r) d/refined_length for d < refined_length, else 1,  r = refinement.
-///
-/// There neighbours grow by a constant ratio. Twice as many elements halve every one, so a finer
-/// mesh of the same grading holds all nodes of the coarser. A refinement of 1: equal elements.
+/// from it, and growing in proportion to the distance d over `refined_length` (docs/theory.md,
+/// "Hermite elements"). Twice as many elements halve every one.
 struct ElementGrading {
   double refinement = 1.0;      ///< 1 or above
   double refined_length = 0.0;  ///< m, above 0 where refinement is above 1

@@ -53,13 +53,11 @@ ModalMesh::ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_st
   for (std::size_t k = 0; k < n; ++k) {
     const double* shape = modes_.shape(k).data();
     momentum_functional_[k] = dot(physical_->momentum_functional().data(), shape, n);
+    struck_curvature_.push_back(physical_->curvature(struck_section_, modes_.shape(k)));
     if (moment_functional_.empty()) continue;
     moment_functional_[k] = dot(physical_->moment_functional().data(), shape, n);
   }
   beam_mass_ = physical_->beam_mass();
-  for (std::size_t k = 0; k < n; ++k) {
-    struck_curvature_.push_back(physical_->curvature(struck_section_, modes_.shape(k)));
-  }
 }
 
 SparseFunctional ModalMesh::in_modes(const SparseFunctional& physical) const {

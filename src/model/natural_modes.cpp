@@ -10,11 +10,9 @@
 namespace subimpact {
 
 void normalise(NaturalModes& modes, const BandedMatrix& mass) {
-  const std::size_t n = modes.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::span<double> shape(modes.shapes.data() + k * n, n);
-    const double scale = 1.0 / std::sqrt(mass.quadratic_form(shape));
-    for (double& entry : shape) entry *= scale;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const double scale = 1.0 / std::sqrt(mass.quadratic_form(modes.shape(k)));
+    for (double& entry : modes.shape(k)) entry *= scale;
   }
 }
 
@@ -30,17 +28,17 @@ void free_of_translation(NaturalModes& modes, const BeamMesh& mesh) {
   std::vector<double> momentum(n);  // of a velocity in each unknown
   mesh.mass().multiply(translation, momentum);
   const double mass = mesh.mass().quadratic_form(translation);
-  const auto shape = [&](std::size_t k) { return std::span(modes.shapes.data() + k * n, n); };
   for (std::size_t k = 0; k < n; ++k) {
     double share = 0.0;
-    for (std::size_t i = 0; i < n; ++i) share += momentum[i] * shape(k)[i];
-    for (std::size_t i = 0; i < n; ++i) shape(k)[i] -= share / mass * translation[i];
+    for (std::size_t i = 0; i < n; ++i) share += momentum[i] * modes.shape(k)[i];
+    for (std::size_t i = 0; i < n; ++i) modes.shape(k)[i] -= share / mass * translation[i];
   }
   const bool rotates = n > 1 && modes.frequencies[1] == 0.0;
-  if (rotates && mesh.mass().quadratic_form(shape(0)) > mesh.mass().quadratic_form(shape(1))) {
-    std::ranges::copy(shape(0), shape(1).begin());
+  if (rotates &&
+      mesh.mass().quadratic_form(modes.shape(0)) > mesh.mass().quadratic_form(modes.shape(1))) {
+    std::ranges::copy(modes.shape(0), modes.shape(1).begin());
   }
-  std::ranges::copy(translation, shape(0).begin());
+  std::ranges::copy(translation, modes.shape(0).begin());
   normalise(modes, mesh.mass());
 }
 

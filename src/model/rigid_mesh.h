@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
@@ -14,13 +17,39 @@ namespace subimpact {
 class RigidMesh final : public BeamMesh {
  public:
   /// `position` is the struck point as a fraction of the length.
-  RigidMesh(const Beam& beam, double position);
+  RigidMesh(const Beam& beam, double position)
+      : BeamMesh(position == 0.5 ? 1 : 2, 0, false), length_(beam.length) {
+    mass_.at(0, 0) = beam_mass_ = beam.mass();
+    struck_point_.terms = {{0, 1.0}};
+    if (n_unknowns() == 2) {
+      struck_point_.terms.push_back({1, (position - 0.5) * length_});
+      mass_.at(1, 1) = beam.mass() * length_ * length_ / 12.0 + beam.rotary_inertia() * length_;
+    }
+    first_end_ = *displacement_at(0.0);
+    translation_.assign(n_unknowns(), 0.0);
+    translation_[0] = 1.0;
+    momentum_functional_.assign(n_unknowns(), 0.0);
+    momentum_functional_[0] = beam.mass();
+    weights_ = {length_};
+    positions_ = {position * length_};
+    add_stencil(0, std::array{0.0});
+  }
 
-  void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
-  void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
-  std::optional<SparseFunctional> displacement_at(double x) const override;
-  std::optional<SparseFunctional> rotation_at(double x) const override;
-  double highest_frequency(double bending_stiffness) const override;  ///< 0
+  void curvatures(std::span<const double>, std::span<double> kappa) const override {
+    std::ranges::fill(kappa, 0.0);
+  }
+  void bending_forces(std::span<const double>, std::span<double> forces) const override {
+    std::ranges::fill(forces, 0.0);
+  }
+  std::optional<SparseFunctional> displacement_at(double x) const override {
+    SparseFunctional displacement{{{0, 1.0}}, {}};
+    if (n_unknowns() == 2) displacement.terms.push_back({1, x - 0.5 * length_});
+    return displacement;
+  }
+  std::optional<SparseFunctional> rotation_at(double) const override {
+    return n_unknowns() == 1 ? SparseFunctional{} : SparseFunctional{{{1, 1.0}}, {}};
+  }
+  double highest_frequency(double) const override { return 0.0; }
   std::string description() const override { return "a rigid body"; }
 
  private:

@@ -11,22 +11,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const SectionHistory virgin{};
 
-// Calls visit(i) for every section outside its window.
-template <class Visit>
-void for_each_outside(std::span<const double> curvatures, const AlignedVector& low,
-                      const AlignedVector& high, Visit visit) {
-  const double* k = curvatures.data();
-  const double* l = low.data();
-  const double* h = high.data();
-  for_each_found(
-      curvatures.size(),
-      [=](std::size_t i) {
-        const Lanes here = lanes_at(k + i);
-        return (here > lanes_at(h + i)) | (here < lanes_at(l + i));
-      },
-      [=](std::size_t i) { return k[i] > h[i] || k[i] < l[i]; }, visit);
-}
-
 }  // namespace
 
 SectionField::SectionField(std::size_t n_sections, double stiffness)
@@ -135,11 +119,14 @@ void SectionField::smooth_moments(std::span<const double> curvatures,
   }
 }
 
+const SectionBranch* SectionField::flowing_branch(std::size_t section) const {
+  const auto flow = std::ranges::find(flowing_, section, &Flow::section);
+  return flow == flowing_.end() ? nullptr : &flow->branch;
+}
+
 double SectionField::smooth_tangent(std::size_t section, double curvature) const {
-  for (const Flow& flow : flowing_) {
-    if (flow.section == section) return law_->tangent_on(flow.branch, curvature);
-  }
-  return stiffness_;
+  const SectionBranch* branch = flowing_branch(section);
+  return branch != nullptr ? law_->tangent_on(*branch, curvature) : stiffness_;
 }
 
 void SectionField::commit_reversal(std::size_t section, double curvature) {
@@ -158,8 +145,16 @@ std::size_t SectionField::commit(std::span<const double> curvatures,
   flowing_.clear();
   if (!law_) return 0;
   std::size_t n_flowed = 0;
-  for_each_outside(curvatures, low_, high_, [&](std::size_t i) {
-    commit_reversal(i, curvatures[i]);
+  const double* k = curvatures.data();
+  const double* low = low_.data();
+  const double* high = high_.data();
+  const auto are_outside = [=](std::size_t i) {
+    const Lanes here = lanes_at(k + i);
+    return (here > lanes_at(high + i)) | (here < lanes_at(low + i));
+  };
+  const auto is_outside = [=](std::size_t i) { return k[i] > high[i] || k[i] < low[i]; };
+  for_each_found(curvatures.size(), are_outside, is_outside, [&](std::size_t i) {
+    commit_reversal(i, k[i]);
     ++n_flowed;
     const SectionHistory& now = history(i);
     const bool flows_on = !rates.empty() && now.direction * rates[i] > 0.0;

@@ -65,6 +65,7 @@ class SectionField {
   };
   /// The sections that continued to flow at the last commit, in ascending order.
   const std::vector<Flow>& flowing() const { return flowing_; }
+  const SectionBranch* flowing_branch(std::size_t section) const;  ///< of one, if it is among them
   /// The law (none for a field that never yields) and the history of a section.
   const SectionLaw& law() const { return *law_; }
   const SectionHistory& history(std::size_t section) const;

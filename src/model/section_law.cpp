@@ -10,21 +10,11 @@ namespace {
 
 using Point = SectionHistory::Point;
 
-// The reversal points in force for motion in one sense: those stored and, when the motion turns
-// back from the edge, the edge itself on top.
-class ReversalsInForce {
- public:
-  ReversalsInForce(const SectionHistory& history, bool turned)
-      : history_(history), size_(history.reversals.size() + (turned ? 1 : 0)) {}
-  std::size_t size() const { return size_; }
-  const Point& operator[](std::size_t i) const {
-    return i < history_.reversals.size() ? history_.reversals[i] : history_.edge;
-  }
-
- private:
-  const SectionHistory& history_;
-  std::size_t size_;
-};
+// The i-th reversal point in force: those stored and, when the motion turns back from the edge, the
+// edge itself on top.
+const Point& point_in_force(const SectionHistory& history, std::size_t i) {
+  return i < history.reversals.size() ? history.reversals[i] : history.edge;
+}
 
 bool reverses(const SectionHistory& history, double x) {
   return history.direction * (x - history.edge.x) < 0.0;
@@ -75,11 +65,10 @@ ElasticWindow SectionLaw::window(const SectionHistory& history) const {
 SectionBranch SectionLaw::branch_at(const SectionHistory& history, double x) const {
   const bool turned = reverses(history, x);
   const double sense = turned ? -history.direction : history.direction;
-  const ReversalsInForce points(history, turned);
-  std::size_t n = points.size();
+  std::size_t n = history.reversals.size() + (turned ? 1 : 0);
   while (n > 0) {
-    const Point& origin = points[n - 1];
-    const double limit = n >= 2 ? points[n - 2].x : -origin.x;
+    const Point& origin = point_in_force(history, n - 1);
+    const double limit = n >= 2 ? point_in_force(history, n - 2).x : -origin.x;
     if (sense * (x - limit) <= 0.0) return {origin, sense, false, limit * yield_curvature_};
     n -= n >= 2 ? 2 : 1;
   }
@@ -176,11 +165,11 @@ template <class Visit>
 void SectionLaw::for_each_zone(const SectionHistory& history, double x, Visit visit) const {
   // Fibres beyond 2/|b - a| flowed on the branch from a to b (beyond 1/|b| on the virgin one) and
   // have been elastic since its end b. Later branches are shorter, so their fibres lie further out.
-  const ReversalsInForce points(history, reverses(history, x));
+  const std::size_t n_points = history.reversals.size() + (reverses(history, x) ? 1 : 0);
   double outer = fibres_.extent();
   double end = x;
-  for (std::size_t i = points.size() + 1; i-- > 0;) {
-    const double start = i > 0 ? points[i - 1].x : 0.0;
+  for (std::size_t i = n_points + 1; i-- > 0;) {
+    const double start = i > 0 ? point_in_force(history, i - 1).x : 0.0;
     const double length = std::abs(end - start);
     const double inner = (i > 0 ? 2.0 : 1.0) / std::max(length, 1e-300);
     if (inner < outer) {

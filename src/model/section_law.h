@@ -39,12 +39,9 @@ struct SectionBranch {
 
 /// Moment of a section whose fibres are elastic-perfectly plastic, with memory.
 ///
-/// The virgin curve is that of the fibres (Fibres). From a reversal point r the branch is m = m_r
-/// +- 2 f(|x - x_r|/2) with f the virgin curve (Masing); a branch that reaches the previous
-/// reversal point continues the older branch, and beyond the largest amplitude the virgin curve
-/// holds again. For such fibres this is exact: the sum over the fibres is a Prandtl-Ishlinskii
-/// operator, for the continuous section and for layers alike. After flow in one sense has ended at
-/// `edge`, no fibre flows within 2 x_1 of the edge on the side of unloading (x_1: first yield).
+/// The virgin curve is that of the fibres (Fibres); after reversals Masing's rule holds, which is
+/// exact for such fibres (docs/theory.md, "Bending with yield"). After flow in one sense has ended
+/// at `edge`, no fibre flows within 2 x_1 of the edge on the side of unloading (x_1: first yield).
 ///
 /// Bending moment M in N m, with the sign of the curvature (1/m). All functions are const in the
 /// history; `commit` alone advances it, at accepted states. Curvature is taken to move

@@ -13,10 +13,8 @@ namespace subimpact {
 ///     gamma = w' - phi,  kappa = phi'      at the 4 Gauss points of an element (the sections)
 ///     Mass  by Gauss-Lobatto quadrature, diagonal
 ///
-/// One Gauss point fewer than the polynomials have nodes is what keeps slender beams from locking.
-/// Natural frequencies have the order 8 in the elements' length. Times of events have the order 2
-/// or more: shear waves carry the kinks of the contact force along. A node lies under the strike,
-/// where w bends: elements on both sides of the strike have lengths of their own.
+/// (docs/theory.md, "Spectral elements"). A node lies under the strike: elements on both sides of
+/// it have lengths of their own.
 ///
 /// Unknowns, from left to right: w and r phi of every node, in m, with the radius of gyration r;
 /// those that supports hold, and the rotation at mid-span under symmetry, are left out.
@@ -25,8 +23,6 @@ namespace subimpact {
 /// al., Int. J. Num. Meth. Eng. 3 (1971) 275, for the reduced integration.
 class SpectralMesh final : public BeamMesh {
  public:
-  enum class Extent { whole, half };
-
   static constexpr std::size_t degree = 4;
   static constexpr std::size_t n_nodes = degree + 1;  // of an element
   static constexpr std::size_t fewest_elements = 2;

@@ -62,6 +62,7 @@ TimoshenkoMesh::TimoshenkoMesh(const Beam& beam, double position, std::size_t n_
   assemble_mass();
   assemble_shear();
   place_sections();
+  place_unknowns();
   struck_point_.terms = {{node(before), 1.0}};
   if (!symmetric()) assemble_moment();
   if (ends_[0] == EndSupport::free) {  // no curvature there
@@ -88,7 +89,7 @@ void TimoshenkoMesh::assemble_mass() {
   for (std::size_t i = 0; i + 1 < n_nodes_; ++i) {
     // The outer half of a free end cell turns with the face next to it.
     const bool is_first = i == 0 && ends_[0] == EndSupport::free;
-    const bool is_last = has_far_end() && i + 2 == n_nodes_ && ends_[1] == EndSupport::free;
+    const bool is_last = !symmetric() && i + 2 == n_nodes_ && ends_[1] == EndSupport::free;
     const double cells = 1.0 + (is_first ? 0.5 : 0.0) + (is_last ? 0.5 : 0.0);
     const double length = sides_[i < struck ? 0 : 1].length;
     mass_.at(node(i) + 1, node(i) + 1) = copies() * rotation_mass * cells * length;
@@ -96,7 +97,7 @@ void TimoshenkoMesh::assemble_mass() {
   if (ends_[0] == EndSupport::pinned) {
     mass_.at(0, 0) = copies() * rotation_mass * 0.5 * sides_[0].length;
   }
-  if (has_far_end() && ends_[1] == EndSupport::pinned) {
+  if (!symmetric() && ends_[1] == EndSupport::pinned) {
     mass_.at(n_unknowns() - 1, n_unknowns() - 1) = rotation_mass * 0.5 * sides_[1].length;
   }
 }
@@ -130,14 +131,10 @@ void TimoshenkoMesh::assemble_shear() {
     add({{node(i), -1.0 / length}, {node(i) + 1, turn}, {node(i + 1), 1.0 / length}},
         copies() * shear_stiffness_per_length_ * length);
   }
-  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
+  for (std::size_t end = 0; end < (symmetric() ? 1u : 2u); ++end) {
     if (ends_[end] == EndSupport::free) continue;
     const EndFace face = end_face(end);
-    if (face.turn != 0.0) {
-      add({{face.rotation, face.turn}, {face.node, face.rise}}, face.stiffness);
-    } else {
-      add({{face.node, face.rise}}, face.stiffness);
-    }
+    add({{face.rotation, face.turn}, {face.node, face.rise}}, face.stiffness);
   }
 }
 
@@ -151,38 +148,36 @@ double TimoshenkoMesh::node_position(std::size_t i) const {
   return length() - (static_cast<double>(n_nodes_ - 1 - i) + 0.5) * sides_[1].length;
 }
 
-TimoshenkoMesh::Place TimoshenkoMesh::displacement_place(long i) const {
-  const auto n = static_cast<long>(n_nodes_);
-  if (i >= 0 && i < n) {
-    const auto at = static_cast<std::size_t>(i);
-    return {node_position(at), {{{node(at), 1.0}}, {}}};
+void TimoshenkoMesh::place_unknowns() {
+  for (std::size_t i = 0; i < n_nodes_; ++i) {
+    displacements_.push_back({node_position(i), {{{node(i), 1.0}}, {}}});
+    if (i + 1 == n_nodes_) break;
+    rotations_.push_back(
+        {0.5 * (node_position(i) + node_position(i + 1)), {{{node(i) + 1, 1.0 / gyration_}}, {}}});
   }
-  const std::size_t end = i < 0 ? 0 : 1;
-  Place place{i < 0 ? 0.0 : length(), {}};
-  if (ends_[end] != EndSupport::free) return place;
-  const Place outer = displacement_place(i < 0 ? 0 : n - 1);
-  const Place inner = displacement_place(i < 0 ? 1 : n - 2);
-  place.value = between(outer, inner, place.x);
-  return place;
-}
-
-TimoshenkoMesh::Place TimoshenkoMesh::rotation_place(long j) const {
-  const auto n = static_cast<long>(n_nodes_) - 1;
-  if (j >= 0 && j < n) {
-    const auto before = static_cast<std::size_t>(j);
-    return {0.5 * (node_position(before) + node_position(before + 1)),
-            {{{node(before) + 1, 1.0 / gyration_}}, {}}};
-  }
-  const bool at_mid_span = symmetric() && j >= n;
-  const std::size_t end = j < 0 ? 0 : 1;
-  Place place{at_mid_span ? 0.5 * length() : j < 0 ? 0.0 : length(), {}};
-  if (at_mid_span || ends_[end] == EndSupport::clamped) return place;
-  if (ends_[end] == EndSupport::free) {
-    place.value = rotation_place(j < 0 ? 0 : n - 1).value;
+  const auto end_displacement = [&](std::size_t end, const Place& outer, const Place& inner) {
+    Place place{end == 0 ? 0.0 : length(), {}};
+    if (ends_[end] == EndSupport::free) place.value = between(outer, inner, place.x);
+    return place;
+  };
+  const auto end_rotation = [&](std::size_t end, const Place& outer) {
+    Place place{end == 0 ? 0.0 : length(), {}};
+    if (ends_[end] == EndSupport::free) place.value = outer.value;
+    if (ends_[end] == EndSupport::pinned) {
+      place.value.terms = {{end_face(end).rotation, 1.0 / gyration_}};
+    }
+    return place;
+  };
+  if (symmetric()) {
+    rotations_.push_back({0.5 * length(), {}});
   } else {
-    place.value.terms = {{end_face(end).rotation, 1.0 / gyration_}};
+    displacements_.push_back(
+        end_displacement(1, displacements_.back(), displacements_[n_nodes_ - 2]));
+    rotations_.push_back(end_rotation(1, rotations_.back()));
   }
-  return place;
+  displacements_.insert(displacements_.begin(),
+                        end_displacement(0, displacements_[0], displacements_[1]));
+  rotations_.insert(rotations_.begin(), end_rotation(0, rotations_[0]));
 }
 
 SparseFunctional TimoshenkoMesh::between(const Place& before, const Place& after, double x) {
@@ -195,28 +190,15 @@ SparseFunctional TimoshenkoMesh::between(const Place& before, const Place& after
   return value;
 }
 
-double TimoshenkoMesh::cells_up_to(double x) const {
-  const double before = static_cast<double>(sides_[0].n_cells);
-  const double after = static_cast<double>(sides_[1].n_cells);
-  if (x <= (before + 0.5) * sides_[0].length) return x / sides_[0].length;
-  return before + after + 1.0 - (length() - x) / sides_[1].length;
-}
-
-std::optional<SparseFunctional> TimoshenkoMesh::displacement_at(double x) const {
-  const auto last = static_cast<long>(n_nodes_) - (symmetric() ? 2 : 1);
-  const auto i = std::clamp(static_cast<long>(std::floor(cells_up_to(x) - 0.5)), -1L, last);
-  return between(displacement_place(i), displacement_place(i + 1), x);
-}
-
-std::optional<SparseFunctional> TimoshenkoMesh::rotation_at(double x) const {
-  const auto last = static_cast<long>(n_nodes_) - 2;
-  const auto j = std::clamp(static_cast<long>(std::floor(cells_up_to(x))) - 1, -1L, last);
-  return between(rotation_place(j), rotation_place(j + 1), x);
+SparseFunctional TimoshenkoMesh::at(const std::vector<Place>& places, double x) {
+  const auto after = std::clamp(std::ranges::upper_bound(places, x, {}, &Place::x),
+                                places.begin() + 1, places.end() - 1);
+  return between(*(after - 1), *after, x);
 }
 
 void TimoshenkoMesh::place_sections() {
   const std::size_t first = ends_[0] == EndSupport::free ? 1 : 0;
-  const std::size_t end = has_far_end() && ends_[1] == EndSupport::free ? n_nodes_ - 1 : n_nodes_;
+  const std::size_t end = !symmetric() && ends_[1] == EndSupport::free ? n_nodes_ - 1 : n_nodes_;
   const std::size_t struck = sides_[0].n_cells;
   for (std::size_t i = first; i < end; ++i) {
     const bool is_mirror = symmetric() && i == struck;
@@ -290,7 +272,7 @@ void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
   double* f = forces.data() + n_before_;
   std::size_t j = 0;
   double before = 0.0;
-  for (std::size_t side = 0; side < (has_far_end() ? 2u : 1u); ++side) {
+  for (std::size_t side = 0; side < (symmetric() ? 1u : 2u); ++side) {
     const double length = sides_[side].length;
     const double stiffness = copies() * shear_stiffness_per_length_;
     const double rise = stiffness / length;
@@ -305,12 +287,7 @@ void TimoshenkoMesh::add_shear_forces(std::span<const double> unknowns,
     }
   }
   f[2 * j] -= before;
-  add_shear_of_ends(unknowns, forces);
-}
-
-void TimoshenkoMesh::add_shear_of_ends(std::span<const double> unknowns,
-                                       std::span<double> forces) const {
-  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
+  for (std::size_t end = 0; end < (symmetric() ? 1u : 2u); ++end) {
     if (ends_[end] == EndSupport::free) continue;
     const EndFace face = end_face(end);
     const double force = face.stiffness * face.strain(unknowns);
@@ -338,7 +315,7 @@ double TimoshenkoMesh::shear_energy(std::span<const double> unknowns) const {
     sum += length * strain * strain;
   }
   sum *= copies() * shear_stiffness_per_length_;
-  for (std::size_t end = 0; end < (has_far_end() ? 2u : 1u); ++end) {
+  for (std::size_t end = 0; end < (symmetric() ? 1u : 2u); ++end) {
     if (ends_[end] == EndSupport::free) continue;
     const EndFace face = end_face(end);
     const double strain = face.strain(unknowns);

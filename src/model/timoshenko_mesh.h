@@ -8,15 +8,8 @@
 namespace subimpact {
 
 /// N cells of a beam whose sections shear, second order in the cells' lengths: displacements w at
-/// the nodes of the cells, rotations phi of the sections at the faces between them.
-///
-///     gamma = (w[i+1] - w[i])/dx - phi[i+1/2]      shear strain at the faces, shear force kGA
-///     gamma kappa_i = (phi[i+1/2] - phi[i-1/2])/dx       curvature at the nodes Mass = diag(rho A
-///     dx, rho I dx)
-///
-/// Timoshenko's equations with the difference quotient in place of each derivative: nothing locks
-/// as the beam becomes slender, and kGA -> infinity gives the cells of Rayleigh's theory, whose
-/// rotations are phi = (w[i+1] - w[i])/dx, but for the inertia of free ends.
+/// the nodes of the cells, rotations phi of the sections at the faces between them (docs/theory.md,
+/// "Cells that shear").
 ///
 /// Unknowns, from left to right: w[0], r phi[1/2], w[1], r phi[3/2], ..., in m, with the radius of
 /// gyration r; so all unknowns of a cell have the same mass. Ends are faces:
@@ -26,16 +19,13 @@ namespace subimpact {
 ///     pinned   a rotation phi at the face, of half a cell's inertia; gamma = 2 w[0]/dx - phi
 ///     clamped  neither; gamma = 2 w[0]/dx
 ///
-/// A point force bends w, so a node lies under the strike: cells on both sides of it have lengths
-/// of their own, which differ by the order of dx^2, and the struck cell reaches half of each to
-/// its sides. In the symmetric half model (strike at mid-span, N odd, ends alike) the last unknown
-/// is the displacement of the struck node.
+/// A node lies under the strike: cells on both sides of it have lengths of their own, and the
+/// struck cell reaches half of each to its sides. In the symmetric half model (strike at mid-span,
+/// N odd, ends alike) the last unknown is the displacement of the struck node.
 ///
 /// Source: S. P. Timoshenko, Phil. Mag. 41 (1921) 744.
 class TimoshenkoMesh final : public BeamMesh {
  public:
-  enum class Extent { whole, half };
-
   static constexpr std::size_t fewest_cells = 5;
 
   /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument for
@@ -48,9 +38,11 @@ class TimoshenkoMesh final : public BeamMesh {
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   /// Straight between nodes; at the face of a free end continued from the two nodes next to it.
-  std::optional<SparseFunctional> displacement_at(double x) const override;
+  std::optional<SparseFunctional> displacement_at(double x) const override {
+    return at(displacements_, x);
+  }
   /// Straight between faces; constant in the end cell of a free end, where nothing bends.
-  std::optional<SparseFunctional> rotation_at(double x) const override;
+  std::optional<SparseFunctional> rotation_at(double x) const override { return at(rotations_, x); }
   /// The upper branch of the infinite grid of the shorter cells at its shortest wave.
   double highest_frequency(double bending_stiffness) const override;
   std::string description() const override;
@@ -62,7 +54,6 @@ class TimoshenkoMesh final : public BeamMesh {
     std::size_t n_cells;
   };
   std::size_t node(std::size_t cell) const { return n_before_ + 2 * cell; }  // its unknown
-  bool has_far_end() const { return !symmetric(); }
   double cell_length(std::size_t cell) const;
   void assemble_mass();
   void assemble_shear();
@@ -74,14 +65,10 @@ class TimoshenkoMesh final : public BeamMesh {
     SparseFunctional value;
   };
   static SparseFunctional between(const Place& before, const Place& after, double x);
-  // The nodes, with the ends as numbers -1 and n_nodes_; faces j between the nodes j and j + 1,
-  // with the ends as numbers -1 and n_nodes_ - 1, or mid-span as the last of a half model.
-  Place displacement_place(long i) const;
-  Place rotation_place(long j) const;
+  static SparseFunctional at(const std::vector<Place>& places, double x);
+  void place_unknowns();
   double node_position(std::size_t i) const;
   double length() const;  // of the whole beam, m
-  // How many cells lie before x, in cells, counted from the first face.
-  double cells_up_to(double x) const;
   // The face of a supported end.
   struct EndFace {
     std::size_t node, rotation;  // unknowns; the rotation of a pinned end only
@@ -92,7 +79,6 @@ class TimoshenkoMesh final : public BeamMesh {
     }
   };
   EndFace end_face(std::size_t end) const;
-  void add_shear_of_ends(std::span<const double> unknowns, std::span<double> forces) const;
 
   std::array<Side, 2> sides_;
   std::array<EndSupport, 2> ends_;
@@ -103,6 +89,8 @@ class TimoshenkoMesh final : public BeamMesh {
   double rotary_inertia_;
   double shear_stiffness_per_length_;  // kGA, N
   std::vector<double> slopes_;         // curvature for a difference of 1 m between unknowns, 1/m2
+  // From end to end (or mid-span): nodes with the ends, faces between nodes with the ends.
+  std::vector<Place> displacements_, rotations_;
 };
 
 }  // namespace subimpact

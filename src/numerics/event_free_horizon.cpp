@@ -7,7 +7,6 @@
 #include "numerics/lanes.h"
 
 namespace subimpact {
-namespace {
 
 // Intervals, in radians of the fastest oscillator: the longest, the factor between levels, and
 // their number. Any choice will do: 16 to 256 radians, factors of 2 to 16 and 3 to 9 levels down to
@@ -18,8 +17,6 @@ constexpr std::size_t n_levels = 5;
 // Longest horizon, in intervals of the first level. Each adds a rounding error to the samples, all
 // of them 4096 * 2^-53 = 5e-13 of the amplitudes.
 constexpr double most_intervals = 4096.0;
-
-}  // namespace
 
 EventFreeHorizon::EventFreeHorizon(std::vector<double> frequencies, std::vector<double> functions)
     : omega_(std::move(frequencies)),
@@ -50,7 +47,16 @@ double EventFreeHorizon::from(std::span<const double> z, std::span<const double>
                               double longest) {
   low_ = low;
   high_ = high;
-  set_amplitudes(z, rates);
+  for (std::size_t k = n_uniform_; k < n_; ++k) {
+    amplitudes_[k] = std::hypot(z[k], rates[k] / omega_[k]);
+  }
+  for (Level& level : levels_) {
+    for (std::size_t k = 0; k < n_; ++k) {
+      const double angle = omega_[k] * level.interval;
+      level.bounds[k] = amplitudes_[k] * std::min(1.0, angle * angle / 8.0);
+    }
+    std::ranges::fill(level.margins, -1.0);
+  }
   Level& first = levels_.front();
   first.functions.clear();
   for (std::size_t i = 0; i < n_functions(); ++i) {
@@ -60,19 +66,6 @@ double EventFreeHorizon::from(std::span<const double> z, std::span<const double>
   std::copy(rates.begin(), rates.end(), first.rates.begin());
   const double n = std::min(std::ceil(longest / first.interval), most_intervals);
   return std::min(event_free_time(0, static_cast<std::size_t>(n)), longest);
-}
-
-void EventFreeHorizon::set_amplitudes(std::span<const double> z, std::span<const double> rates) {
-  for (std::size_t k = n_uniform_; k < n_; ++k) {
-    amplitudes_[k] = std::hypot(z[k], rates[k] / omega_[k]);
-  }
-  for (Level& level : levels_) {
-    for (std::size_t k = 0; k < n_; ++k) {
-      const double angle = omega_[k] * level.interval;
-      level.bounds[k] = amplitudes_[k] * std::min(1.0, angle * angle / 8.0);
-    }
-    std::fill(level.margins.begin(), level.margins.end(), -1.0);
-  }
 }
 
 bool EventFreeHorizon::stays_within_limits(std::size_t i) const {

@@ -11,21 +11,11 @@ namespace subimpact {
 ///
 ///     z_k'' + omega_k^2 z_k = 0,   low_i < x_i < high_i,   x_i = sum_k g_ik z_k.
 ///
-/// The motion conserves the amplitudes A_k = |(z_k, z_k'/omega_k)|. Hence oscillator k moves x_i by
-/// at most |g_ik| A_k, and bends its path by at most |g_ik| A_k omega_k^2, so that over an interval
-/// tau the path lies within tau^2/8 times that of the straight line through its ends. The smaller
-/// of both bounds is used: x_i is sampled every tau from the slow oscillators alone, omega_k tau <
-/// sqrt(8), and in between exceeds the larger of both ends by no more than the margin
-///
-///     sum_k |g_ik| A_k min(1, (omega_k tau)^2/8).
-///
-/// Functions that pass are event-free in the interval; the others are unresolved and are sampled
-/// again with tau/4, down to omega_n tau = 1/4, where margins are at most 1/128 of the amplitude
-/// bound sum_k |g_ik| A_k. The horizon is the start of the first interval of that length which a
-/// function does not pass. Functions whose amplitude bound is within their limits are never
-/// sampled.
-///
-/// omega_k = 0 is a body moving uniformly: exact at any tau.
+/// omega_k = 0 is a body moving uniformly. Each x_i is sampled every tau from the slow oscillators
+/// alone, omega_k tau < sqrt(8); between two samples it exceeds the larger of them by no more than
+/// the margin sum_k |g_ik| A_k min(1, (omega_k tau)^2/8), with the amplitudes A_k = |(z_k,
+/// z_k'/omega_k)|. Functions that do not keep their margins from the limits are sampled again with
+/// tau/4. See docs/theory.md, "Free flight", for the derivation.
 class EventFreeHorizon {
  public:
   /// `frequencies`: omega, n of them, rad/s, ascending, the last above 0; `functions`: g, row by
@@ -53,7 +43,6 @@ class EventFreeHorizon {
     std::vector<double> values;          // of the functions there
     std::vector<std::size_t> functions;  // those sampled on this level
   };
-  void set_amplitudes(std::span<const double> z, std::span<const double> rates);
   bool stays_within_limits(std::size_t function) const;
   bool passes(Level& level, std::size_t function, double before, double after);
   // Of `n` intervals of a level, begun at its z and rates: the time without an event.

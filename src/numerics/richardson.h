@@ -20,10 +20,4 @@ inline double ratio_of_differences(double h1, double h2, double h3, double order
   return (std::pow(h1, order) - std::pow(h2, order)) / (std::pow(h2, order) - std::pow(h3, order));
 }
 
-/// The order p that values at h, h/ratio and h/ratio^2 show.
-inline double observed_order(double coarse, double middle, double fine, double ratio) {
-  assert(ratio > 1.0);
-  return std::log(std::abs((middle - coarse) / (fine - middle))) / std::log(ratio);
-}
-
 }  // namespace subimpact

@@ -15,11 +15,6 @@ constexpr double uncertain_share = 0.5;
 
 using MaybeCrossing = std::optional<Crossing>;
 
-MaybeCrossing crossing_at(EventKind kind, const IndentationStep& step, double lower, double guess) {
-  return Crossing{
-      {kind}, step.t0 + lower * step.length(), step.t1, step.t0 + guess * step.length(), false};
-}
-
 // A double root: negative at both ends, with a local maximum near or above zero in between.
 MaybeCrossing find_double_root(EventKind kind, const IndentationStep& step, const EventValue& g0,
                                const EventValue& g1, double rounding) {
@@ -43,7 +38,11 @@ MaybeCrossing find_rise_of(EventKind kind, const IndentationStep& step, const Ev
   if (g0.rate < 0.0 && g1.rate > 0.0) {
     lower = HermiteCubic(-g0.value, -g0.rate, -g1.value, -g1.rate, step.length()).peak();
   }
-  return crossing_at(kind, step, lower, path.rise(lower, 1.0));
+  return Crossing{{kind},
+                  step.t0 + lower * step.length(),
+                  step.t1,
+                  step.t0 + path.rise(lower, 1.0) * step.length(),
+                  false};
 }
 
 // Of a function of the indentation's rate.
@@ -51,9 +50,7 @@ MaybeCrossing find_rise_of_rate(const EventFunction& function, const Indentation
                                 const EventValue& g0, const EventValue& g1) {
   if (!(g1.value > 0.0)) return std::nullopt;
   const double guess = g0.value < 0.0 ? g0.value / (g0.value - g1.value) : 0.0;
-  MaybeCrossing found = crossing_at(function.kind, step, 0.0, guess);
-  found->function = function;
-  return found;
+  return Crossing{function, step.t0, step.t1, step.t0 + guess * step.length(), false};
 }
 
 }  // namespace
@@ -61,10 +58,9 @@ MaybeCrossing find_rise_of_rate(const EventFunction& function, const Indentation
 std::optional<Crossing> find_crossing(const ContactState& contact, const IndentationStep& step,
                                       const CrossingSearch& search) {
   std::optional<Crossing> earliest;
-  const auto consider = [&](const EventFunction& function) {
+  for (const EventFunction& function : contact.event_functions()) {
     const EventKind kind = function.kind;
-    if (std::find(search.without.begin(), search.without.end(), function) != search.without.end())
-      return;
+    if (std::ranges::find(search.without, function) != search.without.end()) continue;
     const EventValue g0 = contact.event_function(function, step.lambda0, step.rate0);
     const EventValue g1 = contact.event_function(function, step.lambda1, step.rate1);
     std::optional<Crossing> found;
@@ -76,8 +72,7 @@ std::optional<Crossing> find_crossing(const ContactState& contact, const Indenta
       found = find_double_root(kind, step, g0, g1, search.rounding);
     }
     if (found && !(earliest && earliest->guess <= found->guess)) earliest = found;
-  };
-  for (const EventFunction& function : contact.event_functions()) consider(function);
+  }
   return earliest;
 }
 

@@ -20,11 +20,9 @@ class JoinedBodies {
         slope_(slope),
         moments_(mesh_.n_sections()) {}
 
-  std::size_t size() const { return n_ + 1; }
-
   // d = (-S, 1).
   std::vector<double> difference() const {
-    std::vector<double> d(size(), 0.0);
+    std::vector<double> d(n_ + 1, 0.0);
     mesh_.struck_point().add_to({d.data(), n_}, -1.0);
     d[n_] = 1.0;
     return d;
@@ -34,7 +32,7 @@ class JoinedBodies {
     x[n_] /= beam_.striker_mass();
   }
   std::vector<double> stiffness_times(const std::vector<double>& x) {
-    std::vector<double> result(size(), 0.0);
+    std::vector<double> result(n_ + 1, 0.0);
     const std::span<const double> unknowns(x.data(), n_);
     const std::span<double> forces(result.data(), n_);
     const auto modal = mesh_.modal_stiffness();
@@ -65,8 +63,8 @@ class JoinedBodies {
 // are kept with their products by Mass, so that the inner product needs no mass matrix. Without
 // orthogonalisation against all earlier vectors eigenvalues may come up twice, but none is wrong.
 double largest_eigenvalue(JoinedBodies& bodies) {
-  const std::size_t n = bodies.size();
   std::vector<double> times_mass = bodies.difference();
+  const std::size_t n = times_mass.size();
   std::vector<double> x = times_mass;
   bodies.solve_mass(x);
   std::vector<double> previous(n, 0.0), previous_times_mass(n, 0.0);

@@ -49,8 +49,13 @@ ContactState::Energies ContactState::energies(double indentation) const {
           law_->dissipated_energy(reached)};
 }
 
-EventValue ContactState::event_function(EventKind kind, double indentation, double rate) const {
-  switch (kind) {
+EventValue ContactState::event_function(const EventFunction& function, double indentation,
+                                        double rate) const {
+  if (function.by_rate) {
+    const double above = rate + 1.0 / damping_;
+    return {function.kind == EventKind::contact_ends ? -above : above, 0.0};
+  }
+  switch (function.kind) {
     case EventKind::contact_begins:
       return {indentation - residual_indentation(), rate};
     case EventKind::contact_ends:
@@ -64,13 +69,6 @@ EventValue ContactState::event_function(EventKind kind, double indentation, doub
   }
   assert(false && "an event of sections has no function of the indentation");
   return {};
-}
-
-EventValue ContactState::event_function(const EventFunction& function, double indentation,
-                                        double rate) const {
-  if (!function.by_rate) return event_function(function.kind, indentation, rate);
-  const double above = rate + 1.0 / damping_;
-  return {function.kind == EventKind::contact_ends ? -above : above, 0.0};
 }
 
 void ContactState::commit(double indentation) {

@@ -20,10 +20,11 @@ enum class Evaluation {
 /// before and positive after its event.
 struct EventFunction {
   EventKind kind;
-  double sense = 1.0;  ///< sign of the indentation rate before contact_unloads
-  /// Of a damped contact that begins or ends because its rate passes -1/chi.
-  bool by_rate = false;
+  double sense;  ///< sign of the indentation rate before contact_unloads
+  bool by_rate;  ///< of a damped contact that begins or ends because its rate passes -1/chi
 
+  constexpr EventFunction(EventKind kind, double sense = 1.0, bool by_rate = false)
+      : kind(kind), sense(sense), by_rate(by_rate) {}
   friend bool operator==(const EventFunction& a, const EventFunction& b) {
     return a.kind == b.kind && a.by_rate == b.by_rate;
   }
@@ -32,20 +33,15 @@ struct EventFunction {
 /// The contact between striker and beam in one run: the law, the branch in force and the history.
 /// Force and event functions depend on the indentation lambda (m) and its rate (m/s) alone.
 ///
-/// Event functions, by branch (lambda_r, lambda_y: residual indentation, yield threshold):
-///
-///     separated   contact_begins    lambda - lambda_r
-///     elastic     contact_ends      lambda_r - lambda
-///                 contact_yields    lambda - lambda_y
-///     plastic     contact_unloads   -lambda'
+/// See docs/theory.md, "Events", for the event functions of the branches.
 ///
 /// A damped contact (Hunt and Crossley 1975), for laws that never yield, has the force
 ///
 ///     F = F_0(lambda) (1 + chi lambda'),   F_0 the law's own,
 ///
 /// and ends, before lambda reaches lambda_r, where F would become tensile. Its surface then
-/// recovers by itself: as long as lambda > lambda_r, the contact begins again where F would become
-/// compressive. The law's elastic energy that recovers without a force is dissipated.
+/// recovers by itself, without a force, and the contact may begin again (docs/theory.md,
+/// "Contact"):
 ///
 ///     elastic                  contact_ends     lambda_r - lambda, or by rate: -(lambda' + 1/chi)
 ///     separated, recovering    contact_begins   by rate: lambda' + 1/chi
@@ -88,11 +84,8 @@ class ContactState {
   };
   Energies energies(double indentation) const;
 
-  /// Value (m) and rate (m/s) of an event function; for contact_unloads the value is -rate, and the
-  /// rate of that value, which needs the acceleration, is left at 0.
-  EventValue event_function(EventKind kind, double indentation, double rate) const;
-  /// The same of any event function of the branch in force. The rate of a value that is a rate of
-  /// the indentation (m/s) is left at 0.
+  /// Value (m) and rate (m/s) of an event function. The rate of a value that is a rate of the
+  /// indentation (m/s) needs the acceleration and is left at 0.
   EventValue event_function(const EventFunction& function, double indentation, double rate) const;
 
   /// Whether the largest indentation grows with the present one.
@@ -108,7 +101,6 @@ class ContactState {
   /// Advances the history to this indentation.
   void commit(double indentation);
   /// Changes the branch at an event of the contact.
-  void pass(EventKind event, double indentation) { pass(EventFunction{event}, indentation); }
   void pass(const EventFunction& event, double indentation);
   /// For schemes that do not locate events: the branch on which the indentation lies.
   void follow(double indentation) { branch_ = law_->branch(history_, indentation); }

@@ -13,14 +13,10 @@ namespace subimpact {
 /// Another integrator, spared the free flight of a struck beam: stretches without contact in which
 /// no section flows.
 ///
-/// Past flow is then a constant moment M_p. The beam vibrates in its elastic modes Phi about the
-/// shape w_e that M_p causes, and the striker moves uniformly:
-///
-///     w = w_e + Phi z,   z_k'' + omega_k^2 z_k = 0,   w_e = Phi diag(omega^-2) Phi^T (-B^T W M_p).
-///
-/// Event functions are the curvatures B Phi z of the sections, limited by their elastic windows,
-/// and the indentation, limited by the residual one. A free flight is one step in closed form, up
-/// to the event-free horizon (EventFreeHorizon); from there the other integrator goes on.
+/// The beam then vibrates in its elastic modes Phi about the shape w_e that past flow causes, and
+/// the striker moves uniformly: w = w_e + Phi z (docs/theory.md, "Free flight"). A free flight is
+/// one step in closed form, up to the event-free horizon (EventFreeHorizon); from there the other
+/// integrator goes on.
 class FreeFlight final : public Integrator {
  public:
   /// `beam` must outlive this; its mesh is not a ModalMesh. `max_step`: longest step, s.

@@ -16,20 +16,21 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material)
   const BeamMesh& mesh = beam.mesh();
   const SectionField& sections = beam.sections();
   std::vector<double> momentum(n_), reaction(n_, 0.0);
-  const auto add = [&](std::span<const double> phi, double frequency) {
+  const NaturalModes modes = mesh.natural_modes(sections.stiffness());
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const std::span<const double> phi = modes.shape(k);
+    const double frequency = modes.frequencies[k];
     const double share = mesh.struck_point()(phi);
     if (frequency == 0.0) {
       mesh.mass().multiply(phi, momentum);
       rigid_.push_back(momentum);
       rigid_share_.push_back(share);
-      return;
+      continue;
     }
     const double amount = share / (frequency * frequency);
     compliance_ += share * amount;
     for (std::size_t i = 0; i < n_; ++i) reaction[i] += amount * phi[i];
-  };
-  const NaturalModes modes = mesh.natural_modes(sections.stiffness());
-  for (std::size_t k = 0; k < modes.size(); ++k) add(modes.shape(k), modes.frequencies[k]);
+  }
   if (!sections.can_yield()) return;
   mesh.curvatures(reaction, curvatures_);
   double largest = 0.0;

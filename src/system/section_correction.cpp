@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "numerics/hermite.h"
 
@@ -55,6 +54,7 @@ SectionField SectionCorrection::reversed(const SectionField& sections) const {
 SectionCorrector::SectionCorrector(const StruckBeam& beam, double tolerance)
     : beam_(beam),
       tolerance_(tolerance),
+      shortest_step_(shortest_cut / beam.highest_frequency()),
       influence_(beam.mesh(), beam.mass_solver()),
       finder_(beam.sections(), influence_),
       end_(beam.sections().size()),
@@ -75,7 +75,7 @@ void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correcti
   const SectionMotion& start = beam_.committed_motion();
   beam_.read_motion(step.y1, end_);
   if (!finder_.find_candidates(start, end_, step.length())) return;
-  if (finder_.cut() && may_cut(step)) {
+  if (finder_.cut() && step.length() > shortest_step_) {
     correction.valid_until = cut_at(step.t0 + *finder_.cut() * step.length(), step);
     return;
   }
@@ -85,19 +85,14 @@ void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correcti
   if (correction.events.empty()) return;
   read_response(step, correction);
   const SectionEvents::Coupling& coupling = finder_.coupling();
-  if (may_cut(step) && coupling_left * coupling.velocity > tolerance_ && coupling.time > step.t0) {
+  if (step.length() > shortest_step_ && coupling_left * coupling.velocity > tolerance_ &&
+      coupling.time > step.t0) {
     correction.valid_until = cut_at(coupling.time, step);
   }
 }
 
-double SectionCorrector::shortest_step() const { return shortest_cut / beam_.highest_frequency(); }
-
-bool SectionCorrector::may_cut(const StepEnds& step) const {
-  return step.length() > shortest_step();
-}
-
 double SectionCorrector::cut_at(double time, const StepEnds& step) const {
-  return std::min(std::max(time, step.t0 + shortest_step()), step.t1);
+  return std::min(std::max(time, step.t0 + shortest_step_), step.t1);
 }
 
 void SectionCorrector::read_response(const StepEnds& step, SectionCorrection& correction) {
@@ -187,22 +182,17 @@ std::optional<double> FirstFlow::find(const StruckBeam& beam, const StepEnds& st
   beam.read_motion(step.y1, end_);
   const auto low = sections.window_low();
   const auto high = sections.window_high();
-  const auto flows = [&](std::size_t i) {
-    return !(end_.curvatures[i] >= low[i] && end_.curvatures[i] <= high[i]);
-  };
-  std::size_t i = 0;
-  while (i < sections.size() && !flows(i)) ++i;
-  if (i == sections.size()) return std::nullopt;
-  beam.read_motion(step.y0, start_);
-  double first = std::numeric_limits<double>::infinity();
-  for (; i < sections.size(); ++i) {
-    if (!flows(i)) continue;
+  std::optional<double> first;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
     const double k1 = end_.curvatures[i];
+    if (k1 >= low[i] && k1 <= high[i]) continue;
+    if (!first) beam.read_motion(step.y0, start_);
     const double sense = k1 > high[i] ? 1.0 : -1.0;
     const double edge = sense > 0.0 ? high[i] : -low[i];
     const HermiteCubic path(sense * start_.curvatures[i] - edge, sense * start_.rates[i],
                             sense * k1 - edge, sense * end_.rates[i], step.length());
-    first = std::min(first, step.t0 + path.rise(0.0, 1.0) * step.length());
+    const double time = step.t0 + path.rise(0.0, 1.0) * step.length();
+    first = std::min(first.value_or(time), time);
   }
   return first;
 }

@@ -24,13 +24,9 @@ struct SectionCorrection {
 /// Defect correction of a step for section events: sections that leave, within the step, the smooth
 /// pieces of their laws.
 ///
-/// With A = Mass^-1 B^T W (-dM/dkappa) B and a_k = Mass^-1 (-B^T W) (k-th moments of the defects),
-///
-///     change of w' = a_0 + A a_2 + A^2 a_4 + ..,   change of w = a_1 + A a_3 + A^2 a_5 + ..,
-///
-/// expansions in the time since the first event, continued until the next term is below the
-/// tolerance. The a_k come without mass solves (SectionInfluence); each further pair of terms costs
-/// two. The beam is not changed.
+/// The changes are series in the moments of the defects, continued until the next term is below the
+/// tolerance (docs/theory.md, "Section events"). The first terms come without mass solves
+/// (SectionInfluence); each further pair costs two. The beam is not changed.
 class SectionCorrector {
  public:
   /// `beam` must outlive this. `tolerance`: how far velocities at the step's end may be off by the
@@ -44,8 +40,6 @@ class SectionCorrector {
   long n_mass_solves() const { return n_mass_solves_; }
 
  private:
-  double shortest_step() const;  // s
-  bool may_cut(const StepEnds& step) const;
   // Where a step that is to be cut at a time ends: no sooner than the shortest step.
   double cut_at(double time, const StepEnds& step) const;
   void read_loads(const State& y, const SectionMotion& motion, SectionLoads& loads);
@@ -61,6 +55,7 @@ class SectionCorrector {
 
   const StruckBeam& beam_;
   double tolerance_;
+  double shortest_step_;  // that a cut may leave, s
   SectionInfluence influence_;
   SectionEvents finder_;
   SectionMotion end_;

@@ -1,14 +1,181 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "model/section_field.h"
-#include "system/section_event.h"
-#include "system/section_influence.h"
+#include "numerics/hermite.h"
+#include "numerics/mass_solver.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {
+
+/// Acceleration of the beam due to the moment of one section: for a moment M of 1 N m at section i,
+///
+///     c_i = Mass^-1 (-B^T W e_i)   (accelerations of the unknowns, 1/s2 per N m),   B c_i.
+///
+/// Mass is symmetric, so the same numbers give the response of one section's curvature to all
+/// moments M_j (N m) and the contact force F (N), without a mass solve:
+///
+///     kappa_i'' = (sum_j W_j (B c_i)_j M_j - F S.c_i - c_i.f_s)/W_i,
+///
+/// with the shear forces f_s = -K_s q where sections shear.
+///
+/// With or without rotary inertia c_i decays within a few thicknesses, or a few unknowns, of the
+/// section; entries below rounding are left out. An influence is computed at its first use, with
+/// one mass solve.
+class SectionInfluence {
+ public:
+  SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
+
+  /// kappa_i'' of one section, given W_j M_j of all (N m2), F and f_s (N; empty: none); 1/(m s2).
+  double curvature_acceleration(std::size_t section, const std::vector<double>& weighted_moments,
+                                double force, const std::vector<double>& shear_forces);
+  /// accelerations += moment c_i.
+  void add_accelerations(std::size_t section, double moment, std::vector<double>& accelerations);
+  /// (B c_i)_j for i = `section`, j = `other`.
+  double curvature_acceleration_at(std::size_t other, std::size_t section);
+  /// Root mean square of c_i.
+  double strength(std::size_t section) { return of(section).strength; }
+
+ private:
+  // The entries from `first` on that are not negligible.
+  struct Stretch {
+    std::size_t first = 0;
+    std::vector<double> values;
+    explicit Stretch(const std::vector<double>& whole);
+  };
+  struct Influence {
+    Stretch accelerations, curvatures;
+    double strength;
+    double at_strike;  // S.c_i
+  };
+  const Influence& of(std::size_t section);
+
+  const BeamMesh& mesh_;
+  const MassSolver& mass_solver_;
+  std::vector<int> slot_;  // index into known_, -1: not computed yet
+  std::vector<Influence> known_;
+};
+
+/// A curvature's change and its slope over a step, at one part s of the step.
+struct CurvatureChange {
+  double value = 0.0, slope = 0.0;
+};
+
+/// The change of a curvature by the defect d of a section's moment that begins at the part `from`
+/// of a step: kappa'' = c d, c the coupling (SectionInfluence). Of d the integrals amount = int d
+/// dt and next_amount = int (t_end - t) d dt over a span of the step are given. The change is taken
+/// as u^3 (a + b u), u = (s - from)/span, whose value and slope at u = 1 are right (docs/theory.md,
+/// "Section events").
+class DefectResponse {
+ public:
+  /// `from`, `span` in parts of the step, `length` of the step in s.
+  DefectResponse(double from, double span, double length, double coupling, double amount,
+                 double next_amount)
+      : from_(from),
+        span_(span),
+        cubic_(coupling * (4.0 * next_amount - span * length * amount)),
+        quartic_(coupling * (span * length * amount - 3.0 * next_amount)) {}
+
+  /// From the part `until` of the step on, the curvature is no longer driven.
+  void stop_at(double until) { until_ = until; }
+
+  void add_to(CurvatureChange& sum, double s) const {
+    if (s <= from_) return;
+    const double u = (std::min(s, until_) - from_) / span_;
+    sum.value += u * u * u * (cubic_ + u * quartic_);
+    if (s <= until_) sum.slope += u * u * (3.0 * cubic_ + u * 4.0 * quartic_) / span_;
+  }
+
+ private:
+  double from_, span_;
+  double until_ = 1.0;
+  double cubic_, quartic_;
+};
+
+/// One section's curvature (1/m) over a step as a function of the part s of the step, 0 to 1: the
+/// path between the ends of the step that it would take without section events, and what events
+/// change in it.
+class SectionPath {
+ public:
+  /// Starts anew with a path without events.
+  void reset(const HermiteSeptic& undisturbed) {
+    undisturbed_ = undisturbed;
+    others_.clear();
+    own_.reset();
+  }
+  void add_other(const DefectResponse& response) { others_.push_back(response); }
+  void set_own(const DefectResponse& response) { own_ = response; }
+  /// The section's own flow ends where its curvature reverses.
+  void stop_own_at(double s) {
+    if (own_) own_->stop_at(s);
+  }
+
+  double undisturbed(double s) const { return undisturbed_(s); }
+  double value(double s) const { return undisturbed_(s) + change(s).value; }
+  double slope(double s) const { return undisturbed_.slope(s) + change(s).slope; }
+
+  /// By the events of other sections.
+  CurvatureChange change_by_others(double s) const {
+    CurvatureChange sum;
+    for (const DefectResponse& response : others_) response.add_to(sum, s);
+    return sum;
+  }
+  CurvatureChange change(double s) const {
+    CurvatureChange sum = change_by_others(s);
+    if (own_) own_->add_to(sum, s);
+    return sum;
+  }
+
+ private:
+  HermiteSeptic undisturbed_{{}, {}, 1.0};
+  std::vector<DefectResponse> others_;
+  std::optional<DefectResponse> own_;
+};
+
+/// One section that may leave, within a step, the smooth piece of its law on which the step began.
+/// All times in parts of the step.
+struct SectionInStep {
+  std::size_t section;
+  const SectionBranch* branch;  ///< on which it flows; none: within its window
+  double sense;                 ///< of its motion before a reversal, +1 or -1
+  double leaves;                ///< when its undisturbed path leaves the piece, at most `reverses`
+  std::optional<double> reverses;  ///< when its undisturbed path reverses, if it does
+};
+
+/// An event of one section within a step: the section left the smooth piece of its law.
+///
+/// From `start` on, the moment of the piece was wrong by the defect
+///
+///     d(t) = M(kappa(t), history) - M_piece(kappa(t)),
+///
+/// without the linear response (`tangent`) of the piece to changes of kappa by events.
+struct SectionEvent {
+  std::size_t section;
+  double start;  ///< s: when the section left its piece
+  struct Reversal {
+    double time;       ///< s
+    double curvature;  ///< 1/m
+  };
+  std::optional<Reversal> reversal;
+  double tangent;  ///< dM/dkappa at the step's end, N m2
+  /// Terms of the expansion of the beam's response, two moments each: for velocity and position.
+  static constexpr std::size_t most_terms = 4;
+  /// k-th moment of the defect, int (t1 - t)^k/k! d(t) dt over the step, N m s^(k+1).
+  std::array<double, 2 * most_terms> defect_moments;
+};
+
+/// The event of a section on `path`, in a step from t0 (s) of a length (s) that began at the last
+/// commit; nothing if the section, disturbed by earlier events, stays on its piece. `own_coupling`:
+/// curvature acceleration of the section due to its own moment, 1/(m s2) per N m; its own flow is
+/// added to `path`. `first_event`: part of the step from which on the path is disturbed, at most 1.
+std::optional<SectionEvent> follow_section(const SectionField& sections,
+                                           const SectionInStep& section, SectionPath& path,
+                                           double own_coupling, double first_event, double t0,
+                                           double length);
 
 /// The loads on the sections at one end of a step: W_j times the moments M of the smooth pieces and
 /// their rates (N m2, N m2/s), one entry per section, the contact force with its rate (N, N/s), and
@@ -26,24 +193,16 @@ struct SectionLoads {
 
 /// The section events of a step.
 ///
-/// Within a step every section keeps the smooth piece of its law on which the step began
-/// (SectionField::smooth_moments): linear while it rests, one branch while it flows. A section that
-/// begins to flow, reverses or closes a loop leaves its piece (SectionEvent).
-///
-/// Paths are polynomials through both ends of the step: cubic where sides are distinguished, of
-/// degree seven where the height of a reversal, which enters the section's history, is read off.
-/// An event bends the paths of its own and of other sections,
-///
-///     change of kappa_j(t) = (B c_i)_j (first moment of the defect up to t)   (c_i:
-///     SectionInfluence),
-///
-/// enough to move reversals, to undo them and to bring new ones about: events are found in their
-/// order, each on the path that the earlier ones leave. A path that changes its direction twice is
-/// not followed: such a step must be cut.
+/// A section that begins to flow, reverses or closes a loop leaves the smooth piece of its law on
+/// which the step began (SectionField::smooth_moments). Paths are polynomials through both ends of
+/// the step: cubic where sides are distinguished, of degree seven where the height of a reversal,
+/// which enters the section's history, is read off. Events are found in their order, each on the
+/// path that the earlier ones leave (docs/theory.md, "Section events"). A path that changes its
+/// direction twice is not followed: such a step must be cut.
 class SectionEvents {
  public:
   SectionEvents(const SectionField& sections, SectionInfluence& influence)
-      : sections_(sections), influence_(influence), follower_(sections) {}
+      : sections_(sections), influence_(influence) {}
 
   /// Collects the sections that may leave their pieces in a step of this length (s), begun at the
   /// last commit. Returns whether there are any.
@@ -74,7 +233,6 @@ class SectionEvents {
   };
   void consider(std::size_t section, const SectionMotion& start, const SectionMotion& end,
                 double length);
-  const SectionBranch* branch_of(std::size_t section) const;
   HermiteSeptic path_of(std::size_t section, const End& start, const End& end) const;
   std::optional<Candidate> trace(std::size_t section, const End& start, const End& end) const;
   void disturb(std::size_t section, const std::vector<SectionEvent>& events);
@@ -94,7 +252,6 @@ class SectionEvents {
   };
   std::vector<Disturbance> disturbances_;
   SectionPath path_;
-  SectionFollower follower_;
   Coupling coupling_;
 };
 

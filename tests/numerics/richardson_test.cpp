@@ -5,15 +5,13 @@
 namespace subimpact {
 namespace {
 
-TEST(Richardson, FindsLimitAndOrderOfAnExactPowerLaw) {
+TEST(Richardson, FindsTheLimitOfAnExactPowerLaw) {
   for (const double order : {1.0, 2.0, 3.5, 4.0}) {
     for (const double ratio : {1.5, 2.0, 10.0}) {
       const auto v = [&](double h) { return 3.0 - 0.7 * std::pow(h, order); };
       SCOPED_TRACE(testing::Message() << "order " << order << ", ratio " << ratio);
       const double h = 0.1;
       EXPECT_NEAR(richardson_limit(v(h), v(h / ratio), ratio, order), 3.0, 4e-15);
-      EXPECT_NEAR(observed_order(v(1.0), v(1.0 / ratio), v(1.0 / ratio / ratio), ratio), order,
-                  1e-10);
     }
   }
 }

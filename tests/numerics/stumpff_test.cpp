@@ -1,4 +1,4 @@
-#include "numerics/stumpff.h"
+#include "numerics/sin_cos.h"
 
 #include <gtest/gtest.h>
 

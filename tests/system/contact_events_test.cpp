@@ -77,7 +77,7 @@ class ContactCrossing : public testing::Test {
 
   ContactState contact_{make_contact_law(paper_scene())};
   double step_ = 1e-6;
-  Crossing crossing_{};
+  Crossing crossing_{EventKind::contact_begins};
 };
 
 TEST_F(ContactCrossing, EndOfContactIsWhereTheIndentationMeetsTheResidualOne) {

@@ -1,7 +1,7 @@
 // What one section does within a step, on a path that is given: when it leaves its piece, where it
 // reverses, and the moments of the defect that follows.
 
-#include "system/section_event.h"
+#include "system/section_events.h"
 
 #include <gtest/gtest.h>
 
@@ -61,10 +61,10 @@ Errors onset(double step, double before) {
   const double t0 = -before * step;
   const double t1 = t0 + step;
   const SectionField sections(1, section.law());
-  SectionFollower follower(sections);
   SectionPath path;
   path.reset(section.path(t0, t1));
-  const auto event = follower.follow({0, nullptr, 1.0, before, {}}, path, 0.0, 1.0, t0, step);
+  const auto event =
+      follow_section(sections, {0, nullptr, 1.0, before, {}}, path, 0.0, 1.0, t0, step);
   EXPECT_TRUE(event && !event->reversal);
   Errors errors{std::abs(event->start), 0.0, {}};
   const auto defect = [&](double t) {
@@ -86,11 +86,11 @@ Errors reversal(double step, double before) {
   SectionField sections(1, section.law());
   const double start = section.kappa(t0);
   sections.commit({&start, 1}, std::vector<double>{1.0});
-  SectionFollower follower(sections);
   SectionPath path;
   path.reset(section.path(t0, t1));
   const SectionBranch& branch = sections.flowing().front().branch;
-  const auto event = follower.follow({0, &branch, 1.0, before, before}, path, 0.0, 1.0, t0, step);
+  const auto event =
+      follow_section(sections, {0, &branch, 1.0, before, before}, path, 0.0, 1.0, t0, step);
   EXPECT_TRUE(event && event->reversal);
   Errors errors{std::abs(event->reversal->time - turns),
                 std::abs(event->reversal->curvature - section.kappa(turns)),
@@ -144,7 +144,6 @@ TEST(OneSectionOnAKnownPath, HasTheDefectThatFollowsItsFirstFlow) {
 TEST(OneSectionOnAKnownPath, StaysOnItsPieceIfAnEarlierEventKeepsItInItsWindow) {
   const OneSection section;
   const SectionField sections(1, section.law());
-  SectionFollower follower(sections);
   const double length = 2.6;
   const double t0 = -0.3 * length;
   const double top = (0.5 * std::numbers::pi - t0) / length;
@@ -152,7 +151,7 @@ TEST(OneSectionOnAKnownPath, StaysOnItsPieceIfAnEarlierEventKeepsItInItsWindow) 
     SectionPath path;
     path.reset(section.path(t0, t0 + length));
     path.add_other({0.0, 1.0, length, -1.0, 3.0 * pushed_back / length, pushed_back});
-    return follower.follow({0, nullptr, 1.0, 0.3, top}, path, 0.0, 0.0, t0, length);
+    return follow_section(sections, {0, nullptr, 1.0, 0.3, top}, path, 0.0, 0.0, t0, length);
   };
   EXPECT_TRUE(follow(0.0).has_value());
   EXPECT_FALSE(follow(5.0 * paper_beam().yield_curvature()).has_value());

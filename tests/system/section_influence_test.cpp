@@ -1,6 +1,6 @@
 // What one section's moment does to the beam, worked out once a section.
 
-#include "system/section_influence.h"
+#include "system/section_events.h"
 
 #include <gtest/gtest.h>
 

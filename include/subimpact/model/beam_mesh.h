@@ -69,6 +69,9 @@ struct SparseFunctional {
 /// bending stiffness for all sections (the argument `bending_stiffness`).
 class BeamMesh {
  public:
+  /// Which part of the beam a mesh models.
+  enum class Extent { whole, half };
+
   virtual ~BeamMesh() = default;
 
   std::size_t n_unknowns() const { return mass_.size(); }

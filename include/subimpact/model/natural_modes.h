@@ -19,6 +19,7 @@ struct NaturalModes {
   std::span<const double> shape(std::size_t mode) const {
     return {shapes.data() + mode * size(), size()};
   }
+  std::span<double> shape(std::size_t mode) { return {shapes.data() + mode * size(), size()}; }
 };
 
 /// Scales shapes so that phi^T Mass phi = 1.
