@@ -131,9 +131,9 @@ int report_any(FinishedRunOptions& options) {
 void add_plot(CLI::App& program, int& status) {
   auto [command, options] = add_command(
       program, status, "plot", "Draw the figures of a finished run (SVG, PNG and PDF)", plot);
-  command.add_option("DIR", options.runs, "Output directory of `subimpact run`")
-      ->required()
-      ->expected(1);
+  options.runs.resize(1);
+  command.add_option("DIR", options.runs.front(), "Output directory of `subimpact run`")
+      ->required();
   add_directory_option(command, options.directory,
                        "Directory for the figures; made if missing. Default: DIR");
   command.add_option("--scripts", options.scripts,
