@@ -1,22 +1,57 @@
 #include "commands.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
 #include <thread>
 
+#include "case/slips.h"
 #include "io/printable.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/report/figures.h"
+#include "subimpact/simulate/method_tables.h"
+#include "subimpact/study/sweep.h"
 
 namespace subimpact::app {
-
 namespace {
 
 // An empty value would count as none.
 std::string not_empty(const std::string& text) {
   return text.empty() ? "is empty; give a value, or leave the option out" : std::string();
+}
+
+std::vector<std::string> names_of_choices(const char* key) {
+  std::vector<std::string> names;
+  for (const Choice& choice : find_case_key(key)->choices) names.push_back(choice.name);
+  return names;
+}
+
+std::vector<std::string> table_names(const std::string& method) {
+  std::vector<std::string> names;
+  for (const MethodTable& table : method_tables()) {
+    if (to_string(table.method) == method) names.push_back(table.name);
+  }
+  return names;
+}
+
+// Refuses a part of an `option` that is not one of `names`. `method`: to which the names belong;
+// `meant`: a name that is known to stand for the unknown one.
+void check_name(const std::string& option, const char* what, const std::string& name,
+                const std::vector<std::string>& names, const std::string& method = {},
+                std::string meant = {}) {
+  if (std::ranges::find(names, name) != names.end()) return;
+  if (meant.empty()) meant = nearest_name(name, names);
+  throw CaseFileError(fmt::format(
+      "--methods {}: unknown {} \"{}\"; allowed{}: {}; {}", option, what, name,
+      method.empty() ? "" : " for " + method, fmt::join(names, ", "),
+      meant.empty()
+          ? "see `subimpact methods`"
+          : fmt::format("did you mean \"{}{}\"?", method.empty() ? "" : method + ":", meant)));
 }
 
 }  // namespace
@@ -66,16 +101,14 @@ std::string CaseOptions::directory_with(const std::string& ending) const {
   return std::filesystem::path(file).stem().string() + ending;
 }
 
-void JobsOption::add_to(CLI::App& command) {
+Jobs n_processors() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+void add_jobs_option(CLI::App& command, Jobs& jobs) {
   command
-      .add_option("--jobs", given,
+      .add_option("--jobs", jobs,
                   "Runs beside one another at most; results do not depend on it. Default: the "
                   "number of processors")
       ->check(CLI::Range(1u, 1024u));
-}
-
-Jobs JobsOption::number() const {
-  return given > 0 ? given : std::max(1u, std::thread::hardware_concurrency());
 }
 
 std::optional<double> seconds_of(const std::string& text) {
@@ -100,8 +133,23 @@ CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::s
   });
 }
 
-void print_notes(const LoadedCase& loaded) {
-  for (const std::string& note : loaded.notes()) print_error("subimpact: note: {}\n", note);
+CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, double& seconds,
+                                const std::string& meaning) {
+  const auto check = [](const std::string& text) {
+    const double value = std::strtod(text.c_str(), nullptr);
+    if (value > 0.0 && std::isfinite(value)) return std::string();
+    return fmt::format("is {}; allowed: seconds, finite and above 0", text);
+  };
+  return command.add_option(name, seconds, meaning)->check(check)->capture_default_str();
+}
+
+std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet) {
+  if (!quiet) {
+    for (const std::string& note : loaded.notes()) print_error("subimpact: note: {}\n", note);
+  }
+  const std::vector<std::string> doubts = doubtful_units(loaded.value);
+  print_warnings(doubts);
+  return doubts;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
@@ -124,12 +172,26 @@ bool write_after_printing(OutputDirectory& directory,
   return true;
 }
 
-void print_figure_notes(const FinishedRun& run) {
-  for (const std::string& reason : figures_left_out(run.input, run.result)) {
-    print_error("subimpact: note: not drawn: {}\n", reason);
+void check_method_names(const std::vector<std::string>& methods) {
+  for (const std::string& option : methods) {
+    const auto [method, table, events] = parse_method_name(option);
+    check_name(option, "method", method, names_of_choices("solver.method"), {},
+               own_name("solver.method", method));
+    const std::vector<std::string> tables = table_names(method);
+    if (table && tables.empty()) {
+      throw CaseFileError(fmt::format("--methods {}: {} has no tables; write --methods {}", option,
+                                      method, method));
+    }
+    if (table) check_name(option, "table", *table, tables, method);
+    if (events) {
+      check_name(option, "treatment of events", *events, names_of_choices("solver.events"));
+    }
   }
-  const std::string caveat = outcome_caveat(run.result);
-  if (!caveat.empty()) print_warnings({caveat});
+}
+
+void check_methods(const Case& input, const std::vector<std::string>& methods) {
+  check_method_names(methods);
+  for (const std::string& method : methods) settings_of(input, method);
 }
 
 }  // namespace subimpact::app

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the commands share: exit statuses, printing, options. Each command has its own file.
+/// What the commands share: exit statuses, printing, options.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,11 +8,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "progress.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
@@ -72,8 +74,9 @@ auto with_places(const LoadedCase& loaded, Body body) {
   }
 }
 
-/// Prints on stderr which of the keys given have no effect.
-void print_notes(const LoadedCase& loaded);
+/// Prints on stderr which of the keys given have no effect, unless `quiet`, and which values are
+/// doubtful, which it returns.
+std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet = false);
 /// Prints warnings on stderr, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
 
@@ -82,15 +85,16 @@ void print_warnings(const std::vector<std::string>& warnings);
 bool write_after_printing(OutputDirectory& directory,
                           const std::function<void(const std::filesystem::path&)>& write);
 
-/// Prints on stderr what the figures of a run leave out, and how a run ended that did not complete.
-void print_figure_notes(const FinishedRun& run);
-
+Jobs n_processors();
 /// The option --jobs of commands that run several simulations.
-struct JobsOption {
-  Jobs given = 0;  ///< 0: not given
+void add_jobs_option(CLI::App& command, Jobs& jobs);
 
-  void add_to(CLI::App& command);
-  Jobs number() const;
+/// Options of commands that make several runs of a case.
+struct StudyOptions {
+  CaseOptions input;
+  std::vector<std::string> methods;
+  std::string directory;
+  Jobs jobs = n_processors();
 };
 
 /// A time above 0 with its unit, in seconds: "1us", "0.5 ms", "20ns", "2e-7s". Nothing for any
@@ -101,21 +105,54 @@ std::optional<double> seconds_of(const std::string& text);
 CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,
                              const std::string& meaning);
 
-/// A check of an option that is a time in seconds.
-std::string positive_seconds(const std::string& text);
+/// An option that is a time in seconds and has a default.
+CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, double& seconds,
+                                const std::string& meaning);
 
-// Each adds its command, which leaves the exit status in `status` when it has run.
-void add_run(CLI::App& program, int& status);
-void add_compare(CLI::App& program, int& status);
-void add_work_precision(CLI::App& program, int& status);
-void add_stability(CLI::App& program, int& status);
-void add_plan(CLI::App& program, int& status);
-void add_sensitivity(CLI::App& program, int& status);
-void add_explain(CLI::App& program, int& status);
-void add_plot(CLI::App& program, int& status);
-void add_report(CLI::App& program, int& status);
-void add_methods(CLI::App& program, int& status);
-void add_keys(CLI::App& program, int& status);
-void add_columns(CLI::App& program, int& status);
+/// An option whose values are separated by commas.
+inline CLI::Option* add_list_option(CLI::App& command, const std::string& name,
+                                    std::vector<std::string>& values, const std::string& meaning) {
+  return command.add_option(name, values, meaning)->delimiter(',');
+}
+
+/// Refuses methods and tables that do not exist, naming the option --methods. Throws CaseFileError.
+void check_method_names(const std::vector<std::string>& methods);
+/// The same, and throws InvalidCase for a method that cannot run the case.
+void check_methods(const Case& input, const std::vector<std::string>& methods);
+
+inline std::string title_of(const Case& input) {
+  return input.title.empty() ? "untitled case" : input.title;
+}
+
+/// What runs, and whether the program was asked to end.
+struct StudySession {
+  InterruptListener listener;
+  StatusLine status;
+
+  Progress progress() {
+    return [this](double) { return !listener.interrupted(); };
+  }
+  /// The exit status after a message that begins with "interrupted".
+  int end_interrupted(const std::string& what_is_left) {
+    print_error("subimpact: interrupted{}\n", what_is_left);
+    return listener.exit_status();
+  }
+};
+
+/// Adds a command, which leaves the exit status that `run` returns in `status`. Returns the command
+/// and its options, which live as long as the command.
+template <class Options>
+std::pair<CLI::App&, Options&> add_command(CLI::App& program, int& status, const char* name,
+                                           const char* description, int (*run)(Options&)) {
+  CLI::App* command = program.add_subcommand(name, description);
+  const auto options = std::make_shared<Options>();
+  command->callback([=, &status] { status = run(*options); });
+  return {*command, *options};
+}
+
+/// Each adds a command, or several of one subject.
+using AddCommands = void(CLI::App& program, int& status);
+AddCommands add_run, add_compare, add_work_precision, add_stability, add_plan, add_sensitivity,
+    add_explain, add_plot_and_report, add_listings;
 
 }  // namespace subimpact::app

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "study_options.h"
-#include "subimpact/case/doubtful_units.h"
+#include "commands.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/compare.h"
@@ -24,11 +23,6 @@ int status_of(const auto& runs) {
   return all_completed ? done : failed;
 }
 
-void print_doubts(const LoadedCase& loaded) {
-  print_notes(loaded);
-  print_warnings(doubtful_units(loaded.value));
-}
-
 int run_theories(const CompareOptions& options) {
   const auto with_theory = [&](const std::string& theory) {
     CaseOptions changed = options.input;
@@ -42,7 +36,7 @@ int run_theories(const CompareOptions& options) {
   StudySession session;
   const auto runs = with_places(loaded, [&] {
     return compare_theories(
-        cases, options.jobs.number(),
+        cases, options.jobs,
         [&](std::size_t i) { session.status.show("running " + options.theories[i]); },
         session.progress());
   });
@@ -54,7 +48,7 @@ int run_theories(const CompareOptions& options) {
   return status_of(runs);
 }
 
-int run_comparison(CompareOptions options) {
+int run_comparison(CompareOptions& options) {
   if (!options.theories.empty()) return run_theories(options);
   if (options.methods.empty()) {
     throw CaseFileError("compare needs --methods or --theories, with names separated by commas");
@@ -78,9 +72,7 @@ int run_comparison(CompareOptions options) {
   session.listener.hold_back();
   print("{}\n\n{}", title_of(loaded.value), comparison_table(comparison));
   if (directory) {
-    const auto write = [&](const std::filesystem::path& place) {
-      write_comparison(place, comparison);
-    };
+    const auto write = [&](const auto& place) { write_comparison(place, comparison); };
     if (!write_after_printing(*directory, write)) return failed;
     print("\ncomparison.csv and matches.csv in {}\n", options.directory);
   }
@@ -90,7 +82,12 @@ int run_comparison(CompareOptions options) {
   return status_of(comparison.runs);
 }
 
-void add_options(CLI::App& command, CompareOptions& options) {
+}  // namespace
+
+void add_compare(CLI::App& program, int& status) {
+  auto [command, options] =
+      add_command(program, status, "compare",
+                  "Run one scene by several methods, or by several beam theories", run_comparison);
   options.input.add_to(command);
   add_list_option(command, "--methods", options.methods,
                   "Methods to compare, separated by commas; a method's table after a colon, "
@@ -116,14 +113,6 @@ void add_options(CLI::App& command, CompareOptions& options) {
       "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed; "
       "128 and the signal's number: stopped (130 by Ctrl-C), with the methods that had ended.");
-}
-
-}  // namespace
-
-void add_compare(CLI::App& program, int& status) {
-  add_command(program, status, "compare",
-              "Run one scene by several methods, or by several beam theories", add_options,
-              run_comparison);
 }
 
 }  // namespace subimpact::app

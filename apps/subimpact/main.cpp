@@ -34,12 +34,6 @@ std::string version_text() {
   return text;
 }
 
-std::vector<std::string> command_names(const CLI::App& program) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  return names;
-}
-
 // CLI11's own message is that a command is missing.
 std::optional<std::string> unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2) return std::nullopt;
@@ -48,7 +42,8 @@ std::optional<std::string> unknown_command(const CLI::App& program, int argc, ch
     return fmt::format("unknown option \"{}\"; a command comes first; see subimpact --help",
                        argv[1]);
   }
-  const std::vector<std::string> names = command_names(program);
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return std::nullopt;
   const std::string near = subimpact::nearest_name(argv[1], names);
   return fmt::format("unknown command \"{}\"; allowed: {}; {}", argv[1], fmt::join(names, ", "),
@@ -122,8 +117,7 @@ int run_command_line(int argc, char** argv) {
   program.failure_message(usage_error);
   for (const auto add :
        {app::add_run, app::add_compare, app::add_work_precision, app::add_stability, app::add_plan,
-        app::add_sensitivity, app::add_explain, app::add_plot, app::add_report, app::add_methods,
-        app::add_keys, app::add_columns}) {
+        app::add_sensitivity, app::add_explain, app::add_plot_and_report, app::add_listings}) {
     add(program, status);
   }
   if (const auto message = unknown_command(program, argc, argv)) {

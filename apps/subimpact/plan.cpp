@@ -2,8 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "progress.h"
-#include "study_options.h"
+#include "commands.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact::app {
@@ -13,7 +12,7 @@ struct PlanCommand : StudyOptions {
   std::string error;
 };
 
-int run_plan(PlanCommand command) {
+int run_plan(PlanCommand& command) {
   const LoadedCase loaded = command.input.load();
   std::optional<OutputDirectory> directory;
   if (!command.directory.empty()) directory.emplace(command.directory, "plan");
@@ -21,7 +20,7 @@ int run_plan(PlanCommand command) {
   const Plan result = with_places(loaded, [&] {
     ProgressDisplay progress(loaded.value.end_time, false, session.listener);
     PlanOptions how;
-    how.jobs = command.jobs.number();
+    how.jobs = command.jobs;
     how.announce = [&](const std::string& what, double end_time) {
       progress.show_run(what, end_time);
     };
@@ -42,7 +41,12 @@ int run_plan(PlanCommand command) {
   return session.end_interrupted("; the combinations above are those that were tried");
 }
 
-void add_options(CLI::App& command, PlanCommand& options) {
+}  // namespace
+
+void add_plan(CLI::App& program, int& status) {
+  auto [command, options] =
+      add_command(program, status, "plan",
+                  "Find the cheapest mesh, method and setting for a wanted total error", run_plan);
   options.input.add_case_to(command);
   add_time_option(command, "--within,--error", options.error,
                   "Wanted bound on the error of every event time, from mesh, layers and time "
@@ -51,7 +55,7 @@ void add_options(CLI::App& command, PlanCommand& options) {
   add_directory_option(command, options.directory,
                        "Directory for reference.csv, plan.csv and a chart; made if missing. "
                        "Without it nothing is written");
-  options.jobs.add_to(command);
+  add_jobs_option(command, options.jobs);
   command.footer(
       "The reference is the run that run --within chooses for a fifth of the wanted error. "
       "Sequences of meshes and methods are judged by it; a mesh is admitted only if all finer ones "
@@ -61,14 +65,6 @@ void add_options(CLI::App& command, PlanCommand& options) {
       "  subimpact plan case.toml --within 0.05us --set model.section=elastic --out out/plan\n"
       "Exit status: 0 done; 2 bad command line or case file; 128 and the signal's number: stopped "
       "(130 by Ctrl-C).");
-}
-
-}  // namespace
-
-void add_plan(CLI::App& program, int& status) {
-  add_command(program, status, "plan",
-              "Find the cheapest mesh, method and setting for a wanted total error", add_options,
-              run_plan);
 }
 
 }  // namespace subimpact::app

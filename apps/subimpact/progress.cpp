@@ -69,14 +69,10 @@ void StatusLine::clear() {
   is_dirty_ = false;
 }
 
-void ProgressDisplay::show_run(const std::string& description) {
+void ProgressDisplay::show_run(const std::string& description, std::optional<double> end_time) {
   run_ = description + ": ";
+  end_time_ = end_time.value_or(end_time_);
   show(0.0);
-}
-
-void ProgressDisplay::show_run(const std::string& description, double end_time) {
-  end_time_ = end_time;
-  show_run(description);
 }
 
 void ProgressDisplay::show(double time) {

@@ -10,8 +10,6 @@
 #include <vector>
 
 #include "commands.h"
-#include "progress.h"
-#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/predictability.h"
@@ -25,7 +23,7 @@ struct RunOptions {
   std::string directory;
   std::string within;      // empty, or a time with its unit
   std::string error_bars;  // empty: from a companion; "off", "time" or "all"
-  JobsOption jobs;
+  Jobs jobs = n_processors();
   bool quiet = false;
 };
 
@@ -47,7 +45,7 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
   ProgressDisplay progress(loaded.value.end_time, options.quiet, listener);
   RunRequest request;
   request.error_bars = error_bars_of(loaded, options);
-  request.jobs = options.jobs.number();
+  request.jobs = options.jobs;
   request.progress = std::ref(progress);
   request.announce = [&progress](const std::string& what) { progress.show_run(what); };
   request.rows = [&files] {
@@ -55,25 +53,7 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
     return &files;
   };
   request.resolved = std::move(resolved);
-  return with_places(loaded,
-                     [&] { return run_as_asked(loaded.value, loaded.given, std::move(request)); });
-}
-
-// Those that are not printed yet.
-std::vector<std::string> others(std::vector<std::string> warnings,
-                                const std::vector<std::string>& printed) {
-  std::erase_if(warnings, [&](const std::string& warning) {
-    return std::find(printed.begin(), printed.end(), warning) != printed.end();
-  });
-  return warnings;
-}
-
-ResolvedRun resolve_loaded(const LoadedCase& loaded) {
-  return with_places(loaded, [&] {
-    ResolvedRun run = resolve(loaded.value);
-    check_memory(run.settings());
-    return run;
-  });
+  return run_as_asked(loaded.value, loaded.given, std::move(request));
 }
 
 // Of a case with scatter: what it leaves of the event times.
@@ -81,7 +61,7 @@ void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListe
   if (!run.result.outcome.completed() || scattering_keys(run.input).empty()) return;
   StatusLine status;
   SensitivityOptions how;
-  how.jobs = options.jobs.number();
+  how.jobs = options.jobs;
   how.finished = [&](std::size_t n_done, std::size_t n_all) {
     if (!options.quiet) status.show(fmt::format("scatter: {} of {} runs", n_done, n_all));
   };
@@ -99,7 +79,7 @@ std::string write(ResultWriter& files, const Case& input, const Result& result) 
   }
 }
 
-int run(const RunOptions& options) {
+int run(RunOptions& options) {
   std::vector<Override> by_options;
   if (!options.within.empty()) {
     by_options.push_back({"accuracy.event_times",
@@ -109,13 +89,12 @@ int run(const RunOptions& options) {
   LoadedCase loaded = options.input.load(by_options);
   error_bars_of(loaded, options);
   // Refuses what cannot be modelled before anything is written.
-  ResolvedRun resolved = resolve_loaded(loaded);
+  ResolvedRun resolved = with_places(loaded, [&] { return resolve(loaded.value); });
+  with_places(loaded, [&] { check_memory(resolved.settings()); });
   ResultWriter files(
       options.directory.empty() ? options.input.directory_with("-results") : options.directory,
       loaded.value);
-  const std::vector<std::string> doubts = doubtful_units(loaded.value);
-  if (!options.quiet) print_notes(loaded);
-  print_warnings(doubts);
+  const std::vector<std::string> doubts = print_doubts(loaded, options.quiet);
   InterruptListener listener;
   const WithinRun finished = with_places(loaded, [&] {
     WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files);
@@ -134,7 +113,11 @@ int run(const RunOptions& options) {
     std::fflush(stdout);
   }
   print_warnings(files.directory().notes());
-  print_warnings(others(result.warnings, doubts));
+  std::vector<std::string> warnings = result.warnings;
+  std::erase_if(warnings, [&](const std::string& warning) {
+    return std::ranges::find(doubts, warning) != doubts.end();
+  });
+  print_warnings(warnings);
   if (!result.outcome.completed()) {
     print_error("subimpact: {}\n", failure_message(input, result));
   }
@@ -149,30 +132,29 @@ int run(const RunOptions& options) {
 }  // namespace
 
 void add_run(CLI::App& program, int& status) {
-  CLI::App* command = program.add_subcommand("run", "Simulate a case");
-  auto options = std::make_shared<RunOptions>();
-  options->input.add_to(*command);
+  auto [command, options] = add_command(program, status, "run", "Simulate a case", run);
+  options.input.add_to(command);
   add_directory_option(
-      *command, options->directory,
+      command, options.directory,
       "Directory for events.csv, transitions.csv, history.csv, shapes.csv, envelope.csv, "
       "summary.json, manifest.json and, where asked for, sections.csv and points.csv; made if "
       "missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
-  add_time_option(*command, "--within", options->within,
+  add_time_option(command, "--within", options.within,
                   "Wished bound on the error of every event time, with its unit: 1us. The program "
                   "chooses what the case leaves open of mesh, method and tolerance. Instead of "
                   "accuracy.event_times");
   command
-      ->add_flag("--error-bars{all}", options->error_bars,
-                 "By default the error of every start and end is estimated from a companion, a run "
-                 "twice as coarse in mesh and time, for a quarter of the run's time. "
-                 "--error-bars=off: no estimate. --error-bars: from refined runs, one for each of "
-                 "time, mesh and layers; takes some five times as long. --error-bars=time: of the "
-                 "integration in time alone, about twice as long")
+      .add_flag("--error-bars{all}", options.error_bars,
+                "By default the error of every start and end is estimated from a companion, a run "
+                "twice as coarse in mesh and time, for a quarter of the run's time. "
+                "--error-bars=off: no estimate. --error-bars: from refined runs, one for each of "
+                "time, mesh and layers; takes some five times as long. --error-bars=time: of the "
+                "integration in time alone, about twice as long")
       ->check(CLI::IsMember({"all", "time", "off"}));
-  options->jobs.add_to(*command);
-  command->add_flag("--quiet", options->quiet, "Print nothing but warnings and errors");
-  command->footer(
+  add_jobs_option(command, options.jobs);
+  command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+  command.footer(
       "Examples:\n"
       "  subimpact run case.toml\n"
       "  subimpact run case.toml --out out/tight --set solver.rtol=1e-10\n"
@@ -182,15 +164,12 @@ void add_run(CLI::App& program, int& status) {
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "
-      "validity; "
-      "3 a check or the solver failed, or results could not be written to DIR; 128 and the "
-      "signal's number: stopped (130 by Ctrl-C). Once the run has begun, what was computed is "
+      "validity; 3 a check or the solver failed, or results could not be written to DIR; 128 and "
+      "the signal's number: stopped (130 by Ctrl-C). Once the run has begun, what was computed is "
       "written in every case: also after Ctrl-C, SIGTERM or SIGHUP; if DIR cannot be written any "
-      "more (a full disk), to a "
-      "new directory for temporary files; if that fails too, the table is printed. Only kill -9 "
-      "and "
-      "a second Ctrl-C leave nothing new; DIR then holds the older results.");
-  command->callback([options, &status] { status = run(*options); });
+      "more (a full disk), to a new directory for temporary files; if that fails too, the table is "
+      "printed. Only kill -9 and a second Ctrl-C leave nothing new; DIR then holds the older "
+      "results.");
 }
 
 }  // namespace subimpact::app

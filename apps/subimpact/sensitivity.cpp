@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "study_options.h"
+#include "commands.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/sensitivity.h"
 #include "subimpact/study/run_as_asked.h"
@@ -32,13 +31,12 @@ void check_keys(const std::vector<std::string>& names) {
   }
 }
 
-int run_sensitivity(SensitivityCommand command) {
+int run_sensitivity(SensitivityCommand& command) {
   const LoadedCase loaded = command.input.load();
   check_keys(command.keys);
   std::optional<OutputDirectory> directory;
   if (!command.directory.empty()) directory.emplace(command.directory, "sensitivity");
-  if (!command.quiet) print_notes(loaded);
-  print_warnings(doubtful_units(loaded.value));
+  print_doubts(loaded, command.quiet);
   StudySession session;
   const auto show = [&](const std::string& text) {
     if (!command.quiet) session.status.show(text);
@@ -47,7 +45,7 @@ int run_sensitivity(SensitivityCommand command) {
     show("choosing the mesh");
     SensitivityOptions options;
     options.keys = command.keys;
-    options.jobs = command.jobs.number();
+    options.jobs = command.jobs;
     options.progress = session.progress();
     options.finished = [&](std::size_t n_done, std::size_t n_all) {
       show(fmt::format("{} of {} runs", n_done, n_all));
@@ -74,7 +72,7 @@ int run_sensitivity(SensitivityCommand command) {
   }
   if (!command.quiet) print("{}\n\n{}", title_of(loaded.value), sensitivity_table(study));
   if (directory) {
-    const auto write = [&](const std::filesystem::path& place) { write_sensitivity(place, study); };
+    const auto write = [&](const auto& place) { write_sensitivity(place, study); };
     if (!write_after_printing(*directory, write)) return failed;
     if (!command.quiet) print("\nsensitivity.csv in {}\n", command.directory);
   }
@@ -84,18 +82,23 @@ int run_sensitivity(SensitivityCommand command) {
   return study.keys.empty() ? failed : done;
 }
 
-void add_options(CLI::App& command, SensitivityCommand& options) {
+}  // namespace
+
+void add_sensitivity(CLI::App& program, int& status) {
+  auto [command, options] =
+      add_command(program, status, "sensitivity",
+                  "Show how event times, forces and velocities depend on the numbers of a case",
+                  run_sensitivity);
   options.input.add_to(command);
   add_list_option(command, "--by", options.keys,
                   "Keys to derive by, separated by commas. Default: all numbers of beam, striker "
                   "and contact that take effect");
   add_directory_option(
       command, options.directory,
-      "Directory for sensitivity.csv: derivatives, by the logarithm of each key, of "
-      "start, end, peak force, impulse, indentation and striker velocity of every "
-      "sub-impact, with their errors; made if missing. Without it nothing is "
-      "written");
-  options.jobs.add_to(command);
+      "Directory for sensitivity.csv: derivatives, by the logarithm of each key, of start, end, "
+      "peak force, impulse, indentation and striker velocity of every sub-impact, with their "
+      "errors; made if missing. Without it nothing is written");
+  add_jobs_option(command, options.jobs);
   command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
   command.footer(
       "Each key takes four runs, two shifts to either side, at rtol 1e-13 on the mesh of the case; "
@@ -108,14 +111,6 @@ void add_options(CLI::App& command, SensitivityCommand& options) {
       "Exit status: 0 done; 2 bad command line or case file, or a key without a derivative; 3 a "
       "run failed; 128 and the signal's number: stopped (130 by Ctrl-C), with the keys whose runs "
       "had ended.");
-}
-
-}  // namespace
-
-void add_sensitivity(CLI::App& program, int& status) {
-  add_command(program, status, "sensitivity",
-              "Show how event times, forces and velocities depend on the numbers of a case",
-              add_options, run_sensitivity);
 }
 
 }  // namespace subimpact::app

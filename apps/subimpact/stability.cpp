@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "study_options.h"
+#include "commands.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact::app {
@@ -22,92 +22,72 @@ struct Part {
   std::function<StabilityPart()> run;
 };
 
-class Session : StudySession {
- public:
-  Session(const Case& input, const StabilityCommand& command) : command_(command), input_(input) {
-    const std::vector<std::string>& methods = command.methods;
-    const auto asked = [&methods](const char* method) { return asked_for(methods, method); };
-    parts_ = {
-        {"critical", "Explicit methods: largest stable step, elastic beam",
-         [&] { return part_of(critical_steps(input, methods)); }},
-        {"contact", "Central differences: largest stable step in stiff contact",
-         [=, &input] {
-           return asked("central-difference") ? part_of(stiff_contact(input)) : StabilityPart();
-         }},
-        {"damping", "Implicit methods: what one step leaves of an oscillation",
-         [=, &input] {
-           if (!asked("dirk") && !asked("bdf")) return StabilityPart();
-           return part_of(damping_of_implicit_tables(input), bdf_growths());
-         }},
-        {"map", "How runs of the case come out",
-         [&] {
-           return part_of(outcome_map(input, methods, command.run_seconds, counter("runs")));
-         }},
-        {"pairs", "Sub-impacts within one step, elastic beam at several speeds",
-         [=, this, &input] {
-           return asked("exponential") ? part_of(missed_pairs(input, counter("strikes")))
-                                       : StabilityPart();
-         }},
-        {"layers", "Layers against the exact section",
-         [&] { return part_of(layers_against_exact(input, counter("numbers of layers"))); }},
+std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
+                           StudySession& session) {
+  const std::vector<std::string>& methods = command.methods;
+  const auto asked = [&methods](const char* method) { return asked_for(methods, method); };
+  const auto counter = [&session](const char* what) -> Count {
+    return [&session, what](std::size_t n, std::size_t all) {
+      session.status.show(fmt::format("{}: {} of {}", what, n, all));
+      return !session.listener.interrupted();
     };
-    for (const std::string& part : command.parts) {
-      if (std::ranges::find(parts_, part, &Part::name) != parts_.end()) continue;
-      std::vector<std::string> names;
-      for (const Part& known : parts_) names.push_back(known.name);
-      throw CaseFileError(
-          fmt::format("--parts {}: unknown part; allowed: {}", part, fmt::join(names, ", ")));
-    }
-  }
+  };
+  return {
+      {"critical", "Explicit methods: largest stable step, elastic beam",
+       [&] { return part_of(critical_steps(input, methods)); }},
+      {"contact", "Central differences: largest stable step in stiff contact",
+       [=, &input] {
+         return asked("central-difference") ? part_of(stiff_contact(input)) : StabilityPart();
+       }},
+      {"damping", "Implicit methods: what one step leaves of an oscillation",
+       [=, &input] {
+         if (!asked("dirk") && !asked("bdf")) return StabilityPart();
+         return part_of(damping_of_implicit_tables(input), bdf_growths());
+       }},
+      {"map", "How runs of the case come out",
+       [=, &input, &command] {
+         return part_of(outcome_map(input, command.methods, command.run_seconds, counter("runs")));
+       }},
+      {"pairs", "Sub-impacts within one step, elastic beam at several speeds",
+       [=, &input] {
+         return asked("exponential") ? part_of(missed_pairs(input, counter("strikes")))
+                                     : StabilityPart();
+       }},
+      {"layers", "Layers against the exact section",
+       [=, &input] { return part_of(layers_against_exact(input, counter("numbers of layers"))); }},
+  };
+}
 
-  int run() {
-    OutputDirectory directory(command_.directory, "stability", case_id(input_));
-    for (const Part& part : parts_) {
-      if (!asked_for(command_.parts, part.name)) continue;
-      if (listener.interrupted()) break;
-      status.show(part.name);
-      run(part, directory.staging());
-      directory.commit();
-    }
-    print_warnings(directory.notes());
-    print("CSV files and figures in {}\n", command_.directory);
-    if (!listener.interrupted()) return all_done_ ? done : failed;
-    return end_interrupted("; the parts that were finished are in " + command_.directory);
+void check_names(const std::vector<std::string>& asked, const std::vector<Part>& parts) {
+  for (const std::string& part : asked) {
+    if (std::ranges::find(parts, part, &Part::name) != parts.end()) continue;
+    std::vector<std::string> names;
+    for (const Part& known : parts) names.push_back(known.name);
+    throw CaseFileError(
+        fmt::format("--parts {}: unknown part; allowed: {}", part, fmt::join(names, ", ")));
   }
+}
 
- private:
-  // A part that fails leaves the others as they are.
-  void run(const Part& part, const std::filesystem::path& directory) {
-    std::string failure;
-    try {
-      const StabilityPart result = part.run();
-      if (result.text.empty()) return;
-      status.clear();
-      print("{}\n\n{}\n", part.title, result.text);
-      std::fflush(stdout);
-      write(directory, result);
-      return;
-    } catch (const InvalidCase& error) {
-      failure = error.key + " " + error.what();
-    } catch (const std::exception& error) {
-      failure = error.what();
-    }
+// A part that fails leaves the others as they are: false, with a message.
+bool run_part(const Part& part, const std::filesystem::path& directory, StatusLine& status) {
+  std::string failure;
+  try {
+    const StabilityPart result = part.run();
+    if (result.text.empty()) return true;
     status.clear();
-    print_error("subimpact: {}: {}\n", part.name, failure);
-    all_done_ = false;
+    print("{}\n\n{}\n", part.title, result.text);
+    std::fflush(stdout);
+    write(directory, result);
+    return true;
+  } catch (const InvalidCase& error) {
+    failure = error.key + " " + error.what();
+  } catch (const std::exception& error) {
+    failure = error.what();
   }
-  Count counter(const char* what) {
-    return [this, what](std::size_t n, std::size_t all) {
-      status.show(fmt::format("{}: {} of {}", what, n, all));
-      return !listener.interrupted();
-    };
-  }
-
-  const StabilityCommand& command_;
-  const Case& input_;
-  std::vector<Part> parts_;
-  bool all_done_ = true;
-};
+  status.clear();
+  print_error("subimpact: {}: {}\n", part.name, failure);
+  return false;
+}
 
 // All parts but the map let the beam vibrate.
 void check_beam(const Case& input, const std::vector<std::string>& parts) {
@@ -117,29 +97,47 @@ void check_beam(const Case& input, const std::vector<std::string>& parts) {
                     "or --parts map");
 }
 
-int run_stability(StabilityCommand command) {
+int run_stability(StabilityCommand& command) {
   const LoadedCase loaded = command.input.load();
   if (command.directory.empty()) command.directory = command.input.directory_with("-stability");
-  return with_places(loaded, [&] {
+  return with_places(loaded, [&]() -> int {
     check_methods(loaded.value, command.methods);
-    Session session(loaded.value, command);
+    StudySession session;
+    const std::vector<Part> parts = parts_of(loaded.value, command, session);
+    check_names(command.parts, parts);
     check_beam(loaded.value, command.parts);
-    return session.run();
+    OutputDirectory directory(command.directory, "stability", case_id(loaded.value));
+    bool all_done = true;
+    for (const Part& part : parts) {
+      if (!asked_for(command.parts, part.name)) continue;
+      if (session.listener.interrupted()) break;
+      session.status.show(part.name);
+      if (!run_part(part, directory.staging(), session.status)) all_done = false;
+      directory.commit();
+    }
+    print_warnings(directory.notes());
+    print("CSV files and figures in {}\n", command.directory);
+    if (!session.listener.interrupted()) return all_done ? done : failed;
+    return session.end_interrupted("; the parts that were finished are in " + command.directory);
   });
 }
 
-void add_options(CLI::App& command, StabilityCommand& options) {
+}  // namespace
+
+void add_stability(CLI::App& program, int& status) {
+  auto [command, options] = add_command(
+      program, status, "stability",
+      "Find where each method fails, and how; as tables, CSV and figures", run_stability);
   options.input.add_case_to(command);
   add_list_option(command, "--methods", options.methods,
                   "Only these methods, separated by commas; one without a table stands for all "
                   "its tables. Default: all");
   add_list_option(
       command, "--parts", options.parts,
-      "Only these parts, separated by commas: critical (largest stable steps), contact "
-      "(the same in stiff contact), damping (of implicit methods), map (right, wrong "
-      "count, inaccurate, unstable, refused, failed), pairs (sub-impacts within one step), "
-      "layers "
-      "(against the exact section)");
+      "Only these parts, separated by commas: critical (largest stable steps), contact (the same "
+      "in stiff contact), damping (of implicit methods), map (right, wrong count, inaccurate, "
+      "unstable, refused, failed), pairs (sub-impacts within one step), layers (against the exact "
+      "section)");
   add_directory_option(command, options.directory,
                        "Directory for CSV and figures; made if missing. Default: the case file's "
                        "name without its ending, and -stability, in the current directory");
@@ -153,17 +151,7 @@ void add_options(CLI::App& command, StabilityCommand& options) {
       "  subimpact stability case.toml --parts critical --methods central-difference,erk\n"
       "  subimpact stability case.toml --parts map --set time.end=2e-3\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a part failed or its figure could "
-      "not be drawn, "
-      "the other parts are complete; 130 "
-      "stopped by Ctrl-C.");
-}
-
-}  // namespace
-
-void add_stability(CLI::App& program, int& status) {
-  add_command(program, status, "stability",
-              "Find where each method fails, and how; as tables, CSV and figures", add_options,
-              run_stability);
+      "not be drawn, the other parts are complete; 130 stopped by Ctrl-C.");
 }
 
 }  // namespace subimpact::app

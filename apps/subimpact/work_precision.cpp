@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "case/counted.h"
-#include "study_options.h"
+#include "commands.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/report/studies.h"
 
@@ -43,88 +43,77 @@ std::vector<LabelledCase> cases_of(const LoadedCase& loaded,
   return cases;
 }
 
-class Session : StudySession {
- public:
-  Session(const WorkPrecisionCommand& command, const std::vector<LabelledCase>& cases)
-      : command_(command),
-        cases_(cases),
-        directory_(command.directory, "work-precision", fmt::to_string(fmt::join(ids(cases), "-"))),
-        log_(directory_, ids(cases)) {
-    if (log_.n_known() > 0) {
-      print("{} of an earlier study in {} {} kept\n\n", counted(log_.n_known(), "point"),
-            command.directory, log_.n_known() == 1 ? "is" : "are");
-    }
+WorkPrecision study(const WorkPrecisionCommand& command, const LabelledCase& entry, PointLog& log,
+                    StudySession& session) {
+  const std::string id = case_id(entry.input);
+  WorkPrecisionOptions options;
+  options.methods = command.methods;
+  options.point_seconds = command.point_seconds;
+  options.known = [&](const Setting& setting) { return log.known(id, setting); };
+  options.finished = [&](const WorkPrecisionPoint& point) { log.append(id, entry.label, point); };
+  options.announce = [&](const std::string& what) {
+    session.status.show(entry.label + ": " + what);
+  };
+  options.progress = session.progress();
+  WorkPrecision result = work_precision(entry.input, options);
+  result.label = entry.label;
+  return result;
+}
+
+int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCase>& cases) {
+  std::vector<std::string> ids;
+  for (const LabelledCase& entry : cases) ids.push_back(case_id(entry.input));
+  StudySession session;
+  OutputDirectory directory(command.directory, "work-precision",
+                            fmt::to_string(fmt::join(ids, "-")));
+  PointLog log(directory, ids);
+  if (log.n_known() > 0) {
+    print("{} of an earlier study in {} {} kept\n\n", counted(log.n_known(), "point"),
+          command.directory, log.n_known() == 1 ? "is" : "are");
   }
-
-  int run() {
-    std::vector<WorkPrecision> studies;
-    for (const LabelledCase& entry : cases_) {
-      studies.push_back(study(entry));
-      status.clear();
-      print("{}: {}\n{}\n", title_of(entry.input), entry.label,
-            work_precision_table(studies.back()));
-      print("cheapest setting whose event times are all within\n{}\n",
-            recommendation_text(recommendations_from(studies.back().points)));
-      std::fflush(stdout);
-      if (studies.back().interrupted) break;
-    }
-    draw_work_precision(directory_.staging(), studies);
-    directory_.commit();
-    print_warnings(directory_.notes());
-    print(
-        "work_precision.csv, work_precision.svg and .png, work_precision_evaluations.svg "
-        "and .png in {}\n",
-        command_.directory);
-    if (!studies.back().interrupted) return done;
-    return end_interrupted("; finished points are kept, and the same command continues from there");
+  std::vector<WorkPrecision> studies;
+  for (const LabelledCase& entry : cases) {
+    studies.push_back(study(command, entry, log, session));
+    session.status.clear();
+    print("{}: {}\n{}\n", title_of(entry.input), entry.label, work_precision_table(studies.back()));
+    print("cheapest setting whose event times are all within\n{}\n",
+          recommendation_text(recommendations_from(studies.back().points)));
+    std::fflush(stdout);
+    if (studies.back().interrupted) break;
   }
+  draw_work_precision(directory.staging(), studies);
+  directory.commit();
+  print_warnings(directory.notes());
+  print(
+      "work_precision.csv, work_precision.svg and .png, work_precision_evaluations.svg and .png in "
+      "{}\n",
+      command.directory);
+  if (!studies.back().interrupted) return done;
+  return session.end_interrupted(
+      "; finished points are kept, and the same command continues from there");
+}
 
- private:
-  static std::vector<std::string> ids(const std::vector<LabelledCase>& cases) {
-    std::vector<std::string> list;
-    for (const LabelledCase& entry : cases) list.push_back(case_id(entry.input));
-    return list;
-  }
-
-  WorkPrecision study(const LabelledCase& entry) {
-    const std::string id = case_id(entry.input);
-    WorkPrecisionOptions options;
-    options.methods = command_.methods;
-    options.point_seconds = command_.point_seconds;
-    options.known = [&](const Setting& setting) { return log_.known(id, setting); };
-    options.finished = [&](const WorkPrecisionPoint& point) {
-      log_.append(id, entry.label, point);
-    };
-    options.announce = [&](const std::string& what) { status.show(entry.label + ": " + what); };
-    options.progress = progress();
-    WorkPrecision result = work_precision(entry.input, options);
-    result.label = entry.label;
-    return result;
-  }
-
-  const WorkPrecisionCommand& command_;
-  const std::vector<LabelledCase>& cases_;
-  OutputDirectory directory_;
-  PointLog log_;
-};
-
-int run_work_precision(WorkPrecisionCommand command) {
+int run_work_precision(WorkPrecisionCommand& command) {
   const LoadedCase loaded = command.input.load();
   if (command.directory.empty())
     command.directory = command.input.directory_with("-work-precision");
   return with_places(loaded, [&] {
     const std::vector<LabelledCase> cases = cases_of(loaded, command.sections);
     for (const LabelledCase& entry : cases) check_methods(entry.input, command.methods);
-    return Session(command, cases).run();
+    return run_cases(command, cases);
   });
 }
 
-void add_options(CLI::App& command, WorkPrecisionCommand& options) {
+}  // namespace
+
+void add_work_precision(CLI::App& program, int& status) {
+  auto [command, options] = add_command(
+      program, status, "work-precision",
+      "Chart cost against error for every method, and recommend settings", run_work_precision);
   options.input.add_case_to(command);
   add_list_option(command, "--methods", options.methods,
-                  "Methods to sweep, separated by commas; a method's table after a colon, "
-                  "its solver.events after a plus sign. "
-                  "Default: all that can run the case");
+                  "Methods to sweep, separated by commas; a method's table after a colon, its "
+                  "solver.events after a plus sign. Default: all that can run the case");
   add_list_option(command, "--sections", options.sections,
                   "Section laws, separated by commas, each in a panel of its own. Default: the "
                   "case's");
@@ -145,14 +134,6 @@ void add_options(CLI::App& command, WorkPrecisionCommand& options) {
       "  subimpact work-precision case.toml --sections elastic,exact,layers --set time.end=2e-3\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a figure could not be drawn; 130 "
       "stopped by Ctrl-C.");
-}
-
-}  // namespace
-
-void add_work_precision(CLI::App& program, int& status) {
-  add_command(program, status, "work-precision",
-              "Chart cost against error for every method, and recommend settings", add_options,
-              run_work_precision);
 }
 
 }  // namespace subimpact::app

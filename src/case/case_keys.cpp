@@ -11,7 +11,6 @@
 
 #include "case/case_choices.h"
 #include "case/shifted_case.h"
-#include "simulate/methods.h"
 #include "subimpact/simulate/method_tables.h"
 
 namespace subimpact {
@@ -71,16 +70,15 @@ struct Member<std::array<T, 2>> {
   }
 };
 
+// What a member holds that may be left open.
 template <class T>
-struct RemoveOptional {
-  using type = T;
-  static constexpr bool is_optional = false;
-};
+const T* held(const T& member) {
+  return &member;
+}
 template <class T>
-struct RemoveOptional<std::optional<T>> {
-  using type = T;
-  static constexpr bool is_optional = true;
-};
+const T* held(const std::optional<T>& member) {
+  return member ? &*member : nullptr;
+}
 
 // --- the parts of a row -------------------------------------------------------------------------
 
@@ -118,9 +116,7 @@ const std::string as_in_case;               // as a default: that of the struct 
 template <class Field>
 CaseKey row(const char* name, const char* unit, const Range& range, const char* meaning,
             const std::optional<std::string>& default_text, Field field) {
-  using Stored = std::remove_reference_t<decltype(field(std::declval<Case&>()))>;
-  using Value = typename RemoveOptional<Stored>::type;
-  constexpr bool optional = RemoveOptional<Stored>::is_optional;
+  using Value = std::remove_cvref_t<decltype(*held(field(std::declval<Case&>())))>;
   CaseKey key;
   key.name = name;
   key.type = Member<Value>::type;
@@ -129,12 +125,9 @@ CaseKey row(const char* name, const char* unit, const Range& range, const char* 
   key.limits = range.limits;
   key.meaning = meaning;
   key.get = [field](const Case& from) -> std::optional<KeyValue> {
-    if constexpr (optional) {
-      if (!field(from)) return std::nullopt;
-      return Member<Value>::to_value(*field(from));
-    } else {
-      return Member<Value>::to_value(field(from));
-    }
+    const Value* value = held(field(from));
+    if (value == nullptr) return std::nullopt;
+    return Member<Value>::to_value(*value);
   };
   key.set = [field](Case& to, const KeyValue& value) {
     field(to) = Member<Value>::from_value(value);
@@ -349,5 +342,8 @@ void assign(Case& target, const CaseKey& key, const KeyValue& value) {
   if (const auto problem = problem_with(key, value)) throw InvalidCase(key.name, *problem);
   key.set(target, value);
 }
+
+std::string_view to_string(Method method) { return name_of(method); }
+std::string_view to_string(EventHandling events) { return name_of(events); }
 
 }  // namespace subimpact

@@ -1,7 +1,5 @@
 // Checks of a case across its keys.
 
-#include "case/checks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -39,17 +39,14 @@ struct OtherUnit {
   double factor;  ///< to the case file's unit
 };
 
-/// Values a key usually has: units that lead there are proposed.
-struct UsualRange {
-  double low = 0.0, high = INFINITY;
-};
-
-// "; if MPa was meant, write 7.196e+10".
-std::string proposal(double value, std::initializer_list<OtherUnit> units, UsualRange usual) {
+// "; if MPa was meant, write 7.196e+10": units that lead to values from `low` to `high`, which a
+// key usually has.
+std::string proposal(double value, std::initializer_list<OtherUnit> units, double low,
+                     double high) {
   std::string text;
   for (const OtherUnit& unit : units) {
     const double meant = value * unit.factor;
-    if (meant < usual.low || meant > usual.high) continue;
+    if (meant < low || meant > high) continue;
     text += text.empty() ? fmt::format("; if {} was meant, write {:.6g}", unit.name, meant)
                          : fmt::format(", if {} was, {:.6g}", unit.name, meant);
   }
@@ -73,11 +70,11 @@ class Doubts {
  private:
   // "beam.length is 201 m", the reason and what to write if one of the units was meant.
   void doubt(const char* name, const std::string& reason, std::initializer_list<OtherUnit> units,
-             UsualRange usual = {}) {
+             double low = 0.0, double high = INFINITY) {
     const CaseKey& key = *find_case_key(name);
     const double value = std::get<double>(*key.get(case_));
     sentences.push_back(fmt::format("{} is {:.6g} {}{}{}", name, value, key.unit, reason,
-                                    proposal(value, units, usual)));
+                                    proposal(value, units, low, high)));
   }
 
   // A length that is out of proportion to another length of the beam, or doubtful because all
@@ -130,7 +127,7 @@ class Doubts {
     const double end = case_.end_time;
     const auto longer_than_run = [&](const char* key, const std::optional<double>& time) {
       if (!time || *time <= end) return;
-      doubt(key, ", longer than the whole run", {{"ms", 1e-3}, {"us", 1e-6}}, {0.0, 1e-2 * end});
+      doubt(key, ", longer than the whole run", {{"ms", 1e-3}, {"us", 1e-6}}, 0.0, 1e-2 * end);
     };
     longer_than_run("solver.step", case_.solver.step);
     longer_than_run("accuracy.event_times", case_.accuracy.event_times);
@@ -140,7 +137,7 @@ class Doubts {
     doubt("time.end",
           fmt::format(", {:.3g} periods of the beam's slowest vibration, {:.3g} s each",
                       end / period, period),
-          {{"ms", 1e-3}, {"us", 1e-6}}, {1e-2 * period, most_periods * period});
+          {{"ms", 1e-3}, {"us", 1e-6}}, 1e-2 * period, most_periods * period);
   }
 
   void modulus(const char* key, double E) {
@@ -148,7 +145,7 @@ class Doubts {
     doubt(key,
           E < softest ? ", softer than soft rubber (some 1e6 Pa)"
                       : ", stiffer than diamond (1.2e12 Pa)",
-          {{"MPa", 1e6}, {"GPa", 1e9}, {"mPa", 1e-3}}, {1e8, stiffest});
+          {{"MPa", 1e6}, {"GPa", 1e9}, {"mPa", 1e-3}}, 1e8, stiffest);
   }
 
   void materials() {
@@ -157,7 +154,7 @@ class Doubts {
       doubt("beam.density",
             rho < lightest ? ", lighter than packing foam (some 25 kg/m3)"
                            : ", heavier than osmium (22600 kg/m3)",
-            {{"g/cm3", 1e3}, {"t/mm3", 1e12}, {"g/m3", 1e-3}}, {50.0, heaviest});
+            {{"g/cm3", 1e3}, {"t/mm3", 1e12}, {"g/m3", 1e-3}}, 50.0, heaviest);
     }
     modulus("beam.youngs_modulus", E);
     const double striker = case_.scene.contact.striker_modulus.value_or(INFINITY);
@@ -166,7 +163,7 @@ class Doubts {
       doubt("beam.yield_stress",
             Y < weakest ? std::string(", far weaker than lead (some 1e7 Pa)")
                         : fmt::format(", reached at a strain of {:.1e} (metals: some 1e-3)", Y / E),
-            {{"MPa", 1e6}, {"GPa", 1e9}}, {1e6, 2e10});
+            {{"MPa", 1e6}, {"GPa", 1e9}}, 1e6, 2e10);
     }
   }
 

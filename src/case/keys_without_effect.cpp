@@ -7,7 +7,6 @@
 #include <ranges>
 #include <string_view>
 
-#include "case/checks.h"
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"

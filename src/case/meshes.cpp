@@ -70,23 +70,7 @@ void check_points(const Case& input) {
       "it out, or set beam.ends = [\"free\", \"free\"]");
 }
 
-void check_has_no_points(const Case& input) {
-  if (input.model.spacing == CellSpacing::cells) return;
-  throw InvalidCase("model.spacing",
-                    "is \"points\", but only cells have a spacing; allowed with this mesh: "
-                    "\"cells\"; leave it out, or set model.mesh = \"cells\"");
-}
-
-void check_is_not_graded(const Case& input) {
-  if (input.model.strike_refinement == 1.0) return;
-  throw InvalidCase("model.strike_refinement",
-                    fmt::format("is {:g}, but only elements can be shorter at the strike; allowed "
-                                "with this mesh: 1; leave it out, or set model.mesh = \"hermite\"",
-                                input.model.strike_refinement));
-}
-
 void check_cells(const Case& input) {
-  check_is_not_graded(input);
   if (input.model.spacing == CellSpacing::points) return check_points(input);
   const int cells = input.model.segments;
   const double at = input.scene.striker.position;
@@ -106,7 +90,6 @@ void check_cells(const Case& input) {
 // There is a node at the strike, and an element much shorter than the others would determine the
 // time step.
 void check_elements(const Case& input) {
-  check_has_no_points(input);
   const int elements = input.model.elements;
   const double at = input.scene.striker.position;
   const double length = input.scene.beam.length;
@@ -133,8 +116,6 @@ void check_elements(const Case& input) {
 }
 
 void check_spectral(const Case& input) {
-  check_is_not_graded(input);
-  check_has_no_points(input);
   const double at = input.scene.striker.position;
   const int elements = input.model.elements;
   const bool is_refused =
@@ -164,9 +145,8 @@ bool uses_half(const Case& input) {
   if ((count % 2 != 0) == odd) return true;
   throw InvalidCase(
       refinement.key,
-      fmt::format("is {}, but the half model of a scene struck at mid-span needs an {} number, "
-                  "so that a {} lies under the striker; use {} or {}, or set model.symmetry = "
-                  "\"off\"",
+      fmt::format("is {}, but the half model of a scene struck at mid-span needs an {} number, so "
+                  "that a {} lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
                   count, odd ? "odd" : "even", odd ? "cell" : "node", count - 1, count + 1));
 }
 
@@ -210,14 +190,10 @@ double size_of_elements(const Case& input) {
   return input.scene.beam.length / input.model.elements;
 }
 
-int order_of_cells(const Case& input) { return input.model.spacing == CellSpacing::points ? 1 : 2; }
-
 int order_of_elements(const Case& input) {
   if (!may_yield(input)) return 4;
   return input.model.hinges == HingeUse::off ? 1 : 2;
 }
-
-int order_of_spectral_elements(const Case&) { return 2; }
 
 constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "model.symmetry"};
 constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
@@ -235,7 +211,9 @@ constexpr MeshDescriptor rows[] = {
      .make = make_cell_mesh,
      .refinement = {{&ModelOptions::segments, "model.segments", "cells",
                      static_cast<int>(CellMesh::fewest_cells_if_clamped), true, size_of_cells,
-                     order_of_cells}}},
+                     [](const Case& c) {
+                       return c.model.spacing == CellSpacing::points ? 1 : 2;
+                     }}}},
     {.kind = MeshKind::hermite,
      .name = "hermite",
      .note = "cubic Hermite elements, fourth order, for beams that do not shear",
@@ -255,17 +233,13 @@ constexpr MeshDescriptor rows[] = {
      .make = make_spectral_mesh,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(SpectralMesh::fewest_elements), false, size_of_elements,
-                     order_of_spectral_elements}}},
+                     [](const Case&) { return 2; }}}},
     {.kind = MeshKind::rigid,
      .name = "rigid",
      .note = "the beam as a rigid body, for impacts of two bodies",
      .keys = {},
      .bends = false,
-     .check =
-         [](const Case& input) {
-           check_is_not_graded(input);
-           check_has_no_points(input);
-         },
+     .check = [](const Case&) {},
      .make = make_rigid_mesh},
 };
 
@@ -278,6 +252,22 @@ const MeshDescriptor& descriptor_of(MeshKind kind) {
     if (row.kind == kind) return row;
   }
   throw std::logic_error("a mesh has no descriptor: add a row in meshes.cpp");
+}
+
+// Throws InvalidCase for a spacing or grading that the mesh cannot have.
+void check_spacing(const Case& input) {
+  if (!mesh_uses(input, "model.strike_refinement") && input.model.strike_refinement != 1.0) {
+    throw InvalidCase(
+        "model.strike_refinement",
+        fmt::format("is {:g}, but only elements can be shorter at the strike; allowed "
+                    "with this mesh: 1; leave it out, or set model.mesh = \"hermite\"",
+                    input.model.strike_refinement));
+  }
+  if (!mesh_uses(input, "model.spacing") && input.model.spacing != CellSpacing::cells) {
+    throw InvalidCase("model.spacing",
+                      "is \"points\", but only cells have a spacing; allowed with this mesh: "
+                      "\"cells\"; leave it out, or set model.mesh = \"cells\"");
+  }
 }
 
 void check_mesh(const Case& input) {
@@ -293,6 +283,7 @@ void check_mesh(const Case& input) {
                                   mesh.name, to_text(*find_case_key("beam.theory")->get(input)),
                                   fmt::join(suitable, ", ")));
   }
+  check_spacing(input);
   mesh.check(input);
 }
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "case/meshes.h"
-#include "model/contact_laws.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"

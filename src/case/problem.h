@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "model/contact_laws.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {
@@ -37,6 +38,10 @@ bool uses_symmetry(const Case& input);
 std::optional<double> step_of(const Case& input);
 /// The largest step that is left a margin to the critical step of the case, whatever its own step.
 double largest_stable_step(Case input);
+
+/// The way in which a case gives a law its constants.
+const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law);
+bool uses_key(const ContactConstants& way, const char* key);
 
 /// The contact law of a case: its own part, or the one that the scene names.
 std::shared_ptr<const ContactLaw> contact_law_of(const Case& input);

@@ -15,51 +15,27 @@ namespace subimpact {
 namespace {
 
 /// A choice as other programs and textbooks call it: in lower case, with hyphens between words.
-struct OtherName {
+struct OtherNames {
   const char* key;
-  const char* name;
   const char* own;
+  std::vector<std::string_view> others;
 };
 
-constexpr OtherName other_names[] = {
-    {"beam.ends", "fixed", "clamped"},
-    {"beam.ends", "built-in", "clamped"},
-    {"beam.ends", "encastre", "clamped"},
-    {"beam.ends", "encastered", "clamped"},
-    {"beam.ends", "rigid", "clamped"},
-    {"beam.ends", "simply-supported", "pinned"},
-    {"beam.ends", "simple", "pinned"},
-    {"beam.ends", "simple-support", "pinned"},
-    {"beam.ends", "supported", "pinned"},
-    {"beam.ends", "ss", "pinned"},
-    {"beam.ends", "hinged", "pinned"},
-    {"beam.ends", "hinge", "pinned"},
-    {"beam.ends", "roller", "pinned"},
-    {"solver.method", "rk4", "erk"},
-    {"solver.method", "rk45", "erk"},
-    {"solver.method", "ode45", "erk"},
-    {"solver.method", "dopri5", "erk"},
-    {"solver.method", "dop853", "erk"},
-    {"solver.method", "runge-kutta", "erk"},
-    {"solver.method", "rkn", "nystrom"},
-    {"solver.method", "nystroem", "nystrom"},
-    {"solver.method", "runge-kutta-nystrom", "nystrom"},
-    {"solver.method", "explicit", "central-difference"},
-    {"solver.method", "leapfrog", "central-difference"},
-    {"solver.method", "verlet", "central-difference"},
-    {"solver.method", "newmark", "central-difference"},
-    {"solver.method", "cd", "central-difference"},
-    {"solver.method", "implicit", "dirk"},
-    {"solver.method", "gear", "bdf"},
-    {"solver.method", "modal", "exponential"},
-    {"beam.theory", "bernoulli", "euler-bernoulli"},
-    {"beam.theory", "bernoulli-euler", "euler-bernoulli"},
-    {"beam.theory", "euler", "euler-bernoulli"},
-    {"model.mesh", "finite-elements", "hermite"},
-    {"model.mesh", "elements", "hermite"},
-    {"model.mesh", "fem", "hermite"},
-    {"model.mesh", "finite-differences", "cells"},
-    {"model.mesh", "segments", "cells"},
+const OtherNames other_names[] = {
+    {"beam.ends", "clamped", {"fixed", "built-in", "encastre", "encastered", "rigid"}},
+    {"beam.ends",
+     "pinned",
+     {"simply-supported", "simple", "simple-support", "supported", "ss", "hinged", "hinge",
+      "roller"}},
+    {"solver.method", "erk", {"rk4", "rk45", "ode45", "dopri5", "dop853", "runge-kutta"}},
+    {"solver.method", "nystrom", {"rkn", "nystroem", "runge-kutta-nystrom"}},
+    {"solver.method", "central-difference", {"explicit", "leapfrog", "verlet", "newmark", "cd"}},
+    {"solver.method", "dirk", {"implicit"}},
+    {"solver.method", "bdf", {"gear"}},
+    {"solver.method", "exponential", {"modal"}},
+    {"beam.theory", "euler-bernoulli", {"bernoulli", "bernoulli-euler", "euler"}},
+    {"model.mesh", "hermite", {"finite-elements", "elements", "fem"}},
+    {"model.mesh", "cells", {"finite-differences", "segments"}},
 };
 
 /// Keys as other programs call them, and their names here.
@@ -149,6 +125,18 @@ std::string suggestion(const std::string& table, const std::string& leaf) {
   return fmt::format("; did you mean \"{}\"?", fmt::join(elsewhere, "\" or \""));
 }
 
+// The text after leading digits; nothing if it begins with none.
+std::optional<std::string_view> after_digits(std::string_view text) {
+  const std::size_t n = std::min(text.find_first_not_of("0123456789"), text.size());
+  if (n == 0) return std::nullopt;
+  return text.substr(n);
+}
+
+std::string_view after_any_of(std::string_view characters, std::string_view text) {
+  const bool is_there = !text.empty() && characters.find(text.front()) != std::string_view::npos;
+  return text.substr(is_there ? 1 : 0);
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
@@ -168,22 +156,6 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 }
 
 // --- decimal commas ------------------------------------------------------------------------------
-
-namespace {
-
-// The text after leading digits; nothing if it begins with none.
-std::optional<std::string_view> after_digits(std::string_view text) {
-  const std::size_t n = std::min(text.find_first_not_of("0123456789"), text.size());
-  if (n == 0) return std::nullopt;
-  return text.substr(n);
-}
-
-std::string_view after_any_of(std::string_view characters, std::string_view text) {
-  const bool is_there = !text.empty() && characters.find(text.front()) != std::string_view::npos;
-  return text.substr(is_there ? 1 : 0);
-}
-
-}  // namespace
 
 std::string_view leading_decimal_comma(std::string_view text) {
   const auto fraction = after_digits(after_any_of("+-", text));
@@ -207,8 +179,8 @@ std::string decimal_comma_hint(std::string_view text) {
 
 std::string own_name(std::string_view key, std::string_view name) {
   const std::string wanted = spelt_alike(name);
-  for (const OtherName& other : other_names) {
-    if (other.key == key && other.name == wanted) return other.own;
+  for (const OtherNames& row : other_names) {
+    if (row.key == key && std::ranges::find(row.others, wanted) != row.others.end()) return row.own;
   }
   return {};
 }

@@ -4,11 +4,11 @@
 
 namespace subimpact {
 
-CentralDifference::CentralDifference(SecondOrderOde& ode, double step, LastPosition last_position)
+CentralDifference::CentralDifference(SecondOrderOde& ode, double step, bool constant_force_on_last)
     : ode_(ode),
       n_(ode.n_positions()),
       step_(step),
-      last_position_(last_position),
+      constant_force_on_last_(constant_force_on_last),
       a0_(n_),
       a1_(n_),
       a_partial_(n_) {}
@@ -32,7 +32,7 @@ void CentralDifference::advance(double h, const State& from, const AlignedVector
   const double* a1 = acceleration.data();
   assign_by_lines(v, n_, [=](auto at) { return at(v0) + half * at(a0); });
   assign_by_lines(q, n_, [=](auto at) { return at(q0) + h * at(v); });
-  if (last_position_ == LastPosition::constant_force) q[n_ - 1] = q0[n_ - 1] + h * v0[n_ - 1];
+  if (constant_force_on_last_) q[n_ - 1] = q0[n_ - 1] + h * v0[n_ - 1];
   ode_.acceleration({q, n_}, acceleration);
   ++work_.right_hand_sides;
   assign_by_lines(v, n_, [=](auto at) { return at(v) + half * at(a1); });

@@ -18,11 +18,8 @@ namespace subimpact {
 /// v[n] = u[n] + dt/2 a[n], that of the central differences, this is q[n+1] = q[n] + dt v[n].
 class CentralDifference final : public Integrator {
  public:
-  enum class LastPosition { central, constant_force };
-
   /// `step` in s; the caller must keep it below the critical step.
-  CentralDifference(SecondOrderOde& ode, double step,
-                    LastPosition last_position = LastPosition::central);
+  CentralDifference(SecondOrderOde& ode, double step, bool constant_force_on_last = false);
 
   void restart(double t, const State& y) override;
   void step() override;
@@ -40,7 +37,7 @@ class CentralDifference final : public Integrator {
   SecondOrderOde& ode_;
   std::size_t n_;
   double step_;
-  LastPosition last_position_;
+  bool constant_force_on_last_;
   double origin_ = 0.0;  // times are origin + k step, free of accumulated rounding
   long steps_from_origin_ = 0;
   AlignedVector a0_, a1_, a_partial_;

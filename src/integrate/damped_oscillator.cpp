@@ -31,6 +31,33 @@ constexpr double near_double_root = 1e-3;
 
 using Complex = std::complex<double>;
 
+double by_quadrature(double omega, double delta, double q, double v,
+                     std::span<const double, n_powers> force, double t) {
+  const double radians = std::max(omega, 2.0 * delta) * t;
+  const double n = std::min(least_panels + std::ceil(panels_per_radian * radians), most_panels);
+  const double h = t / n;
+  double sum = 0.0;
+  for (double panel = 0.0; panel < n; panel += 1.0) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      const DampedOscillator at(omega, delta, h * (panel + gauss<5>.points[i]));
+      double rate = at.slope * v - omega * omega * at.response * q + force[0] * at.response;
+      for (std::size_t m = 1; m < n_powers; ++m) rate += force[m] * at.forced[m - 1];
+      sum += gauss<5>.weights[i] * rate * rate;
+    }
+  }
+  return h * sum;
+}
+
+// Integral of e^(r tau) tau^m from 0 to t, m = 0..2; |r t| is not small.
+std::array<Complex, 3> moments_of_exponential(Complex r, double t) {
+  const Complex e = std::exp(r * t);
+  std::array<Complex, 3> result;
+  result[0] = (e - 1.0) / r;
+  result[1] = (t * e - result[0]) / r;
+  result[2] = (t * t * e - 2.0 * result[1]) / r;
+  return result;
+}
+
 }  // namespace
 
 DampedOscillator::DampedOscillator(double omega, double delta, double t) {
@@ -114,37 +141,6 @@ DampedOscillator DampedOscillator::continued(double omega, double t) const {
   }
   return twice;
 }
-
-namespace {
-
-double by_quadrature(double omega, double delta, double q, double v,
-                     std::span<const double, n_powers> force, double t) {
-  const double radians = std::max(omega, 2.0 * delta) * t;
-  const double n = std::min(least_panels + std::ceil(panels_per_radian * radians), most_panels);
-  const double h = t / n;
-  double sum = 0.0;
-  for (double panel = 0.0; panel < n; panel += 1.0) {
-    for (std::size_t i = 0; i < 5; ++i) {
-      const DampedOscillator at(omega, delta, h * (panel + gauss<5>.points[i]));
-      double rate = at.slope * v - omega * omega * at.response * q + force[0] * at.response;
-      for (std::size_t m = 1; m < n_powers; ++m) rate += force[m] * at.forced[m - 1];
-      sum += gauss<5>.weights[i] * rate * rate;
-    }
-  }
-  return h * sum;
-}
-
-// Integral of e^(r tau) tau^m from 0 to t, m = 0..2; |r t| is not small.
-std::array<Complex, 3> moments_of_exponential(Complex r, double t) {
-  const Complex e = std::exp(r * t);
-  std::array<Complex, 3> result;
-  result[0] = (e - 1.0) / r;
-  result[1] = (t * e - result[0]) / r;
-  result[2] = (t * t * e - 2.0 * result[1]) / r;
-  return result;
-}
-
-}  // namespace
 
 double integral_of_squared_velocity(double omega, double delta, double q, double v,
                                     std::span<const double, n_powers> force, double t) {

@@ -9,14 +9,12 @@
 
 namespace subimpact {
 
-/// The exponential method: oscillators driven by one scalar force, integrated exactly but for that
-/// force, which is a cubic over each step, collocated at its four Gauss points.
+/// The exponential method: oscillators driven by one scalar force, a cubic over each step that is
+/// collocated at its four Gauss points (docs/theory.md, "The exponential method").
 ///
-/// A step costs four scalar equations (Newton) and a few passes over the oscillators; no frequency
-/// limits its length, only the smoothness of the force. Free motion is exact. The error estimate is
-/// the defect: the difference between cubic and force at the step's two ends, times the response of
-/// lambda to a constant unit force over the step; it is held below rtol times the displacement
-/// scale. Step lengths are unit/2^level, each with tables made when first used.
+/// The error estimate, the defect at the step's two ends times the response of lambda to a constant
+/// unit force over the step, is held below rtol times the displacement scale. Step lengths are
+/// unit/2^level.
 ///
 /// An event search uses the step's ends and a cubic in lambda through them. So a step is also
 /// halved until that cubic resolves the side of the critical displacement on which lambda lies, or
@@ -28,8 +26,8 @@ namespace subimpact {
 /// other three factors.
 ///
 /// state_at gives the flow under the step's force: exact but for the cubic. So the order is eight
-/// at the ends of steps (collocation at four Gauss points) and six within them, and for event
-/// times: a cubic misses the force by O(h^4), and lambda is its second integral.
+/// at the ends of steps and six within them, and for event times: a cubic misses the force by
+/// O(h^4), and lambda is its second integral.
 class Exponential final : public Integrator {
  public:
   Exponential(std::unique_ptr<ForcedOscillators> oscillators, const IntegratorOptions& options);

@@ -96,6 +96,38 @@ void store(const Lanes& values, std::span<double> to, std::size_t i) {
   for (std::size_t k = i; k < to.size(); ++k) to[k] = values[k - i];
 }
 
+// Coefficients of t^m/m! in the force over a step of length h.
+std::array<double, s> in_time(const ForcePolynomial& force, double h) {
+  std::array<double, s> scaled{};
+  double scale = 1.0;
+  for (std::size_t m = 0; m < s; ++m) {
+    scaled[m] = scale * force.coefficients()[m];
+    scale /= h;
+  }
+  return scaled;
+}
+
+void flow_damped(const ForcedOscillators& oscillators, std::span<const double> y,
+                 const ForcePolynomial& force, double h, double t, std::span<double> result) {
+  const std::size_t n = oscillators.size();
+  const std::array<double, s> f = in_time(force, h);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double w = oscillators.frequencies()[k];
+    const DampedOscillator at(w, oscillators.decay_rates()[k], t);
+    double position = f[0] * at.forced[0];
+    double velocity = f[0] * at.response;
+    for (std::size_t m = 1; m < s; ++m) {
+      position += f[m] * at.forced[m];
+      velocity += f[m] * at.forced[m - 1];
+    }
+    const double l = oscillators.loads()[k];
+    const double q = y[k];
+    const double v = y[n + k];
+    result[k] = at.position * q + at.response * v + l * position;
+    result[n + k] = -w * w * at.response * q + at.slope * v + l * velocity;
+  }
+}
+
 }  // namespace
 
 ForcePolynomial::ForcePolynomial(const NodeForces& values) {
@@ -258,42 +290,6 @@ void OscillatorStep::advance(std::span<const double> y, const NodeForces& forces
     v1[k] += f[0] * r0[k] + f[1] * r1[k] + f[2] * r2[k] + f[3] * r3[k];
   }
 }
-
-namespace {
-
-// Coefficients of t^m/m! in the force over a step of length h.
-std::array<double, s> in_time(const ForcePolynomial& force, double h) {
-  std::array<double, s> scaled{};
-  double scale = 1.0;
-  for (std::size_t m = 0; m < s; ++m) {
-    scaled[m] = scale * force.coefficients()[m];
-    scale /= h;
-  }
-  return scaled;
-}
-
-void flow_damped(const ForcedOscillators& oscillators, std::span<const double> y,
-                 const ForcePolynomial& force, double h, double t, std::span<double> result) {
-  const std::size_t n = oscillators.size();
-  const std::array<double, s> f = in_time(force, h);
-  for (std::size_t k = 0; k < n; ++k) {
-    const double w = oscillators.frequencies()[k];
-    const DampedOscillator at(w, oscillators.decay_rates()[k], t);
-    double position = f[0] * at.forced[0];
-    double velocity = f[0] * at.response;
-    for (std::size_t m = 1; m < s; ++m) {
-      position += f[m] * at.forced[m];
-      velocity += f[m] * at.forced[m - 1];
-    }
-    const double l = oscillators.loads()[k];
-    const double q = y[k];
-    const double v = y[n + k];
-    result[k] = at.position * q + at.response * v + l * position;
-    result[n + k] = -w * w * at.response * q + at.slope * v + l * velocity;
-  }
-}
-
-}  // namespace
 
 void integrate_squared_velocities(const ForcedOscillators& oscillators, std::span<const double> y,
                                   const ForcePolynomial& force, double h, double t,

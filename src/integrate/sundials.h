@@ -35,12 +35,10 @@ std::unique_ptr<Integrator> make_arkode_erk(SecondOrderOde& ode, const Integrato
 ///
 ///     [I, Mass] y' = [v, f(q)],   y = [q, v],
 ///
-/// with the mass matrix as it is, sparse. Each stage solves (M - gamma J) dz = r by Newton's
-/// method, J = [0, I; -K, 0] with the analytic tangent K, factored by KLU; the pattern is analysed
-/// once. Error weights, restarts and states inside a step as in `erk`: the weights are constant, a
-/// restart keeps the step size, a state inside the last step is a retaken, shorter step. With a
-/// fixed step the tolerance still bounds the error of Newton's iteration. Throws
-/// std::invalid_argument for a table that is not among dirk_tables().
+/// with the mass matrix as it is, sparse. Each stage is solved by Newton's method with the analytic
+/// tangent K, factored by KLU (see BlockSystem). Error weights and states inside a step as in
+/// `erk`; a restart keeps the step size. With a fixed step the tolerance still bounds the error of
+/// Newton's iteration. Throws std::invalid_argument for a table that is not among dirk_tables().
 std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system,
                                              const IntegratorOptions& options);
 

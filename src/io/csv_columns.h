@@ -90,7 +90,7 @@ requires std::is_enum_v<Enum>
 bool read_cell(std::string_view cell, Enum& value) {
   const auto names = names_of(value);
   const auto found = std::ranges::find(names, cell, [](const auto& named) { return named.name; });
-  if (found != names.end()) value = found->value;
+  if (found != names.end()) value = found->kind;
   return found != names.end();
 }
 template <class Enum, std::size_t n>

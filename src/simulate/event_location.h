@@ -18,16 +18,12 @@ double rounding_of(const EventFunction& function, const StruckBeam& beam, const 
 /// Finds the end of a step: its first event of the contact, or where its section correction stops
 /// being valid, or its own end.
 ///
-/// Events are located on the method's own trajectory to rounding: each trial state is a step of the
-/// method from the start (Integrator::state_at). The earliest event by estimate is located; the
-/// step then ends there, and what remains is searched again, in case the estimates have the wrong
-/// order. If sections leave their smooth pieces before the event, it is located again on the
-/// corrected trajectory.
+/// Events are located on the method's own trajectory to rounding, the earliest by estimate first,
+/// after which what remains of the step is searched again (docs/theory.md, "Events"). If sections
+/// leave their smooth pieces before the event, it is located again on the corrected trajectory.
 ///
 /// With EventHandling::library the event is the root at which the integrator has ended the step
-/// (Integrator::root). Sections are treated as above: an event whose step contains section events
-/// is moved to the corrected trajectory, one behind the end of the correction is left to later
-/// steps.
+/// (Integrator::root); one behind the end of the section correction is left to later steps.
 class EventLocator {
  public:
   EventLocator(StruckBeam& beam, Integrator& integrator, SectionCorrector& corrector,

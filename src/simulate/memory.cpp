@@ -1,5 +1,3 @@
-#include "simulate/memory.h"
-
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {

@@ -90,6 +90,11 @@ void check_central_step(const Options& options, const ResolvedSettings& used, do
   }
 }
 
+bool has_modes(const Options& options, const StruckBeam& beam) {
+  return in_modes(options, beam.mesh(), beam.damping()) ||
+         options.stop == StopRule::no_more_contact;
+}
+
 }  // namespace
 
 std::optional<int> max_order_used(const Options& options) {
@@ -248,15 +253,6 @@ bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& d
   return damping.ratio > 0.0 ||
          (mesh.prefers_modes() && options.study.mass_solver == MassSolverKind::banded);
 }
-
-namespace {
-
-bool has_modes(const Options& options, const StruckBeam& beam) {
-  return in_modes(options, beam.mesh(), beam.damping()) ||
-         options.stop == StopRule::no_more_contact;
-}
-
-}  // namespace
 
 bool modes_are_left_out(const Options& options, const StruckBeam& beam) {
   return beam.mesh().modal_stiffness().empty() && !beam.sections().can_yield() &&

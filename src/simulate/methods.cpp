@@ -49,10 +49,8 @@ std::vector<MethodDescriptor> make_descriptors() {
        .audit_interval = 256,
        .make =
            [](StruckBeam& beam, const IntegratorOptions& options) {
-             using Last = CentralDifference::LastPosition;
-             return std::make_unique<CentralDifference>(
-                 beam, *options.fixed_step,
-                 options.constant_force_on_last ? Last::constant_force : Last::central);
+             return std::make_unique<CentralDifference>(beam, *options.fixed_step,
+                                                        options.constant_force_on_last);
            }},
       {.kind = Method::erk,
        .name = "erk",

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <new>
 
-#include "simulate/memory.h"
 #include "simulate/methods.h"
 #include "simulate/recorder.h"
 #include "simulate/run_parts.h"
@@ -205,9 +204,8 @@ void check_memory(const ResolvedSettings& settings) {
   throw InvalidCase(
       "solver.method",
       fmt::format(
-          "takes some {:.2g} GB of memory on this mesh of {} unknowns, and the machine has "
-          "{:.2g} GB free; use a coarser mesh, or a method that needs no natural modes, such "
-          "as nystrom",
+          "takes some {:.2g} GB of memory on this mesh of {} unknowns, and the machine has {:.2g} "
+          "GB free; use a coarser mesh, or a method that needs no natural modes, such as nystrom",
           1e-9 * settings.memory, settings.n_unknowns, 1e-9 * available));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -50,5 +51,11 @@ LoopOptions loop_options(const RunParts& parts);
 /// Result::used stay empty; messages of failures name no remedy.
 Result simulate(RunParts& parts, Integrator& integrator, const Progress& progress = {},
                 Observer* observer = nullptr, RowSink* rows = nullptr);
+
+/// Bytes that a process may still take: what the machine has free (Linux: MemAvailable), and less
+/// where a limit of the process (ulimit -v), of its control group or of one above is lower. Pages
+/// of files, which the system drops when memory is short, count as free. `root`: where the files
+/// of the system lie, for tests.
+double available_memory(const std::filesystem::path& root = "/");
 
 }  // namespace subimpact

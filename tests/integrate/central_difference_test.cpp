@@ -33,7 +33,7 @@ TEST(CentralDifference, IsTheThreePointFormulaOfThePaper) {
 TEST(CentralDifference, AdvancesTheLastPositionByAConstantForceIfAsked) {
   CurvedMotion motion;
   const double step = 0.01;
-  CentralDifference integrator(motion, step, CentralDifference::LastPosition::constant_force);
+  CentralDifference integrator(motion, step, true);
   integrator.restart(0.0, motion.initial());
   std::vector<double> a(3);
   motion.acceleration({motion.initial().data(), 3}, a);
@@ -59,7 +59,7 @@ TEST(CentralDifference, IsOfFirstOrderIfTheLastPositionMovesByAConstantForce) {
   SpringChain chain(1);
   double previous = 0.0;
   for (const int n : {100, 200, 400}) {
-    CentralDifference integrator(chain, 3.0 / n, CentralDifference::LastPosition::constant_force);
+    CentralDifference integrator(chain, 3.0 / n, true);
     integrator.restart(0.0, chain.initial());
     for (int i = 0; i < n; ++i) integrator.step();
     const double error = chain.error(3.0, integrator.state());

@@ -1,4 +1,4 @@
-#include "simulate/memory.h"
+#include "simulate/run_parts.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -60,10 +60,6 @@ class CvodeIntegrator : public Integrator, protected SolverFrame {
   }
 };
 
-struct FreeNonlinearSolver {
-  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
-};
-
 class Adams final : public CvodeIntegrator {
  public:
   Adams(SecondOrderOde& ode, const IntegratorOptions& options)
@@ -74,7 +70,7 @@ class Adams final : public CvodeIntegrator {
   }
 
  private:
-  std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, FreeNonlinearSolver> iteration_;
+  Owned<SUNNonlinearSolver, SUNNonlinSolFree> iteration_;
 };
 
 class Bdf final : public CvodeIntegrator {

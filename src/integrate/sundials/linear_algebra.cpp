@@ -1,5 +1,6 @@
 #include "integrate/sundials/linear_algebra.h"
 
+#include <klu.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_klu.h>
@@ -10,6 +11,8 @@
 #include <cmath>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "integrate/sundials.h"
 #include "numerics/vector_sum.h"
@@ -114,6 +117,76 @@ int linear_combination(int n, sunrealtype* c, N_Vector* x, N_Vector z) {
   return 0;
 }
 
+// SUNDIALS writes into what its own function returns, which is null where the memory is used up.
+N_Vector clone(N_Vector vector) {
+  N_Vector copy = N_VClone_Serial(vector);
+  if (copy == nullptr) throw std::bad_alloc();
+  return copy;
+}
+
+// Replaces the library's product, which Debian compiles without optimisation.
+int multiply(SUNMatrix matrix, N_Vector x, N_Vector product) {
+  const sunindextype* starts = SUNSparseMatrix_IndexPointers(matrix);
+  const sunindextype* rows = SUNSparseMatrix_IndexValues(matrix);
+  const double* all = SUNSparseMatrix_Data(matrix);
+  const auto in = entries(x);
+  const auto out = entries(product);
+  std::fill(out.begin(), out.end(), 0.0);
+  for (std::size_t j = 0; j < in.size(); ++j) {
+    for (sunindextype k = starts[j]; k < starts[j + 1]; ++k) {
+      out[static_cast<std::size_t>(rows[k])] += all[k] * in[j];
+    }
+  }
+  return 0;
+}
+
+class KluMassSolver final : public MassSolver {
+ public:
+  explicit KluMassSolver(const BandedMatrix& mass) : size_(static_cast<int>(mass.size())) {
+    klu_defaults(&common_);
+    const std::size_t n = mass.size();
+    const std::size_t bandwidth = mass.half_bandwidth();
+    std::vector<int> column_starts{0};
+    std::vector<int> rows;
+    std::vector<double> values;
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t i = j > bandwidth ? j - bandwidth : 0; i < std::min(n, j + bandwidth + 1);
+           ++i) {
+        rows.push_back(static_cast<int>(i));
+        values.push_back(mass.at(i, j));
+      }
+      column_starts.push_back(static_cast<int>(rows.size()));
+    }
+    symbolic_ = klu_analyze(size_, column_starts.data(), rows.data(), &common_);
+    if (symbolic_) {
+      numeric_ = klu_factor(column_starts.data(), rows.data(), values.data(), symbolic_, &common_);
+    }
+    if (!numeric_) {
+      release();
+      throw std::runtime_error("KLU could not factor the mass matrix (status " +
+                               std::to_string(common_.status) + ")");
+    }
+  }
+  ~KluMassSolver() override { release(); }
+  KluMassSolver(const KluMassSolver&) = delete;
+  KluMassSolver& operator=(const KluMassSolver&) = delete;
+
+  void solve(std::span<double> x) const override {
+    klu_solve(symbolic_, numeric_, size_, 1, x.data(), &common_);
+  }
+
+ private:
+  void release() {
+    klu_free_numeric(&numeric_, &common_);
+    klu_free_symbolic(&symbolic_, &common_);
+  }
+
+  int size_;
+  mutable klu_common common_{};
+  klu_symbolic* symbolic_ = nullptr;
+  klu_numeric* numeric_ = nullptr;
+};
+
 }  // namespace
 
 ContextPointer make_context() {
@@ -127,17 +200,6 @@ ContextPointer make_context() {
   if (flag != 0) throw std::runtime_error("SUNContext_Create failed");
   return {context, [](SUNContext made) { SUNContext_Free(&made); }};
 }
-
-namespace {
-
-// SUNDIALS writes into what its own function returns, which is null where the memory is used up.
-N_Vector clone(N_Vector vector) {
-  N_Vector copy = N_VClone_Serial(vector);
-  if (copy == nullptr) throw std::bad_alloc();
-  return copy;
-}
-
-}  // namespace
 
 VectorPointer make_vector(std::size_t n, SUNContext context, VectorOperations operations) {
   VectorPointer vector(N_VNew_Serial(static_cast<sunindextype>(n), context));
@@ -176,26 +238,6 @@ std::string sundials_version() {
   return text.data();
 }
 
-namespace {
-
-// Replaces the library's product, which Debian compiles without optimisation.
-int multiply(SUNMatrix matrix, N_Vector x, N_Vector product) {
-  const sunindextype* starts = SUNSparseMatrix_IndexPointers(matrix);
-  const sunindextype* rows = SUNSparseMatrix_IndexValues(matrix);
-  const double* all = SUNSparseMatrix_Data(matrix);
-  const auto in = entries(x);
-  const auto out = entries(product);
-  std::fill(out.begin(), out.end(), 0.0);
-  for (std::size_t j = 0; j < in.size(); ++j) {
-    for (sunindextype k = starts[j]; k < starts[j + 1]; ++k) {
-      out[static_cast<std::size_t>(rows[k])] += all[k] * in[j];
-    }
-  }
-  return 0;
-}
-
-}  // namespace
-
 MatrixPointer make_sparse_matrix(const SparsityPattern& pattern, SUNContext context) {
   const auto n = static_cast<sunindextype>(pattern.size());
   const auto n_entries = static_cast<sunindextype>(pattern.n_entries());
@@ -228,6 +270,15 @@ LinearSolverPointer make_klu_solver(N_Vector like, SUNMatrix matrix, SUNContext 
 
 bool analyses_next(SUNLinearSolver klu) {
   return static_cast<SUNLinearSolverContent_KLU>(klu->content)->first_factorize != 0;
+}
+
+std::unique_ptr<MassSolver> make_klu_mass_solver(const BandedMatrix& mass) {
+  return std::make_unique<KluMassSolver>(mass);
+}
+
+std::string klu_version() {
+  return std::to_string(KLU_MAIN_VERSION) + "." + std::to_string(KLU_SUB_VERSION) + "." +
+         std::to_string(KLU_SUBSUB_VERSION);
 }
 
 }  // namespace subimpact

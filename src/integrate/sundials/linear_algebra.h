@@ -15,10 +15,16 @@ namespace subimpact {
 
 using ContextPointer = std::shared_ptr<std::remove_pointer_t<SUNContext>>;
 
-struct FreeVector {
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+/// What a handle of the library points to, freed by its function.
+template <auto free>
+struct FreeBy {
+  void operator()(auto* object) const { free(object); }
 };
-using VectorPointer = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
+template <class Handle, auto free>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, FreeBy<free>>;
+using VectorPointer = Owned<N_Vector, N_VDestroy>;
+using MatrixPointer = Owned<SUNMatrix, SUNMatDestroy>;
+using LinearSolverPointer = Owned<SUNLinearSolver, SUNLinSolFree>;
 
 /// Throws std::runtime_error if SUNDIALS cannot make one.
 ContextPointer make_context();
@@ -29,17 +35,6 @@ VectorPointer make_vector(std::size_t n, SUNContext context, VectorOperations op
 
 /// The entries of a serial vector.
 std::span<double> entries(N_Vector vector);
-
-struct FreeMatrix {
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-};
-using MatrixPointer = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix>;
-
-struct FreeLinearSolver {
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-};
-using LinearSolverPointer =
-    std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeLinearSolver>;
 
 /// A square sparse matrix (by columns) with the given pattern and zero entries.
 MatrixPointer make_sparse_matrix(const SparsityPattern& pattern, SUNContext context);

@@ -1,8 +1,28 @@
+// What callers read of a run: while it goes on, and of its result.
+
 #include <fmt/format.h>
 
+#include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
+#include "system/accounts.h"
 
 namespace subimpact {
+
+PointMotion RunView::striker() const {
+  return {Accounts(beam_).displacements(state_).striker, state_.back()};
+}
+
+PointMotion RunView::struck_point() const {
+  return {Accounts(beam_).displacements(state_).struck,
+          state_.back() - beam_.indentation_rate(state_)};
+}
+
+bool RunView::in_contact() const { return beam_.contact().is_closed(); }
+double RunView::indentation() const { return beam_.indentation(state_); }
+double RunView::residual_indentation() const { return beam_.contact().residual_indentation(); }
+double RunView::contact_force() const { return beam_.contact_force(state_); }
+Energies RunView::energies() const { return Accounts(beam_).energies(state_); }
+
 std::string Result::brief_report() const {
   return fmt::format("{} at {:.6g} s: {} sub-impacts, energy error {:.1e}, {} steps, {:.3g} s",
                      to_string(outcome.kind), outcome.time, sub_impacts.size(), max_energy_error,

@@ -1,0 +1,196 @@
+// Commands that draw finished runs and write them up.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "commands.h"
+#include "subimpact/io/read_sweep.h"
+#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/report/figures.h"
+#include "subimpact/report/pages.h"
+
+namespace subimpact::app {
+namespace {
+
+struct FinishedRunOptions {
+  std::vector<std::string> runs;  // `plot`: one
+  std::string directory;
+  std::string scripts;
+  std::string dygraphs;
+
+  const std::string& directory_or_first_run() const {
+    return directory.empty() ? runs.front() : directory;
+  }
+};
+
+// After the figures of a run: what they leave out, and how a run ended that did not complete.
+void print_notes(const OutputDirectory& directory, const FinishedRun& run) {
+  std::fflush(stdout);
+  print_warnings(directory.notes());
+  for (const std::string& reason : figures_left_out(run.input, run.result)) {
+    print_error("subimpact: note: not drawn: {}\n", reason);
+  }
+  const std::string caveat = outcome_caveat(run.result);
+  if (!caveat.empty()) print_warnings({caveat});
+}
+
+// Results and scripts to be changed are not to lie among each other.
+void check_scripts(const std::string& scripts, const std::vector<std::filesystem::path>& taken) {
+  for (const std::filesystem::path& directory : taken) {
+    std::error_code none;  // of those names
+    if (!std::filesystem::equivalent(scripts, directory, none)) continue;
+    throw CLI::ValidationError(
+        "--scripts", fmt::format("{} is the directory of the run or of its figures; name another, "
+                                 "for scripts alone; it is made if missing",
+                                 scripts));
+  }
+}
+
+int plot(FinishedRunOptions& options) {
+  const FinishedRun run = read_results(options.runs.front());
+  OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
+  if (!options.scripts.empty()) {
+    check_scripts(options.scripts, {options.runs.front(), directory.path()});
+    for (const std::string& file : write_figure_scripts(options.scripts)) {
+      print("{}\n", (std::filesystem::path(options.scripts) / file).string());
+    }
+  }
+  DrawnFigures figures = draw_figures(directory.staging(), run.input, run.result, options.scripts);
+  commit_figures(directory, figures);
+  for (const DrawnFigure& figure : figures.drawn) {
+    print("{0}.svg, {0}.png, {0}.pdf\n    {1}\n", figure.name, figure.caption);
+  }
+  if (!figures.drawn.empty()) print("\nfigures in {}\n", directory.path().string());
+  print_notes(directory, run);
+  throw_if_failed(figures);
+  return done;
+}
+
+int report(const FinishedRunOptions& options) {
+  const FinishedRun run = read_results(options.runs.front());
+  OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
+  WrittenReport written = write_html_report(directory.staging(), run, options.dygraphs);
+  const bool is_there = commit_figures(directory, written.figures) && !written.page.empty();
+  if (is_there) print("{}\n", (directory.path() / written.page.filename()).string());
+  print_notes(directory, run);
+  if (!written.charts_missing.empty()) {
+    print_error("subimpact: note: no zoomable charts: {}\n", written.charts_missing);
+  }
+  throw_if_failed(written.figures);
+  return done;
+}
+
+int finish(OutputDirectory& directory, const char* page) {
+  directory.commit();
+  print("{}\n", (directory.path() / page).string());
+  print_warnings(directory.notes());
+  return done;
+}
+
+// Several runs: one page that compares them, in a directory of its own.
+int compare_runs(const FinishedRunOptions& options) {
+  if (options.directory.empty()) {
+    throw CLI::ValidationError("DIR",
+                               "several runs are given; --out DIR must name the directory "
+                               "for the page that compares them");
+  }
+  std::vector<FinishedRun> runs;
+  for (const std::string& run : options.runs) runs.push_back(read_results(run));
+  OutputDirectory directory(options.directory, "report");
+  write_comparison_report(directory.staging(), runs, options.runs, options.dygraphs);
+  return finish(directory, "comparison.html");
+}
+
+// The directory of a sweep.
+int report_sweep(const FinishedRunOptions& options) {
+  const std::string& sweep = options.runs.front();
+  const SweptRuns runs = read_sweep(sweep);
+  OutputDirectory directory(options.directory_or_first_run(),
+                            runs.identity.empty() ? "report" : "figures", runs.identity);
+  write_sweep_report(directory.staging(), runs, sweep);
+  return finish(directory, "sweep.html");
+}
+
+int report_any(FinishedRunOptions& options) {
+  for (const std::string& run : options.runs) {
+    if (!holds_sweep(run)) continue;
+    if (options.runs.size() == 1) return report_sweep(options);
+    throw CLI::ValidationError(
+        "DIR",
+        fmt::format("{} holds a sweep, whose page shows all of its runs; give it alone", run));
+  }
+  return options.runs.size() > 1 ? compare_runs(options) : report(options);
+}
+
+void add_plot(CLI::App& program, int& status) {
+  auto [command, options] = add_command(
+      program, status, "plot", "Draw the figures of a finished run (SVG, PNG and PDF)", plot);
+  options.runs.resize(1);
+  command.add_option("DIR", options.runs.front(), "Output directory of `subimpact run`")
+      ->required();
+  add_directory_option(command, options.directory,
+                       "Directory for the figures; made if missing. Default: DIR");
+  command.add_option("--scripts", options.scripts,
+                     "Directory of gnuplot scripts to draw with; those it lacks are put there "
+                     "first, to be changed. For scripts alone: not that of a run or of figures");
+  command.footer(
+      "Draws response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
+      "(both unless output.shapes = 0) and, if the run kept sections (output.sections), bending; "
+      "needs gnuplot. The gnuplot scripts stay beside the figures, ready to be edited and run "
+      "again.\n"
+      "Examples:\n"
+      "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
+      "  subimpact plot out/first\n"
+      "  subimpact plot out/first --out figures\n"
+      "  subimpact plot out/first --scripts mine    (change mine/style.gp, and repeat)\n"
+      "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot missing; "
+      "3 a figure could not be drawn or written, the others are.");
+}
+
+void add_report(CLI::App& program, int& status) {
+  auto [command, options] = add_command(program, status, "report",
+                                        "Write finished runs up as one page of HTML", report_any);
+  command
+      .add_option(
+          "DIR", options.runs,
+          "Output directory of `subimpact run`, or of subimpact-sweep; several of runs: they "
+          "are compared")
+      ->required();
+  add_directory_option(
+      command, options.directory,
+      "Directory for report.html and its figures, comparison.html or sweep.html; made if "
+      "missing. Default: DIR; needed with several");
+  command.add_option("--dygraphs", options.dygraphs,
+                     "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
+                     "Default: that of Debian's libjs-dygraphs");
+  command.footer(
+      "report.html needs no other file and no network. In a browser it shows the beam moving, "
+      "zoomable charts, force against indentation, a timeline with error bars and the table of "
+      "sub-impacts, linked; printed, or without scripts, it is a still report. Figures are drawn "
+      "with gnuplot.\n"
+      "comparison.html shows the curves of several runs in common charts, the keys in which their "
+      "cases differ, and their sub-impacts matched with those of the first.\n"
+      "sweep.html shows a map of the runs of a sweep; a click opens the numbers of a run.\n"
+      "Examples:\n"
+      "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
+      "  subimpact report out/first\n"
+      "  subimpact report out/first out/second --out out/both\n"
+      "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
+      "missing; 3 a figure could not be drawn, the page is written without it; or the page could "
+      "not be written, the figures are.");
+}
+
+}  // namespace
+
+void add_plot_and_report(CLI::App& program, int& status) {
+  add_plot(program, status);
+  add_report(program, status);
+}
+
+}  // namespace subimpact::app
