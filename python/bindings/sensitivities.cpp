@@ -7,7 +7,7 @@
 
 #include "bindings.h"
 #include "finished.h"
-#include "io/sensitivity_columns.h"
+#include "io/study_columns.h"
 #include "overseer.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/sensitivity.h"

@@ -263,6 +263,18 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
+std::string malformed(const std::string& text, const std::string& name,
+                      const toml::parse_error& error) {
+  const toml::source_position at = error.source().begin;
+  const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
+  const std::string number = decimal_comma_in(text, at.line);
+  if (!number.empty()) {
+    return fmt::format("{}{} has a decimal comma{}", place, number, decimal_comma_hint(number));
+  }
+  return fmt::format("{}{}; correct this line (a setting is written key = value, a table [name])",
+                     place, error.description());
+}
+
 }  // namespace
 
 Override parse_override(const std::string& setting) {
@@ -281,22 +293,6 @@ Override parse_override(const std::string& setting) {
   return {trimmed(setting.substr(0, equals)), trimmed(setting.substr(equals + 1)),
           "--set " + setting};
 }
-
-namespace {
-
-std::string malformed(const std::string& text, const std::string& name,
-                      const toml::parse_error& error) {
-  const toml::source_position at = error.source().begin;
-  const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
-  const std::string number = decimal_comma_in(text, at.line);
-  if (!number.empty()) {
-    return fmt::format("{}{} has a decimal comma{}", place, number, decimal_comma_hint(number));
-  }
-  return fmt::format("{}{}; correct this line (a setting is written key = value, a table [name])",
-                     place, error.description());
-}
-
-}  // namespace
 
 std::string LoadedCase::message(const InvalidCase& error) const {
   const auto at = places_.find(error.key);

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/manifest.h"
+#include "io/sealed_files.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/versions.h"

@@ -93,12 +93,6 @@ bool read_cell(std::string_view cell, Enum& value) {
   if (found != names.end()) value = found->kind;
   return found != names.end();
 }
-template <class Enum, std::size_t n>
-bool read_choice(std::string_view cell, Enum& value, const Enum (&all)[n]) {
-  const auto found = std::find_if(all, all + n, [&](Enum e) { return to_string(e) == cell; });
-  if (found != all + n) value = *found;
-  return found != all + n;
-}
 
 /// A column of a table whose rows are objects of type Row.
 template <class Row>

@@ -2,9 +2,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
@@ -12,8 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/directory_lock.h"
-#include "io/manifest.h"
+#include "io/sealed_files.h"
 #include "io/write_file.h"
 #include "subimpact/io/read_results.h"
 
@@ -87,7 +89,84 @@ fs::path place_of(const fs::path& path) {
                                                    : path;
 }
 
+// What the holder has written into its lock file: "process 123 on host".
+std::string holder_of(int descriptor) {
+  std::array<char, 256> text;
+  const ssize_t n = pread(descriptor, text.data(), text.size(), 0);
+  return n > 0 ? std::string(text.data(), static_cast<std::size_t>(n)) : "another process";
+}
+
+std::string this_process() {
+  std::array<char, 128> host{};
+  gethostname(host.data(), host.size() - 1);
+  return fmt::format("process {} on {}", getpid(), host.data());
+}
+
+// Whether the file that is open still has this name: the holder before may have removed it.
+bool is_open_as(int descriptor, const fs::path& file) {
+  struct stat opened {};
+  struct stat named {};
+  return fstat(descriptor, &opened) == 0 && lstat(file.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
 }  // namespace
+
+/// A file ".subimpact-lock" in a directory, locked (flock) while the object exists and removed at
+/// its end. The lock ends with the process, however the process ends.
+class DirectoryLock {
+ public:
+  /// Throws DirectoryInUse if another process holds the lock, naming the process and its host;
+  /// OutputError if the lock file cannot be made.
+  explicit DirectoryLock(const std::filesystem::path& directory)
+      : file_(directory / ".subimpact-lock") {
+    const auto message = [&](const std::string& cause, const char* remedy) {
+      return fmt::format("{}: {}; {} choose another directory with --out", directory.string(),
+                         cause, remedy);
+    };
+    const auto fail = [&](const std::string& cause, const char* remedy) {
+      if (descriptor_ >= 0) close(descriptor_);
+      throw OutputError(message(cause, remedy));
+    };
+    for (;;) {
+      descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+      if (descriptor_ < 0) {
+        fail(fmt::format("this output directory cannot be written to ({})", std::strerror(errno)),
+             "change its permissions, free the disk, or");
+      }
+      if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        if (errno == EINTR) continue;
+        if (errno == EWOULDBLOCK) {
+          const std::string holder = holder_of(descriptor_);
+          close(descriptor_);
+          throw DirectoryInUse(
+              message(holder + " is writing into this directory", "wait until it has ended, or"));
+        }
+        fail(fmt::format("this directory cannot be locked against other writers ({})",
+                         std::strerror(errno)),
+             "use a file system that has locks:");
+      }
+      if (is_open_as(descriptor_, file_)) break;
+      close(descriptor_);
+    }
+    const std::string holder = this_process();
+    if (ftruncate(descriptor_, 0) != 0 ||
+        pwrite(descriptor_, holder.data(), holder.size(), 0) < 0) {
+      fail(fmt::format("this output directory cannot be written to ({})", std::strerror(errno)),
+           "free the disk, or");
+    }
+  }
+  ~DirectoryLock() {
+    unlink(file_.c_str());
+    close(descriptor_);
+  }
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  fs::path file_;
+  int descriptor_ = -1;
+};
 
 std::string new_identity() {
   std::uint64_t words[2];
@@ -136,19 +215,17 @@ OutputDirectory::~OutputDirectory() {
 void OutputDirectory::open(const fs::path& directory) {
   std::error_code error;
   const fs::file_type kind_of_file = fs::status(directory, error).type();
-  if (kind_of_file == fs::file_type::none) {
-    refuse(directory, fmt::format("this output directory cannot be made ({})", error.message()));
-  }
-  if (kind_of_file == fs::file_type::not_found && fs::is_symlink(directory, error)) {
-    refuse(directory, "this output directory cannot be made (a symbolic link to nothing)");
-  }
-  if (kind_of_file != fs::file_type::not_found && kind_of_file != fs::file_type::directory) {
-    refuse(directory, "this output directory cannot be made (a file has that name)");
+  const bool is_missing = kind_of_file == fs::file_type::not_found;
+  const auto refuse_to_make = [&](const std::string& cause) {
+    refuse(directory, fmt::format("this output directory cannot be made ({})", cause));
+  };
+  if (kind_of_file == fs::file_type::none) refuse_to_make(error.message());
+  if (is_missing && fs::is_symlink(directory, error)) refuse_to_make("a symbolic link to nothing");
+  if (!is_missing && kind_of_file != fs::file_type::directory) {
+    refuse_to_make("a file has that name");
   }
   is_new_ = fs::create_directories(directory, error);
-  if (error) {
-    refuse(directory, fmt::format("this output directory cannot be made ({})", error.message()));
-  }
+  if (error) refuse_to_make(error.message());
   lock_ = std::make_unique<DirectoryLock>(directory);
   path_ = directory;
   const std::optional<Manifest> present = manifest_for_writing(path_);

@@ -24,9 +24,8 @@ constexpr const char* runs_name = "runs.csv";
 constexpr const char* sub_impacts_name = "sub_impacts.csv";
 constexpr const char* remedy = "run the sweep again, which takes what it has from its store";
 
-struct SweptSubImpact {
+struct SweptSubImpact : SubImpact {
   long run = 0;
-  SubImpact sub_impact;
 };
 
 // Those of events.csv after the run's number.
@@ -36,9 +35,7 @@ Columns<SweptSubImpact> sub_impact_columns() {
     if (!of_run.read) continue;
     Column<SweptSubImpact> column(of_run.name, [](const SweptSubImpact&) { return 0.0; });
     column.allowed = of_run.allowed;
-    column.read = [read = of_run.read](std::string_view cell, SweptSubImpact& row) {
-      return read(cell, row.sub_impact);
-    };
+    column.read = of_run.read;
     columns.push_back(std::move(column));
   }
   return columns;
@@ -111,8 +108,8 @@ void read_sub_impacts(const SealedFiles& files, const fs::path& path, SweptRuns&
       order.emplace(fmt::format("{}, run {}", path.string(), row.run));
     }
     before = row.run;
-    order->check(row.sub_impact);
-    runs.sub_impacts[place->second].push_back(row.sub_impact);
+    order->check(static_cast<const SubImpact&>(row));
+    runs.sub_impacts[place->second].push_back(row);
   });
 }
 

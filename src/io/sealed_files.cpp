@@ -1,17 +1,49 @@
 #include "io/sealed_files.h"
 
 #include <fmt/format.h>
+#include <openssl/evp.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <sstream>
+#include <system_error>
 
+#include "io/record.h"
 #include "subimpact/io/read_results.h"
+#include "subimpact/io/versions.h"
 
 namespace subimpact {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int manifest_layout = 1;
+const std::string staging_prefix = ".subimpact-";
+constexpr std::size_t n_identity = 32;  // digits
+constexpr const char* hexadecimal = "0123456789abcdef";
+
+Json seals_to_json(const std::map<std::string, Seal>& seals) {
+  Json json = Json::object();
+  for (const auto& [name, seal] : seals) {
+    json[name] = {{"bytes", seal.bytes}, {"sha256", seal.sha256}};
+  }
+  return json;
+}
+
+// Names are those of files in the directory itself: a manifest from elsewhere must not lead out.
+std::map<std::string, Seal> seals_from(const Json& json) {
+  std::map<std::string, Seal> seals;
+  for (const auto& [name, entry] : json.items()) {
+    if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
+      throw ResultsError(fmt::format("\"{}\" is not the name of a file of results", name));
+    }
+    seals[name] = {integer<std::uintmax_t>(entry.at("bytes")),
+                   entry.at("sha256").get<std::string>()};
+  }
+  return seals;
+}
 
 [[noreturn]] void refuse_to_read(const fs::path& path, const char* cause) {
   throw ResultsError(
@@ -47,6 +79,81 @@ std::string text_of(std::istream& file, const fs::path& path) {
 }
 
 }  // namespace
+
+Seal seal_of(std::istream& file) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
+                                                                        EVP_MD_CTX_free);
+  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
+  Seal seal;
+  std::array<char, 1 << 16> buffer;
+  while (file.read(buffer.data(), buffer.size()), file.gcount() > 0) {
+    const auto n = static_cast<std::size_t>(file.gcount());
+    EVP_DigestUpdate(context.get(), buffer.data(), n);
+    seal.bytes += n;
+  }
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
+  unsigned int length = 0;
+  EVP_DigestFinal_ex(context.get(), digest.data(), &length);
+  for (unsigned int i = 0; i < length; ++i) seal.sha256 += fmt::format("{:02x}", digest[i]);
+  file.clear();
+  file.seekg(0);
+  return seal;
+}
+
+std::optional<Seal> seal_of(const fs::path& path) {
+  if (!fs::is_regular_file(fs::symlink_status(path))) return {};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::system_error(errno, std::generic_category(), path.string());
+  return seal_of(file);
+}
+
+fs::path staging_of(const fs::path& directory, const std::string& commit) {
+  return directory / (staging_prefix + commit);
+}
+
+bool is_staging(const std::string& name) {
+  const std::size_t n_prefix = staging_prefix.size();
+  return name.size() == n_prefix + n_identity && name.starts_with(staging_prefix) &&
+         name.find_first_not_of(hexadecimal, n_prefix) == std::string::npos;
+}
+
+std::optional<Manifest> read_manifest(const fs::path& directory) {
+  const fs::path path = directory / manifest_name;
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored))) return {};
+  try {
+    const Json json = Json::parse(read_whole_file(path));
+    if (integer<int>(json.at("subimpact_manifest")) > manifest_layout) {
+      throw ResultsError("a later version of this program wrote it; use that version");
+    }
+    Manifest manifest;
+    manifest.kind = json.at("kind").get<std::string>();
+    manifest.identity = json.at("identity").get<std::string>();
+    manifest.commit = json.at("commit").get<std::string>();
+    manifest.files = seals_from(json.at("files"));
+    manifest.replaced = seals_from(json.at("replaced"));
+    if (manifest.commit.find_first_not_of(hexadecimal) != std::string::npos) {
+      throw ResultsError("\"commit\" is not a hexadecimal number");
+    }
+    return manifest;
+  } catch (const ResultsError& error) {
+    throw ResultsError(fmt::format("{}: {}", path.string(), error.what()));
+  } catch (const std::exception& error) {
+    throw ResultsError(
+        fmt::format("{}: is not a manifest of this program ({})", path.string(), error.what()));
+  }
+}
+
+std::string to_json(const Manifest& manifest) {
+  const Json json = {{"subimpact_manifest", manifest_layout},
+                     {"kind", manifest.kind},
+                     {"identity", manifest.identity},
+                     {"program", "subimpact " + project_version()},
+                     {"commit", manifest.commit},
+                     {"files", seals_to_json(manifest.files)},
+                     {"replaced", seals_to_json(manifest.replaced)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 std::string read_whole_file(const fs::path& path) {
   std::ifstream file = open_file(path);

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "case/counted.h"
-#include "io/sensitivity_columns.h"
+#include "io/study_columns.h"
 #include "io/uncertain.h"
 #include "io/write_file.h"
 #include "subimpact/case/case_keys.h"

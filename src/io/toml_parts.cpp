@@ -54,35 +54,13 @@ std::string_view line_of(std::string_view text, std::size_t number) {
 std::optional<std::size_t> too_deep_at(std::string_view toml) {
   std::size_t dots = 0, brackets = 0;
   for (std::size_t i = 0; i < toml.size(); ++i) {
-    switch (toml[i]) {
-      case '"':
-      case '\'':
-        i = end_of_string(toml, i) - 1;
-        break;
-      case '#':
-        i = std::min(toml.find('\n', i), toml.size()) - 1;
-        break;
-      case '.':
-        ++dots;
-        break;
-      case '[':
-      case '{':
-        ++brackets;
-        dots = 0;
-        break;
-      case ']':
-      case '}':
-        brackets -= brackets > 0;
-        dots = 0;
-        break;
-      case '=':
-      case ',':
-      case '\n':
-        dots = 0;
-        break;
-      default:
-        break;
-    }
+    const char c = toml[i];
+    if (c == '"' || c == '\'') i = end_of_string(toml, i) - 1;
+    if (c == '#') i = std::min(toml.find('\n', i), toml.size()) - 1;
+    if (c == '.') ++dots;
+    if (c == '[' || c == '{') ++brackets;
+    if ((c == ']' || c == '}') && brackets > 0) --brackets;
+    if (std::string_view("[]{}=,\n").find(c) != std::string_view::npos) dots = 0;
     if (dots > deepest_nesting || brackets > deepest_nesting) {
       return 1 + std::count(toml.begin(), toml.begin() + static_cast<std::ptrdiff_t>(i), '\n');
     }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -18,11 +17,10 @@ namespace fs = std::filesystem;
 /// disk is written again elsewhere.
 class ResultWriter::RowFile {
  public:
-  RowFile(std::string name, std::string heading)
-      : name_(std::move(name)), heading_(std::move(heading)), pending_(heading_) {}
-  ~RowFile() {
-    if (file_ >= 0) close(file_);
-  }
+  template <class Row>
+  explicit RowFile(const RunTable<Row>& table)
+      : name_(table.file), heading_(csv_heading(table.columns)), pending_(heading_) {}
+  ~RowFile() { leave_directory(); }
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
 
@@ -32,20 +30,18 @@ class ResultWriter::RowFile {
   }
   bool is_full() const { return pending_.size() > most_pending; }
 
-  /// Writes the rows collected. Returns 0, or the error's number; the file holds the rows of the
-  /// calls before then.
-  int write_to(const fs::path& directory) {
+  /// Writes the rows collected. Throws OutputError; the file holds the rows of the calls before
+  /// then.
+  void write_to(const OutputDirectory& directory) {
     if (file_ < 0) {
-      const fs::path path = directory / name_;
+      const fs::path path = directory.staging() / name_;
       file_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
-      if (file_ < 0) return errno;
       // A copy of a file that was cut short has part of a row at its end.
-      if (ftruncate(file_, n_written_) != 0) return errno;
+      check(directory, file_ < 0 || ftruncate(file_, n_written_) != 0 ? errno : 0);
     }
-    if (const int cause = write_all(file_, pending_)) return cause;
+    check(directory, write_all(file_, pending_));
     n_written_ += static_cast<off_t>(pending_.size());
     pending_.clear();
-    return 0;
   }
 
   /// Discards all rows; the file is opened again and cut short.
@@ -56,11 +52,15 @@ class ResultWriter::RowFile {
   }
 
   /// Goes on in another directory. The rows so far are taken from the open file if no copy is
-  /// there: somebody may have removed or renamed the directory. Returns 0, or the error's number.
-  int move_to(const fs::path& directory) {
-    const int cause = fs::exists(directory / name_) ? 0 : copy_to(directory / name_);
+  /// there: somebody may have removed or renamed the directory. Throws OutputError.
+  void move_to(const OutputDirectory& directory) {
+    const fs::path path = directory.staging() / name_;
+    std::error_code error;
+    if (n_written_ > 0 && !fs::exists(path)) {
+      fs::copy_file(fmt::format("/proc/self/fd/{}", file_), path, error);
+    }
     leave_directory();
-    return cause;
+    check(directory, error.value());
   }
 
  private:
@@ -70,23 +70,11 @@ class ResultWriter::RowFile {
     if (file_ >= 0) close(file_);
     file_ = -1;
   }
-  int copy_to(const fs::path& path) const {
-    if (n_written_ == 0) return 0;
-    const int copy = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (copy < 0) return errno;
-    const int cause = copy_rows(copy);
-    return close(copy) == 0 ? cause : errno;
-  }
-  int copy_rows(int copy) const {
-    std::string rows;
-    for (off_t at = 0; at < n_written_; at += static_cast<off_t>(rows.size())) {
-      rows.resize(std::min(most_pending, static_cast<std::size_t>(n_written_ - at)));
-      const ssize_t n = pread(file_, rows.data(), rows.size(), at);
-      if (n <= 0) return n < 0 ? errno : EIO;
-      rows.resize(static_cast<std::size_t>(n));
-      if (const int cause = write_all(copy, rows)) return cause;
-    }
-    return 0;
+  // `cause`: 0, or an error's number.
+  static void check(const OutputDirectory& directory, int cause) {
+    if (cause == 0) return;
+    throw OutputError(
+        fmt::format("{}: cannot be written ({})", directory.path().string(), std::strerror(cause)));
   }
 
   std::string name_;
@@ -135,18 +123,13 @@ double foreseen_bytes(const Case& input, std::optional<std::size_t> n_shape_poin
   return of_shapes + input.end_time / input.output.interval * bytes_per_row;
 }
 
-template <class Row>
-std::unique_ptr<ResultWriter::RowFile> ResultWriter::row_file() {
-  const RunTable<Row>& table = run_table<Row>();
-  return std::make_unique<RowFile>(table.file, csv_heading(table.columns));
-}
-
 ResultWriter::ResultWriter(const fs::path& directory, const Case& input)
     : directory_(directory, "run") {
   check_space(directory_, input);
-  history_ = row_file<HistoryRow>();
-  if (!input.output.sections.empty()) sections_ = row_file<SectionRow>();
-  if (!input.output.points.empty()) points_ = row_file<PointRow>();
+  const OutputOptions& output = input.output;
+  history_ = std::make_unique<RowFile>(run_table<HistoryRow>());
+  if (!output.sections.empty()) sections_ = std::make_unique<RowFile>(run_table<SectionRow>());
+  if (!output.points.empty()) points_ = std::make_unique<RowFile>(run_table<PointRow>());
 }
 
 ResultWriter::~ResultWriter() = default;
@@ -161,7 +144,7 @@ void ResultWriter::add(const HistoryRow& row) { add_to(*history_, row); }
 void ResultWriter::add(const SectionRow& row) { add_to(*sections_, row); }
 void ResultWriter::add(const PointRow& row) { add_to(*points_, row); }
 void ResultWriter::add(const ShapeRow& row) {
-  if (!shapes_) shapes_ = row_file<ShapeRow>();
+  if (!shapes_) shapes_ = std::make_unique<RowFile>(run_table<ShapeRow>());
   add_to(*shapes_, row);
 }
 
@@ -179,7 +162,7 @@ void ResultWriter::restart() {
 void ResultWriter::flush(RowFile& rows) {
   if (!lost_.empty()) return;
   try {
-    write_or_relocate([&] { write_rows(rows); });
+    write_or_relocate([&] { rows.write_to(directory_); });
   } catch (const OutputError& error) {  // the run goes on: its events can still be printed
     lost_ = error.what();
   }
@@ -193,25 +176,16 @@ void ResultWriter::write_or_relocate(Write write) {
       return;
     } catch (const OutputError& error) {
       directory_.relocate(error.what());  // throws the second time
-      for_each_file([this](RowFile& file) { check_written(file.move_to(directory_.staging())); });
+      for_each_file([this](RowFile& file) { file.move_to(directory_); });
     }
   }
-}
-
-void ResultWriter::write_rows(RowFile& rows) { check_written(rows.write_to(directory_.staging())); }
-
-// `cause`: 0, or an error's number.
-void ResultWriter::check_written(int cause) const {
-  if (cause == 0) return;
-  throw OutputError(
-      fmt::format("{}: cannot be written ({})", directory_.path().string(), std::strerror(cause)));
 }
 
 void ResultWriter::finish(const Case& input, const Result& result) {
   if (!lost_.empty()) throw OutputError(lost_);
   write_or_relocate([&] {
     const fs::path& place = directory_.staging();
-    for_each_file([this](RowFile& file) { write_rows(file); });
+    for_each_file([this](RowFile& file) { file.write_to(directory_); });
     const auto write_table = [&]<class Row>(const RunTable<Row>& table) {
       write_file(place / table.file, csv_of<Row>(result));
     };

@@ -9,7 +9,6 @@
 #include "case/counted.h"
 #include "io/uncertain.h"
 #include "io/write_file.h"
-#include "report/files.h"
 #include "report/page.h"
 #include "report/page_data.h"
 #include "subimpact/case/case_keys.h"
@@ -64,32 +63,28 @@ std::string signed_text(double x, const char* format) {
 }
 
 Json pair_row(const MatchedPair& pair, const Result& first, const Result& second) {
-  if (!pair.first || !pair.second) {
-    const Result& owner = pair.first ? first : second;
-    const std::size_t index = pair.first ? *pair.first : *pair.second;
-    const SubImpact& s = owner.sub_impacts[index];
-    const std::string number = fmt::format("{}", index + 1);
-    return {{"from", s.start},
-            {"to", owner.end_of(s)},
-            {"row_class", " class=\"undecided\""},
-            {"cells", Json::array({pair.first ? number : "none", pair.first ? "none" : number,
-                                   fmt::format("{:.3f}", 1e6 * s.start), "", "", "", "", ""})}};
+  const SubImpact* a = pair.first ? &first.sub_impacts[*pair.first] : nullptr;
+  const SubImpact* b = pair.second ? &second.sub_impacts[*pair.second] : nullptr;
+  const SubImpact& shown = a ? *a : *b;
+  const auto number = [](const std::optional<std::size_t>& index) {
+    return index ? fmt::format("{}", *index + 1) : "none";
+  };
+  std::vector<std::string> cells = {number(pair.first), number(pair.second),
+                                    fmt::format("{:.3f}", 1e6 * shown.start)};
+  if (a && b) {
+    cells.push_back(signed_text(1e6 * (b->start - a->start), "{:+.4f}"));
+    cells.push_back(a->end && b->end ? signed_text(1e6 * (*b->end - *a->end), "{:+.4f}") : "");
+    cells.push_back(a->start_error && b->start_error
+                        ? fmt::format("± {:.4f}", 1e6 * (*a->start_error + *b->start_error))
+                        : "not known");
+    cells.push_back(signed_text(100.0 * (b->peak_force / a->peak_force - 1.0), "{:+.3f}"));
+    cells.push_back(signed_text(100.0 * (b->impulse / a->impulse - 1.0), "{:+.3f}"));
   }
-  const SubImpact& a = first.sub_impacts[*pair.first];
-  const SubImpact& b = second.sub_impacts[*pair.second];
-  return {{"from", a.start},
-          {"to", first.end_of(a)},
-          {"row_class", ""},
-          {"cells",
-           Json::array({fmt::format("{}", *pair.first + 1), fmt::format("{}", *pair.second + 1),
-                        fmt::format("{:.3f}", 1e6 * a.start),
-                        signed_text(1e6 * (b.start - a.start), "{:+.4f}"),
-                        a.end && b.end ? signed_text(1e6 * (*b.end - *a.end), "{:+.4f}") : "",
-                        a.start_error && b.start_error
-                            ? fmt::format("± {:.4f}", 1e6 * (*a.start_error + *b.start_error))
-                            : "not known",
-                        signed_text(100.0 * (b.peak_force / a.peak_force - 1.0), "{:+.3f}"),
-                        signed_text(100.0 * (b.impulse / a.impulse - 1.0), "{:+.3f}")})}};
+  cells.resize(8);
+  return {{"from", shown.start},
+          {"to", (a ? first : second).end_of(shown)},
+          {"row_class", a && b ? "" : " class=\"undecided\""},
+          {"cells", cells}};
 }
 
 std::string pair_words(const std::vector<MatchedPair>& pairs, const Result& first,

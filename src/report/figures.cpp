@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "io/manifest.h"
 #include "io/sealed_files.h"
 #include "io/write_file.h"
 #include "report/figure_script.h"

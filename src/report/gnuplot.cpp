@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -39,36 +41,23 @@ struct GnuplotRun {
   std::string output, errors;
 };
 
-/// A pipe whose ends are closed at the latest with this object.
-class Pipe {
+/// An open file, closed with this object.
+class Descriptor {
  public:
-  Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
-      throw std::system_error(errno, std::generic_category(), "a pipe to gnuplot");
-    }
+  explicit Descriptor(int number) : number_(number) {
+    if (number < 0) throw std::system_error(errno, std::generic_category(), "a file for gnuplot");
   }
-  ~Pipe() {
-    close_writing_end();
-    ::close(ends_[0]);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  int reading_end() const { return ends_[0]; }
-  int writing_end() const { return ends_[1]; }
-  void close_writing_end() {
-    if (ends_[1] >= 0) ::close(ends_[1]);
-    ends_[1] = -1;
-  }
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  operator int() const { return number_; }
 
  private:
-  std::array<int, 2> ends_{-1, -1};
+  int number_;
 };
 
-struct Pipes {
-  Pipe output, errors;
-  Pipe start_error;  // closed, without a word, when gnuplot starts
-};
+// A file in memory: what is written into it never stops the process that writes.
+int make_memory_file() { return ::memfd_create("gnuplot", MFD_CLOEXEC); }
 
 // Variables by which users change what gnuplot draws.
 bool changes_figures(std::string_view variable) {
@@ -95,11 +84,10 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 
 // Between fork() and exec: nothing here takes memory or a lock. Returns errno.
 int become_gnuplot(const char* directory, char* const* arguments, char* const* variables,
-                   const Pipes& pipes) {
+                   int output, int errors) {
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (nothing < 0 || ::dup2(nothing, STDIN_FILENO) < 0 ||
-      ::dup2(pipes.output.writing_end(), STDOUT_FILENO) < 0 ||
-      ::dup2(pipes.errors.writing_end(), STDERR_FILENO) < 0 || ::chdir(directory) != 0) {
+  if (nothing < 0 || ::dup2(nothing, STDIN_FILENO) < 0 || ::dup2(output, STDOUT_FILENO) < 0 ||
+      ::dup2(errors, STDERR_FILENO) < 0 || ::chdir(directory) != 0) {
     return errno;
   }
   ::execvpe(arguments[0], arguments, variables);
@@ -107,8 +95,9 @@ int become_gnuplot(const char* directory, char* const* arguments, char* const* v
 }
 
 // A group of its own, so that what gnuplot starts can be ended with it. Returns -1 if no process
-// can be made.
-pid_t start(const fs::path& directory, std::vector<std::string>& words, const Pipes& pipes) {
+// can be made. What cannot be started leaves errno in the file `start_error`.
+pid_t start(const fs::path& directory, std::vector<std::string>& words, int output, int errors,
+            int start_error) {
   const std::vector<char*> arguments = pointers(words);
   const std::vector<char*> variables = environment();
   const pid_t parent = ::getpid();
@@ -117,46 +106,22 @@ pid_t start(const fs::path& directory, std::vector<std::string>& words, const Pi
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(0);  // it ended before it could take this process with it
-  const int error = become_gnuplot(directory.c_str(), arguments.data(), variables.data(), pipes);
-  // If this fails, the parent process has ended, too.
-  [[maybe_unused]] const ssize_t n = ::write(pipes.start_error.writing_end(), &error, sizeof error);
+  const int error =
+      become_gnuplot(directory.c_str(), arguments.data(), variables.data(), output, errors);
+  [[maybe_unused]] const ssize_t n = ::write(start_error, &error, sizeof error);
   ::_exit(127);
 }
 
-// errno if gnuplot did not start, else 0.
-int start_error(const Pipe& pipe) {
-  int error = 0;
-  ssize_t n = 0;
-  do {
-    n = ::read(pipe.reading_end(), &error, sizeof error);
-  } while (n < 0 && errno == EINTR);
-  return n == static_cast<ssize_t>(sizeof error) ? error : 0;
-}
-
-int milliseconds_until(Clock::time_point deadline) {
-  const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-  return static_cast<int>(std::max<long>(0, left.count()));
-}
-
-// Both at once, because a full pipe would stop the process that writes into it. Returns whether
-// they ended before the deadline.
-bool read_all(const Pipe& output, const Pipe& errors, GnuplotRun& run, Clock::time_point deadline) {
-  std::array<pollfd, 2> streams{pollfd{output.reading_end(), POLLIN, 0},
-                                pollfd{errors.reading_end(), POLLIN, 0}};
-  const std::array<std::string*, 2> texts{&run.output, &run.errors};
+// Appends what can be read to a text. Returns whether that ended before the deadline.
+bool read_until(Clock::time_point deadline, int file, std::string& text) {
   std::array<char, 1 << 14> buffer;
-  while (streams[0].fd >= 0 || streams[1].fd >= 0) {
-    if (Clock::now() >= deadline) return false;
-    if (::poll(streams.data(), streams.size(), milliseconds_until(deadline)) < 0) {
-      if (errno == EINTR) continue;
-      return false;
-    }
-    for (std::size_t i = 0; i < streams.size(); ++i) {
-      if (streams[i].fd < 0 || streams[i].revents == 0) continue;
-      const ssize_t n = ::read(streams[i].fd, buffer.data(), buffer.size());
-      if (n > 0) texts[i]->append(buffer.data(), static_cast<std::size_t>(n));
-      if (n == 0 || (n < 0 && errno != EINTR)) streams[i].fd = -1;  // which poll() skips
-    }
+  for (ssize_t n = 1; n != 0;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    pollfd stream{file, POLLIN, 0};
+    if (left.count() <= 0) return false;
+    if (::poll(&stream, 1, static_cast<int>(left.count())) <= 0) continue;  // or a signal came
+    n = ::read(file, buffer.data(), buffer.size());
+    if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
   }
   return true;
 }
@@ -183,20 +148,28 @@ void kill_group(pid_t child, int& state) {
 GnuplotRun run_gnuplot(const fs::path& directory, std::vector<std::string> arguments,
                        Clock::time_point deadline) {
   arguments.insert(arguments.begin(), {"gnuplot", "-d"});
+  std::array<int, 2> ends{-1, -1};
+  const int failed = ::pipe2(ends.data(), O_CLOEXEC);
+  const Descriptor output(failed == 0 ? ends[0] : -1);
+  auto input = std::make_unique<Descriptor>(ends[1]);
+  const Descriptor errors(make_memory_file()), start_error(make_memory_file());
   GnuplotRun run;
-  Pipes pipes;
-  const pid_t child = start(directory, arguments, pipes);
+  const pid_t child = start(directory, arguments, *input, errors, start_error);
   if (child < 0) {
     run.start_error = errno;
     return run;
   }
-  for (Pipe* pipe : {&pipes.output, &pipes.errors, &pipes.start_error}) pipe->close_writing_end();
-  run.start_error = start_error(pipes.start_error);
+  input.reset();  // the end of the output is that of gnuplot
   int state = 0;
   run.took_too_long =
-      !read_all(pipes.output, pipes.errors, run, deadline) || !ends_until(deadline, child, state);
+      !read_until(deadline, output, run.output) || !ends_until(deadline, child, state);
   if (run.took_too_long) kill_group(child, state);
   run.status = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
+  run.errors.resize(static_cast<std::size_t>(::lseek(errors, 0, SEEK_END)));
+  if (::pread(errors, run.errors.data(), run.errors.size(), 0) < 0 ||
+      ::pread(start_error, &run.start_error, sizeof run.start_error, 0) < 0) {
+    throw std::system_error(errno, std::generic_category(), "a file for gnuplot");
+  }
   return run;
 }
 
@@ -269,9 +242,7 @@ std::array<std::string, 3> terminals(FigureSize size) {
 
 void remove_pictures(const fs::path& directory, const std::string& name) {
   std::error_code ignored;
-  for (const char* ending : endings) {
-    fs::remove(directory / (name + ending), ignored);
-  }
+  for (const char* ending : endings) fs::remove(directory / (name + ending), ignored);
 }
 
 // Is in every figure's script, and distinguishes it from scripts without data.
@@ -279,8 +250,6 @@ constexpr std::string_view finished_mark =
     "# A finished script: style, data and drawing of one figure. Not for plot --scripts.\n";
 
 }  // namespace
-
-std::string figure_style() { return std::string(embedded_file("figures/style.gp")); }
 
 std::string figure_script(const std::string& name, const std::string& settings,
                           const fs::path& scripts) {

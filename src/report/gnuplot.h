@@ -15,10 +15,6 @@ struct FigureSize {
   int height = 600;
 };
 
-/// What every figure begins with: lines and points 1 to 8 in the colours of Okabe and Ito, which
-/// the colour-blind can distinguish, thin grey grid, borders on two sides.
-std::string figure_style();
-
 /// The script of a figure, <name>.gp, after the style (style.gp), what scripts share (tables.gp)
 /// and the `settings` of this drawing: variables and tables of data. Each file is taken from the
 /// directory `scripts` if it is there, else from the library.

@@ -1,10 +1,11 @@
 #include "report/page.h"
 
 #include <fmt/format.h>
+#include <openssl/evp.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <regex>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -115,14 +116,8 @@ std::string escaped(std::string_view text) {
 }
 
 std::string in_print(std::string text) {
-  for (const std::string_view unit : {" us", " um"}) {
-    for (std::size_t at = text.find(unit); at != std::string::npos; at = text.find(unit, at + 1)) {
-      const std::size_t next = at + unit.size();
-      const bool ends =
-          next == text.size() || !std::isalnum(static_cast<unsigned char>(text[next]));
-      if (ends) text.replace(at + 1, 1, "µ");
-    }
-  }
+  static const std::regex micro(" u([sm])(?![0-9A-Za-z])");
+  text = std::regex_replace(text, micro, " µ$1");
   replace_all(text, "+-", "±");
   return text;
 }
@@ -173,21 +168,10 @@ std::string inlined_svg(const std::string& svg, const std::string& prefix) {
 }
 
 std::string base64(std::string_view bytes) {
-  static constexpr char digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(4 * (bytes.size() / 3 + 1));
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text.push_back(k <= n ? digits[group >> (18 - 6 * k) & 63u] : '=');
-    }
-  }
-  return text;
+  std::vector<unsigned char> text(4 * (bytes.size() / 3 + 1) + 1);
+  const int n = EVP_EncodeBlock(text.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                                static_cast<int>(bytes.size()));
+  return {text.begin(), text.begin() + n};
 }
 
 Json packed_i24(const std::vector<double>& values) {

@@ -15,6 +15,10 @@ namespace {
 
 constexpr double us = 1e6;  // per second
 
+// A number of the errors of a run.
+template <auto number>
+constexpr auto errors = [](const auto& row) { return row.errors.*number; };
+
 // Of a measured step from the predicted one.
 std::string difference(const auto& row) {
   return fmt::format("{:.2f} %", 100.0 * (row.measured / row.predicted - 1.0));
@@ -38,6 +42,15 @@ std::vector<DampingOfMethod> by_method(const std::vector<Damping>& rows) {
     }
   }
   return methods;
+}
+
+// A study of which one table holds all: printed, as a file, and drawn.
+template <class Row>
+StabilityPart part_of(const char* name, const StudyColumns<Row>& columns,
+                      const std::vector<Row>& rows) {
+  StabilityPart part{printed_table(columns, rows), name};
+  part.tables = {{part.name + ".csv", csv_text(columns_in_file(columns), rows)}};
+  return part;
 }
 
 std::string map_text(const OutcomeMap& map) {
@@ -72,22 +85,19 @@ std::string map_text(const OutcomeMap& map) {
 
 StabilityPart part_of(const std::vector<CriticalStep>& rows) {
   if (rows.empty()) return {};
+  const auto theory = [](const CriticalStep& row) { return std::string(name_of(row.theory)); };
   const StudyColumns<CriticalStep> columns = {
       {"method", &CriticalStep::method, {"method", "<22"}},
-      {"theory",
-       [](const CriticalStep& row) { return std::string(name_of(row.theory)); },
-       {"theory", "<16"}},
+      {"theory", theory, {"theory", "<16"}},
       {"segments", &CriticalStep::segments, {"cells", ">6"}},
       {"highest_frequency_rad_per_s", &CriticalStep::highest_frequency},
       {"limit_omega_h", &CriticalStep::limit, {"omega h", ">9", ".4f"}},
       {"predicted_s", &CriticalStep::predicted, {"predicted, us", ">13", ".6g", us}},
       {"measured_s", &CriticalStep::measured, {"measured, us", ">13", ".6g", us}},
       {"", difference<CriticalStep>, {"difference", ">10"}}};
-  StabilityPart part{printed_table(columns, rows),
-                     "critical_steps",
-                     1180,
-                     560,
-                     {{"critical_steps.csv", csv_text(columns_in_file(columns), rows)}}};
+  StabilityPart part = part_of("critical_steps", columns, rows);
+  part.width = 1180;
+  part.height = 560;
   std::string method;
   for (const CriticalStep& row : rows) {
     if (row.method == method) continue;
@@ -108,11 +118,7 @@ StabilityPart part_of(const std::vector<StiffContact>& rows) {
       {"predicted_s", &StiffContact::predicted, {"predicted, us", ">14", ".6g", us}},
       {"measured_s", &StiffContact::measured, {"measured, us", ">14", ".6g", us}},
       {"", difference<StiffContact>, {"difference", ">10"}}};
-  return {printed_table(columns, rows),
-          "stiff_contact",
-          760,
-          500,
-          {{"stiff_contact.csv", csv_text(columns_in_file(columns), rows)}}};
+  return part_of("stiff_contact", columns, rows);
 }
 
 StabilityPart part_of(const std::vector<Damping>& rows,
@@ -149,9 +155,9 @@ StabilityPart part_of(const OutcomeMap& map) {
       {"row", &OutcomePoint::row},
       {"omega_h_or_rtol", &OutcomePoint::x},
       {"verdict", [](const OutcomePoint& p) { return p.verdict; }},
-      {"reference_sub_impacts", member<&OutcomePoint::errors, &EventErrors::n_reference>},
-      {"sub_impacts", member<&OutcomePoint::errors, &EventErrors::n_found>},
-      {"corresponding", member<&OutcomePoint::errors, &EventErrors::n_corresponding>},
+      {"reference_sub_impacts", errors<&EventErrors::n_reference>},
+      {"sub_impacts", errors<&EventErrors::n_found>},
+      {"corresponding", errors<&EventErrors::n_corresponding>},
       {"median_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.median); }},
       {"max_error_s", [=](const OutcomePoint& p) { return if_completed(p, p.errors.maximum); }},
       {"energy_error", [=](const OutcomePoint& p) { return if_completed(p, p.energy_error); }},
@@ -160,21 +166,18 @@ StabilityPart part_of(const OutcomeMap& map) {
 }
 
 StabilityPart part_of(const std::vector<MissedPairs>& rows) {
-  const StudyColumns<MissedPairs> columns = {
-      {"step_s", &MissedPairs::step, {"step, us", ">9", ".3g", us}},
-      {"runs", &MissedPairs::n_runs},
-      {"right_with_search",
-       &MissedPairs::right_with_search,
-       {"all found, pairs looked for", ">28"}},
-      {"right_without", &MissedPairs::right_without, {"all found, ends of steps only", ">28"}},
-      {"shortest_s", &MissedPairs::shortest}};
-  return {fmt::format("{}; shortest sub-impact or separation {:.3g} us\n{}",
-                      counted(rows.at(0).n_runs, "strike"), rows.at(0).shortest * us,
-                      printed_table(columns, rows)),
-          "missed_pairs",
-          760,
-          500,
-          {{"missed_pairs.csv", csv_text(columns_in_file(columns), rows)}}};
+  using Row = MissedPairs;
+  const StudyColumns<Row> columns = {
+      {"step_s", &Row::step, {"step, us", ">9", ".3g", us}},
+      {"runs", &Row::n_runs},
+      {"right_with_search", &Row::right_with_search, {"all found, pairs looked for", ">28"}},
+      {"right_without", &Row::right_without, {"all found, ends of steps only", ">28"}},
+      {"shortest_s", &Row::shortest}};
+  StabilityPart part = part_of("missed_pairs", columns, rows);
+  part.text =
+      fmt::format("{}; shortest sub-impact or separation {:.3g} us\n{}",
+                  counted(rows.at(0).n_runs, "strike"), rows.at(0).shortest * us, part.text);
+  return part;
 }
 
 StabilityPart part_of(const LayerStudy& study) {
@@ -183,23 +186,16 @@ StabilityPart part_of(const LayerStudy& study) {
   };
   const StudyColumns<LayerPoint> columns = {
       {"layers", &LayerPoint::layers, {"layers", ">7"}},
-      {"sub_impacts", member<&LayerPoint::errors, &EventErrors::n_found>, {"sub-impacts", ">11"}},
-      {"exact_sub_impacts", member<&LayerPoint::errors, &EventErrors::n_reference>},
-      {"corresponding",
-       member<&LayerPoint::errors, &EventErrors::n_corresponding>,
-       {"correspond", ">12"}},
-      {"median_difference_s",
-       member<&LayerPoint::errors, &EventErrors::median>,
-       {"median, us", ">14", ".3e", us}},
-      {"max_difference_s",
-       member<&LayerPoint::errors, &EventErrors::maximum>,
-       {"largest, us", ">12", ".3e", us}},
+      {"sub_impacts", errors<&EventErrors::n_found>, {"sub-impacts", ">11"}},
+      {"exact_sub_impacts", errors<&EventErrors::n_reference>},
+      {"corresponding", errors<&EventErrors::n_corresponding>, {"correspond", ">12"}},
+      {"median_difference_s", errors<&EventErrors::median>, {"median, us", ">14", ".3e", us}},
+      {"max_difference_s", errors<&EventErrors::maximum>, {"largest, us", ">12", ".3e", us}},
       {"", first_unmatched, {" ", "<"}}};
-  std::string text = printed_heading(columns) +
-                     fmt::format("{:>7} {:>11}\n", "exact", study.exact.sub_impacts.size());
-  for (const LayerPoint& point : study.points) text += printed_row(columns, point);
-  return {
-      text, "layers", 760, 500, {{"layers.csv", csv_text(columns_in_file(columns), study.points)}}};
+  StabilityPart part = part_of("layers", columns, study.points);
+  part.text.insert(printed_heading(columns).size(),
+                   fmt::format("{:>7} {:>11}\n", "exact", study.exact.sub_impacts.size()));
+  return part;
 }
 
 void write(const std::filesystem::path& directory, const StabilityPart& part) {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "file_size_limit.h"
-#include "io/manifest.h"
+#include "io/sealed_files.h"
 #include "report/figure_script.h"
 #include "report/files.h"
 #include "sample_result.h"

@@ -12,6 +12,7 @@
 
 #include "fake_gnuplot.h"
 #include "file_size_limit.h"
+#include "report/files.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
 
@@ -29,7 +30,9 @@ TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
   const TemporaryDirectory directory;
   const fs::path place = directory.path / "it's a place";  // which a shell would trip over
   fs::create_directory(place);
-  draw_figure(place, "parabola", figure_style() + "plot x**2 title 'parabola'\n", {400, 300});
+  draw_figure(place, "parabola",
+              std::string(embedded_file("figures/style.gp")) + "plot x**2 title 'parabola'\n",
+              {400, 300});
   const std::string svg = content(place / "parabola.svg");
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_NE(svg.find("parabola"), std::string::npos);

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/manifest.h"
+#include "io/sealed_files.h"
 
 namespace subimpact {
 

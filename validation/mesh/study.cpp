@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "report/files.h"
 #include "report/gnuplot.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
@@ -249,7 +250,7 @@ void write_points(const std::string& directory, const std::vector<Point>& points
 }
 
 void draw(const std::string& directory, const std::vector<Point>& points) {
-  std::string script = figure_style();
+  std::string script(embedded_file("figures/style.gp"));
   const auto block = [&](const std::string& section, const std::string& mesh) {
     script += fmt::format("${}_{} << EOD\n", section, mesh);
     for (const Point& p : points) {

@@ -11,6 +11,7 @@
 #include "predictability/checks.h"
 #include "predictability/ensemble.h"
 #include "predictability/support.h"
+#include "report/files.h"
 #include "report/gnuplot.h"
 
 namespace subimpact::predictability {
@@ -162,7 +163,7 @@ std::string panel(const Study& study, const std::string& name) {
 }
 
 void draw(const std::vector<Study>& studies) {
-  std::string script = figure_style();
+  std::string script(embedded_file("figures/style.gp"));
   const double end = studies.front().result.outcome.time;
   std::string panels;
   for (std::size_t i = 0; i < studies.size(); ++i) {

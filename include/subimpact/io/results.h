@@ -63,12 +63,8 @@ class ResultWriter final : public RowSink {
  private:
   class RowFile;
   template <class Row>
-  static std::unique_ptr<RowFile> row_file();
-  template <class Row>
   void add_to(RowFile& file, const Row& row);
   void flush(RowFile& rows);
-  void write_rows(RowFile& rows);
-  void check_written(int cause) const;
   template <class Write>
   void write_or_relocate(Write write);
 

@@ -16,9 +16,8 @@ set key at graph 1, graph 1.28 right top horizontal maxrows 2 samplen 2.5
 set ylabel 'bending moment, N m'
 plot $moment_largest with lines lc 1 title 'largest', \
      $moment_smallest with lines lc 2 title 'smallest', \
-     (yields > 0 ? yield_moment : NaN) with lines lc rgb '#606060' dashtype 2 lw 1 \
-       title (yields > 0 ? 'first yield' : ''), \
-     (yields > 0 ? -yield_moment : NaN) with lines lc rgb '#606060' dashtype 2 lw 1 notitle, \
+     for [sign in '1 -1'] (yields > 0 ? sign*yield_moment : NaN) with lines lc rgb '#606060' \
+       dashtype 2 lw 1 title (yields > 0 && sign > 0 ? 'first yield' : ''), \
      keyentry with boxes fillstyle solid noborder linecolor rgb '#FBE6BE' \
        title (yields > 0 ? 'plastic zones' : '')
 
@@ -36,8 +35,8 @@ if (yields > 0 && bottom < -limit) { set yrange [-limit:*] }
 if (yields > 0 && bottom < -limit && top > limit) { set yrange [-limit:limit] }
 plot $strain_largest using 1:(1e3*$2) with lines lc 1 title 'largest', \
      $strain_smallest using 1:(1e3*$2) with lines lc 2 title 'smallest', \
-     (yields > 0 ? 1e3*yield_strain : NaN) with lines lc rgb '#606060' dashtype 2 lw 1 notitle, \
-     (yields > 0 ? -1e3*yield_strain : NaN) with lines lc rgb '#606060' dashtype 2 lw 1 notitle
+     for [sign in '1 -1'] (yields > 0 ? 1e3*sign*yield_strain : NaN) with lines \
+       lc rgb '#606060' dashtype 2 lw 1 notitle
 
 eval placed(0.12, 0.97, 0.09, 0.32)
 set yrange [*:*]

@@ -29,42 +29,28 @@ set format x '10^{%L}'
 set format y '10^{%L}'
 set mxtics 1
 set mytics 10
-unset key
+n = words(labels)
+set key at screen (400.0*n + 70)/width,0.9 left top Left reverse samplen 2 spacing 1.25
 set object 1 rectangle from strip, graph 0 to edge, graph 1 fc rgb '#F0F0F0' fs noborder behind
 set label 1 'failed' at 18*strip, graph 0.5 center rotate by 90 tc rgb '#606060'
-do for [p=1:words(labels)] {
+do for [p=1:n] {
   set lmargin screen (400.0*p - 310)/width
   set rmargin screen (400.0*p + 40)/width
   set title word(labels, p)
   set ylabel (p == 1 ? cost_label : '')
+  in_key(words) = p == n ? words : ''
   plot for [k=1:words(methods)] $points using (error(p, k, 'right wrong')):'cost' \
-         with lines lt colour(k) dt dashes(k) lw 1.5, \
+         with lines lt colour(k) dt dashes(k) lw 1.5 notitle, \
        for [k=1:words(methods)] $points using (error(p, k, 'right')):'cost' \
-         with points lt colour(k) pt filled(k) lw 1.5 ps 1.0, \
+         with points lt colour(k) pt filled(k) lw 1.5 ps 1.0 notitle, \
        for [k=1:words(methods)] $points using (error(p, k, 'wrong')):'cost' \
-         with points lt colour(k) pt hollow(k) lw 1.5 ps 1.0, \
+         with points lt colour(k) pt hollow(k) lw 1.5 ps 1.0 notitle, \
        for [k=1:words(methods)] $points using (of(p, k, 'failed') ? 3*strip : NaN):'cost' \
-         with points lt colour(k) pt 2 lw 1.5 ps 1.0
+         with points lt colour(k) pt 2 lw 1.5 ps 1.0 notitle, \
+       for [k=1:words(methods)] keyentry with linespoints lt colour(k) dt dashes(k) pt filled(k) \
+         lw 1.5 title in_key(word(methods, k)), \
+       keyentry with points lt rgb '#404040' pt 7 title in_key('every sub-impact found'), \
+       keyentry with points lt rgb '#404040' pt 6 title in_key('some lost or invented'), \
+       keyentry with points lt rgb '#404040' pt 2 title in_key('unstable, or gave up')
 }
-
-# The key, in a panel of its own.
-unset object 1
-unset label 1
-unset border
-unset tics
-unset xlabel
-unset ylabel
-unset title
-unset grid
-unset logscale
-set lmargin screen (400.0*words(labels) + 70)/width
-set rmargin screen 0.99
-set xrange [0:1]
-set yrange [0:1]
-set key at graph 0,1 left top Left reverse samplen 2 spacing 1.25
-plot for [k=1:words(methods)] NaN with linespoints lt colour(k) dt dashes(k) pt filled(k) lw 1.5 \
-       title word(methods, k), \
-     NaN with points lt rgb '#404040' pt 7 title 'every sub-impact found', \
-     NaN with points lt rgb '#404040' pt 6 title 'some lost or invented', \
-     NaN with points lt rgb '#404040' pt 2 title 'unstable, or gave up'
 unset multiplot

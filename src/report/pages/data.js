@@ -3,6 +3,14 @@
 
 const byId = (id) => document.getElementById(id);
 
+// Does what a key stands for: actions by the names of keys.
+function actOn(event, actions) {
+  const action = actions[event.key];
+  if (event.ctrlKey || event.altKey || event.metaKey || !action) return;
+  event.preventDefault();
+  action();
+}
+
 // Makes window.page of the data of this page, once the page is painted.
 function startPage(make) {
   document.documentElement.classList.add('live');

@@ -1,13 +1,6 @@
 'use strict';
 // Joins the panels of a page: one time and one part of the strike for all of them.
 
-function addStillsButton() {
-  byId('show-stills').addEventListener('click', () => {
-    const open = byId('stills').classList.toggle('open');
-    byId('show-stills').setAttribute('aria-expanded', String(open));
-  });
-}
-
 function addCopyButton() {
   const button = byId('copy');
   if (!button) return;
@@ -161,15 +154,12 @@ class Page {
     if (event) parts.push(`event: ${eventKinds[event.kind].name}`);
     parts.push(index < 0 ? 'apart' : `in sub-impact ${index + 1}${strike.sub_impacts[index].decided ? '' : ' (not decided)'}`);
     if (strike.hasHistory) {
+      const depth = 1e3 * strike.at('indentation_m', time);
       parts.push(`force ${printed(strike.at('force_N', time))} N`,
-                 this.distanceWords(1e3 * strike.at('indentation_m', time)),
+                 `${depth < 0 ? 'gap' : 'indentation'} ${printed(Math.abs(depth))} mm`,
                  `striker ${printed(strike.at('v_m_m_per_s', time))} m/s`);
     }
     return parts.join(' · ');
-  }
-
-  distanceWords(indentation) {
-    return indentation < 0 ? `gap ${printed(-indentation)} mm` : `indentation ${printed(indentation)} mm`;
   }
 
   announce() { byId('announced').textContent = this.words(); }
@@ -278,13 +268,12 @@ class Page {
   }
 
   key(event) {
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
     const tag = event.target.tagName;
     if (tag === 'SELECT' || (tag === 'INPUT' && event.key.startsWith('Arrow'))) return;
     if (tag === 'BUTTON' && (event.key === ' ' || event.key === 'Enter')) return;
     const {view, player} = this;
     const small = (view.to - view.from) / 200;
-    const actions = {
+    actOn(event, {
       ' ': () => player.toggle(),
       ArrowRight: () => (event.shiftKey ? view.setTime(view.time + small) : this.step(1)),
       ArrowLeft: () => (event.shiftKey ? view.setTime(view.time - small) : this.step(-1)),
@@ -298,15 +287,13 @@ class Page {
       Escape: () => this.showAll(),
       '[': () => this.changeSpeed(-1),
       ']': () => this.changeSpeed(1),
-    };
-    const action = actions[event.key];
-    if (!action) return;
-    event.preventDefault();
-    action();
+    });
   }
 }
 
 if (typeof Dygraph === 'undefined') byId('stills').classList.add('open');
-addStillsButton();
+byId('show-stills').addEventListener('click', () => {
+  byId('show-stills').setAttribute('aria-expanded', String(byId('stills').classList.toggle('open')));
+});
 addCopyButton();
 startPage((data) => new Page(data));

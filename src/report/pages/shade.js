@@ -46,7 +46,7 @@ class Shade {
   // The key: a strip of colours with ticks, or words with samples.
   draw(canvas) {
     const {column} = this;
-    const from = this.high > this.low ? this.low : this.low - 1, to = this.high > this.low ? this.high : this.low + 1;
+    const [from, to] = this.high > this.low ? [this.low, this.high] : [this.low - 1, this.low + 1];
     const axes = new Axes(canvas, {x: {range: [from, to], label: column.title, log: this.log}, y: {range: [0, 1]}, top: 2});
     const {draw} = axes;
     if (column.words) {
@@ -64,11 +64,7 @@ class Shade {
       draw.fillStyle = this.of(this.log ? from * (to / from) ** share : from + share * (to - from));
       draw.fillRect(x, 2, 1.5, axes.bottom - 2);
     }
-    draw.font = '12px system-ui, sans-serif';
-    draw.fillStyle = colour('text');
-    draw.textAlign = 'center';
-    draw.textBaseline = 'top';
-    for (const {at, label} of this.ticks(axes)) draw.fillText(label, axes.toX(at), axes.bottom + 5);
-    draw.fillText(column.title, 0.5 * (axes.left + axes.right), axes.bottom + 24);
+    for (const {at, label} of this.ticks(axes)) axes.text(label, axes.toX(at), axes.bottom + 11, 'center');
+    axes.text(column.title, 0.5 * (axes.left + axes.right), axes.bottom + 30, 'center');
   }
 }

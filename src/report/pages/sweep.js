@@ -94,15 +94,11 @@ class SweepPage {
 
   // Prints in the colours for paper.
   printing(begins) {
-    const root = document.documentElement;
-    if (begins) {
-      this.themeBefore = root.dataset.theme;
-      root.dataset.theme = 'light';
-    } else if (this.themeBefore) {
-      root.dataset.theme = this.themeBefore;
-    } else {
-      delete root.dataset.theme;
-    }
+    const {dataset} = document.documentElement;
+    if (begins) this.themeBefore = dataset.theme;
+    const theme = begins ? 'light' : this.themeBefore;
+    if (theme) dataset.theme = theme;
+    else delete dataset.theme;
     forgetColours();
     this.draw();
   }

@@ -140,32 +140,23 @@ class SweepMap {
       draw.lineWidth = 0.7;
       draw.stroke();
     }
-    if (tone === null) this.drawLack(draw, mark);
-    else if (this.runs.certainty(mark.run) === 'undecided') SweepMap.drawCross(draw, mark, this.shade.contrast(value));
+    if (tone === null) this.drawLack(mark);
+    else if (this.runs.certainty(mark.run) === 'undecided') this.drawCross(mark, this.shade.contrast(value));
   }
 
   // Count and order of the run's sub-impacts are not decided.
-  static drawCross(draw, {left, top, width, height}, tone) {
+  drawCross({left, top, width, height}, tone) {
     const size = Math.min(5, 0.32 * Math.min(width, height));
     const x = left + width / 2, y = top + height / 2;
-    draw.strokeStyle = tone;
-    draw.lineWidth = size > 2.5 ? 1.5 : 1;
-    draw.beginPath();
-    draw.moveTo(x - size, y - size);
-    draw.lineTo(x + size, y + size);
-    draw.moveTo(x - size, y + size);
-    draw.lineTo(x + size, y - size);
-    draw.stroke();
+    for (const rise of [-size, size]) {
+      this.axes.line([[x - size, y + rise], [x + size, y - rise]], {colour: tone, width: size > 2.5 ? 1.5 : 1});
+    }
   }
 
   // No value: the run was refused, or left no result.
-  drawLack(draw, {left, top, width, height}) {
-    draw.strokeStyle = colour('soft');
-    draw.lineWidth = 1;
-    draw.beginPath();
-    draw.moveTo(left + 0.2 * width, top + 0.5 * height);
-    draw.lineTo(left + 0.8 * width, top + 0.5 * height);
-    draw.stroke();
+  drawLack({left, top, width, height}) {
+    const y = top + 0.5 * height;
+    this.axes.line([[left + 0.2 * width, y], [left + 0.8 * width, y]], {colour: colour('soft'), width: 1});
   }
 
   drawKey() {
@@ -183,7 +174,7 @@ class SweepMap {
         SweepMap.outline(draw, mark);
         draw.strokeStyle = colour('soft');
         draw.stroke();
-        SweepMap.drawCross(draw, mark, colour('text'));
+        this.drawCross(mark, colour('text'));
       });
     }
     if (this.visible.some((run) => this.shade.of(this.shade.column.values[run]) === null)) {
@@ -191,7 +182,7 @@ class SweepMap {
         SweepMap.outline(draw, mark);
         draw.fillStyle = colour('grid');
         draw.fill();
-        this.drawLack(draw, mark);
+        this.drawLack(mark);
       });
     }
   }
@@ -217,14 +208,21 @@ class SweepMap {
   // --- pointing and keys ---------------------------------------------------------------------------
 
   runAt(x, y) {
-    const inside = this.marks.find(({left, top, width, height, isPoint}) =>
-      !isPoint && x >= left && x < left + width && y >= top && y < top + height);
-    if (inside) return inside.run;
-    let best = -1, least = 15;
-    for (const {run, left, top, width, height, isPoint} of this.marks) {
-      if (!isPoint) continue;
-      const far = Math.hypot(left + width / 2 - x, top + height / 2 - y);
-      if (far < least) [best, least] = [run, far];
+    return this.nearest(15, ({isPoint, left, top, width, height}, dx, dy) => {
+      if (isPoint) return Math.hypot(dx, dy);
+      return x >= left && x < left + width && y >= top && y < top + height ? -1 : Infinity;
+    }, [x, y]);
+  }
+
+  static centre({left, top, width, height}) { return [left + width / 2, top + height / 2]; }
+
+  // The run whose mark has the least distance(mark, x, y), below `most`, or -1. x, y: from a place.
+  nearest(most, distance, [x, y]) {
+    let best = -1, least = most;
+    for (const mark of this.marks) {
+      const [markX, markY] = SweepMap.centre(mark);
+      const far = distance(mark, markX - x, markY - y);
+      if (far < least) [best, least] = [mark.run, far];
     }
     return best;
   }
@@ -246,34 +244,20 @@ class SweepMap {
   }
 
   key(event) {
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    const actions = {
+    actOn(event, {
       ArrowLeft: () => this.chooseTowards(-1, 0), ArrowRight: () => this.chooseTowards(1, 0),
       ArrowUp: () => this.chooseTowards(0, -1), ArrowDown: () => this.chooseTowards(0, 1),
-      n: () => this.chooseBeside(1), p: () => this.chooseBeside(-1), Enter: () => this.listener.open()};
-    const action = actions[event.key];
-    if (!action) return;
-    event.preventDefault();
-    action();
+      n: () => this.chooseBeside(1), p: () => this.chooseBeside(-1), Enter: () => this.listener.open()});
   }
 
   // The nearest run in a direction, which counts more than the way across.
   chooseTowards(dx, dy) {
-    const centre = ({left, top, width, height}) => [left + width / 2, top + height / 2];
     const here = this.marks.find(({run}) => run === this.chosen);
-    if (!here) {
-      this.listener.choose(this.visible[0] ?? -1);
-      return;
-    }
-    const [x, y] = centre(here);
-    let best = -1, least = Infinity;
-    for (const mark of this.marks) {
-      const [ox, oy] = centre(mark);
-      const along = (ox - x) * dx + (oy - y) * dy, across = Math.abs((ox - x) * dy) + Math.abs((oy - y) * dx);
-      const far = along + 3 * across;
-      if (along > 0.5 && along >= across && far < least) [best, least] = [mark.run, far];
-    }
-    this.listener.choose(best);
+    if (!here) return this.listener.choose(this.visible[0] ?? -1);
+    this.listener.choose(this.nearest(Infinity, (mark, x, y) => {
+      const along = x * dx + y * dy, across = Math.abs(x * dy) + Math.abs(y * dx);
+      return along > 0.5 && along >= across ? along + 3 * across : Infinity;
+    }, SweepMap.centre(here)));
   }
 
   chooseBeside(sense) { this.listener.choose(Math.min(Math.max(this.chosen + sense, 0), this.runs.numbers.length - 1)); }
