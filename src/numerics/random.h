@@ -23,10 +23,19 @@ class Random {
   /// From 0 (included) to 1 (not).
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  double log_uniform(double low, double high) {
+    return low * std::exp(uniform() * std::log(high / low));
+  }
   bool chance(double probability) { return uniform() < probability; }
   /// From 0 to n - 1.
   std::size_t index(std::size_t n) {
     return static_cast<std::size_t>(uniform() * static_cast<double>(n));
+  }
+
+  /// One of a list.
+  template <class List>
+  const auto& one_of(const List& list) {
+    return list[index(list.size())];
   }
 
  private:
