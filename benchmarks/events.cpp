@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "parts.h"
-#include "subimpact/study/error_bars.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact::benchmarks {
 
@@ -23,13 +23,13 @@ void measure_events(const Settings& settings) {
       input.solver.rtol = 1e-8;
       Case without = input;
       without.study.pair_detection = false;
-      const Case refined_run = refined_run_of(input).input;
+      const std::vector<CaseBeside> beside = cases_beside_in_time(input);
       const std::vector<double> seconds =
           seconds_side_by_side(settings, {[&] { run_to_end(input); }, [&] { run_to_end(without); },
-                                          [&] { simulate_with_error_bars(input); },
+                                          [&] { simulate_judged(input, beside, 1); },
                                           [&] {
                                             run_to_end(input);
-                                            run_to_end(refined_run);
+                                            run_to_end(beside.front().input);
                                           }});
       fmt::print("{:10} {:8}  {:10.4f} {:10.4f} {:8.3f}  {:10.4f} {:10.4f} {:8.3f}\n",
                  method == Method::erk ? "erk" : "nystrom", name, seconds[0], seconds[1],

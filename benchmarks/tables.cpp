@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "integrate/sundials.h"
 #include "integrate/nystrom.h"
+#include "integrate/sundials.h"
 #include "parts.h"
 
 namespace subimpact::benchmarks {

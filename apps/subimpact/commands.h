@@ -18,7 +18,7 @@
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
-#include "subimpact/study/companion.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact::app {
 

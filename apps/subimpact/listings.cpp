@@ -17,7 +17,7 @@ int explain(CaseOptions& options) {
     ResolvedRun run = resolve(chosen.input);
     print_doubts(loaded);
     ResolvedSettings settings = run.settings();
-    settings.memory = memory_with_companion(chosen.input, settings);
+    settings.memory += memory_beside(chosen.input);
     print("{}", explanation(chosen.input, settings, estimate_cost(run)));
     if (chooses) print("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);
   });

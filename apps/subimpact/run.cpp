@@ -22,7 +22,8 @@ struct RunOptions {
   CaseOptions input;
   std::string directory;
   std::string within;      // empty, or a time with its unit
-  std::string error_bars;  // empty: from a companion; "off", "time" or "all"
+  bool all = false;        // rows of the table
+  std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
   Jobs jobs = n_processors();
   bool quiet = false;
 };
@@ -32,7 +33,7 @@ std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOption
   if (options.error_bars.empty()) return std::nullopt;
   if (loaded.value.accuracy.event_times) {
     throw CaseFileError(fmt::format(
-        "--error-bars={}: cannot go with a wish for event times, whose errors come from companion "
+        "--error-bars={}: cannot go with a tolerance on event times, whose errors come from other "
         "runs; leave out --error-bars, or --within and accuracy.event_times",
         options.error_bars));
   }
@@ -107,7 +108,7 @@ int run(RunOptions& options) {
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {
-    print("{}\n{}", run_summary(input, result), sub_impact_table(result));
+    print("{}\n{}", run_summary(input, result), sub_impact_table(result, !options.all));
     if (result.predictability) print("\n{}", scatter_table(result));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
@@ -146,14 +147,15 @@ void add_run(CLI::App& program, int& status) {
                   "accuracy.event_times");
   command
       .add_flag("--error-bars{all}", options.error_bars,
-                "By default the error of every start and end is estimated from a companion, a run "
-                "twice as coarse in mesh and time, for a quarter of the run's time. "
-                "--error-bars=off: no estimate. --error-bars: from refined runs, one for each of "
-                "time, mesh and layers; takes some five times as long. --error-bars=time: of the "
-                "integration in time alone, about twice as long")
+                "By default all errors are estimated from runs on two coarser meshes, which take "
+                "about as long as the run itself. --error-bars=off: no estimate. --error-bars: "
+                "from other runs for each of time, mesh and layers; takes some four times as long. "
+                "--error-bars=time: of the integration in time alone, about twice as long")
       ->check(CLI::IsMember({"all", "time", "off"}));
   add_jobs_option(command, options.jobs);
   command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+  command.add_flag("--all", options.all,
+                   "Print every sub-impact, also those that are not certain one by one");
   command.footer(
       "Examples:\n"
       "  subimpact run case.toml\n"

@@ -9,7 +9,7 @@
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/companion.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/within.h"
 
 namespace subimpact::python {
@@ -82,7 +82,7 @@ std::string explain(const LoadedCase& loaded) {
     const ChosenModel chosen = first_run(loaded);
     ResolvedRun run = resolve(chosen.input);
     ResolvedSettings settings = run.settings();
-    settings.memory = memory_with_companion(chosen.input, settings);
+    settings.memory += memory_beside(chosen.input);
     std::string text = explanation(chosen.input, settings, estimate_cost(run));
     if (!chosen.reason.empty()) {
       text += fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);

@@ -21,7 +21,7 @@ py::array table_named(const Finished& run, const std::string& name) {
   py::object found = py::none();
   for_each_run_table([&](const auto& of_run) {
     if (file != of_run.file) return;
-    found = table(columns_for(of_run, run.result), run.result.*of_run.rows);
+    found = table(of_run.columns, run.result.*of_run.rows);
   });
   if (found.is_none()) throw py::key_error(name);
   return found;
@@ -67,9 +67,9 @@ std::optional<std::size_t> n_predictable(const Finished& run) {
   return found->first_unpredictable.value_or(run.result.sub_impacts.size());
 }
 
-std::optional<int> all_decided(const Finished& run) {
+std::optional<int> all_certain(const Finished& run) {
   if (!run.result.error_estimate) return std::nullopt;
-  return run.result.all_decided() ? 1 : 0;
+  return run.result.all_certain() ? 1 : 0;
 }
 
 double total_impulse(const Finished& run) {
@@ -100,8 +100,8 @@ const Columns<Finished>& swept_run_columns() {
       {"n_sub_impacts", [](const Finished& run) { return run.result.sub_impacts.size(); }},
       {"n_zones",
        [](const Finished& run) { return summarise_zones(run.result.sub_impacts).size(); }},
-      {"n_decided", [](const Finished& run) { return run.result.n_decided(); }},
-      {"all_decided", &all_decided},
+      {"n_certain", [](const Finished& run) { return run.result.n_certain(); }},
+      {"all_certain", &all_certain},
       {"wish_met", of_part(&Result::wish, [](const WishOutcome& w) { return w.met ? 1 : 0; })},
       {"horizon_s", of_part(&Result::wish, &WishOutcome::horizon)},
       {"n_predictable", &n_predictable},
@@ -176,10 +176,10 @@ void bind_results(py::module_& module) {
       .def_property_readonly("first_failure", &first_failure)
       .def_property_readonly("usable", [](const Finished& run) { return run.result.is_usable(); })
       .def_property_readonly("warnings", member(&Result::warnings))
-      .def_property_readonly("n_decided",
-                             [](const Finished& run) { return run.result.n_decided(); })
-      .def_property_readonly("all_decided",
-                             [](const Finished& run) { return run.result.all_decided(); })
+      .def_property_readonly("n_certain",
+                             [](const Finished& run) { return run.result.n_certain(); })
+      .def_property_readonly("all_certain",
+                             [](const Finished& run) { return run.result.all_certain(); })
       .def_property_readonly("n_predictable", &n_predictable)
       .def_readonly("interrupted", &Finished::interrupted)
       .def_readonly("timed_out", &Finished::timed_out);

@@ -19,7 +19,7 @@ std::optional<ErrorBars> error_bars_named(const std::optional<std::string>& name
   if (*name == "time") return ErrorBars::time;
   if (*name == "all") return ErrorBars::all;
   throw py::value_error("error_bars is \"" + *name +
-                        "\"; allowed: None (from a companion), \"off\", \"time\", \"all\"");
+                        "\"; allowed: None (from coarser meshes), \"off\", \"time\", \"all\"");
 }
 
 // A run as the program makes it, with its predictability where the case has a scatter.

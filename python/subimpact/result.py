@@ -118,14 +118,14 @@ class Result:
         return self._finished.warnings
 
     @property
-    def n_decided(self) -> int | None:
-        """How many leading sub-impacts are certain in count and order; None without error bars."""
-        return self._finished.n_decided
+    def n_certain(self) -> int | None:
+        """How many sub-impacts are certain; None without error bars."""
+        return self._finished.n_certain
 
     @property
-    def all_decided(self) -> bool:
+    def all_certain(self) -> bool:
         """Whether it is certain that there are these sub-impacts and no others."""
-        return self._finished.all_decided
+        return self._finished.all_certain
 
     @property
     def n_predictable(self) -> int | None:

@@ -29,7 +29,7 @@ def run(
     """Simulates a case, as `subimpact run` does.
 
     error_bars  None: the errors of event times are estimated from a run half as fine, for a quarter
-                of the time; "off": no estimates; "time", "all": from refined runs, one for each
+                of the time; "off": no estimates; "time", "all": from other runs, one for each
                 source of error, which takes longer
     within      wished bound on the error of every event time, s; the program chooses what the
                 case leaves open of mesh, method and tolerance. Sets accuracy.event_times

@@ -29,7 +29,7 @@ inline void append_cell(std::string& text, double value) {
   fmt::format_to(std::back_inserter(text), "{:.17g}", value);
 }
 inline void append_cell(std::string& text, std::integral auto value) {
-  fmt::format_to(std::back_inserter(text), "{}", value);
+  fmt::format_to(std::back_inserter(text), "{:d}", value);
 }
 inline void append_cell(std::string& text, std::string_view words) {
   for (const char c : words) text.push_back(c == ',' ? ';' : c == '\n' ? ' ' : c);
@@ -71,6 +71,10 @@ requires std::is_arithmetic_v<Number>
 bool read_cell(std::string_view cell, Number& value) {
   const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   return end.ec == std::errc() && end.ptr == cell.data() + cell.size();
+}
+inline bool read_cell(std::string_view cell, bool& value) {
+  value = cell == "1";
+  return value || cell == "0";
 }
 /// A finite number.
 inline bool read_cell(std::string_view cell, double& value) {

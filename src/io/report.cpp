@@ -26,17 +26,40 @@ std::string time_or_never(const std::optional<double>& time) {
   return time ? fmt::format("{:.4f} us", *time * us) : "never";
 }
 
-std::string zone_text(const std::vector<ZoneSummary>& zones,
-                      const std::optional<std::size_t>& n_decided) {
+// "48 +- 2", "12"; without an error estimate the number alone.
+std::string count_text(const Total& total) {
+  const double error = std::ceil(total.error.value_or(0.0));
+  return error > 0.0 ? fmt::format("{:.0f} +- {:.0f}", total.value, error)
+                     : fmt::format("{:.0f}", total.value);
+}
+
+std::string total_or_value(const Total& total, double factor, int decimals) {
+  const auto rounding = rounding_of(total.error.value_or(HUGE_VAL) * factor, decimals);
+  if (!rounding) return with_digits(total.value * factor, 3);
+  return fmt::format("{} +- {}", with_decimals(total.value * factor, rounding->decimals),
+                     rounding->error);
+}
+
+std::string zone_text(const Result& result) {
+  const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
   fmt::memory_buffer text;
-  std::size_t n_before = 0;  // sub-impacts, up to and with the zone
-  for (const ZoneSummary& zone : zones) {
-    n_before += static_cast<std::size_t>(zone.n_sub_impacts);
-    fmt::format_to(std::back_inserter(text), "  zone {:<14} {} in {}, {:.1f} to {} us{}\n",
-                   zone.zone, counted(zone.n_sub_impacts, "sub-impact"),
-                   counted(zone.n_subzones, "sub-zone"), zone.start * us,
-                   zone.end ? fmt::format("{:.1f}", *zone.end * us) : "(open)",
-                   n_decided && *n_decided < n_before ? ", not decided" : "");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const ZoneSummary& zone = zones[k];
+    const std::string subzones = counted(zone.n_subzones, "sub-zone");
+    if (!result.error_estimate || result.error_estimate->zones.size() != zones.size()) {
+      fmt::format_to(std::back_inserter(text), "  zone {:<14} {} in {}, {:.1f} to {} us\n",
+                     zone.zone, counted(zone.n_sub_impacts, "sub-impact"), subzones,
+                     zone.start * us, zone.end ? fmt::format("{:.1f}", *zone.end * us) : "(open)");
+      continue;
+    }
+    const ZoneTotals& totals = result.error_estimate->zones[k];
+    fmt::format_to(
+        std::back_inserter(text), "  zone {:<14} {} in {}, {} to {} us, impulse {} N s\n",
+        zone.zone,
+        count_text(totals.sub_impacts) + (zone.n_sub_impacts == 1 ? " sub-impact" : " sub-impacts"),
+        subzones, zone.start == 0.0 ? "0" : total_or_value(totals.start, us, 4),
+        zone.end ? total_or_value(totals.end, us, 4) : "(open)",
+        total_or_value(totals.impulse, 1.0, 6));
   }
   return fmt::to_string(text);
 }
@@ -46,23 +69,23 @@ bool has_first_touch_alone(const Result& result) {
   return result.sub_impacts.size() == 1 && !result.sub_impacts.front().end;
 }
 
-// "times to 0.3 us up to sub-impact 9 (0.84 ms); from there undecided: <reason>".
-std::string valid_times_text(const Result& result, double largest_error,
-                             const std::optional<std::size_t>& first_unresolved,
-                             const std::string& reason) {
-  if (!first_unresolved && has_first_touch_alone(result)) {
-    return "no event time up to " + duration_text(result.outcome.time) +
-           " but the first touch, which is exact";
-  }
+// What is certain: "41 of 58 sub-impacts are certain, their times to 2 us; <first reason why not>".
+std::string certain_text(const Result& result, double largest_error,
+                         const std::optional<std::size_t>& first_unresolved,
+                         const std::string& reason) {
+  const std::size_t n = result.sub_impacts.size();
   if (!first_unresolved) {
-    return fmt::format("all times to {} up to {}", error_text(largest_error),
-                       duration_text(result.outcome.time));
+    return has_first_touch_alone(result)
+               ? "no event time up to " + duration_text(result.outcome.time) +
+                     " but the first touch, which is exact"
+               : fmt::format("all times to {} up to {}", error_text(largest_error),
+                             duration_text(result.outcome.time));
   }
-  const std::size_t n = std::min(*first_unresolved, result.sub_impacts.size());
-  if (n == 0) return fmt::format("no sub-impact is decided: {}", reason);
-  return fmt::format("times to {} up to sub-impact {} ({}); from there undecided: {}",
-                     error_text(largest_error), n,
-                     duration_text(result.end_of(result.sub_impacts[n - 1])), reason);
+  const std::size_t n_certain = *result.n_certain();
+  const std::string which = place_of_doubt(result, *first_unresolved, reason);
+  if (n_certain == 0) return fmt::format("no sub-impact is certain; {}: {}", which, reason);
+  return fmt::format("{} of {} certain, their times to {}; {}: {}", n_certain,
+                     counted(n, "sub-impact"), error_text(largest_error), which, reason);
 }
 
 // The setting that makes the errors of a part smaller; empty for a part without one.
@@ -100,42 +123,34 @@ std::string mass_text(double mass) {
   return fmt::format("{:.6g} kg", mass);
 }
 
-// What each refined run shows. A part's reason that stands above already is left out.
+// What the runs beside show, by source. A part's reason that stands above already is left out.
 void add_error_parts(const Result& result, fmt::memory_buffer& text) {
   const ErrorEstimate& estimate = *result.error_estimate;
   for (const ErrorEstimate::Part& part : estimate.parts) {
     const bool is_repeated = part.first_unresolved == estimate.first_unresolved &&
                              part.reason == estimate.reason && !part.reason.empty();
-    const std::string words = is_repeated ? std::string("as above")
-                                          : valid_times_text(result, part.largest_error,
-                                                             part.first_unresolved, part.reason);
-    fmt::format_to(std::back_inserter(text), "  {:<19} {} (refined run: {})\n",
+    const std::string words =
+        is_repeated ? std::string("as above")
+                    : certain_text(result, part.largest_error, part.first_unresolved, part.reason);
+    fmt::format_to(std::back_inserter(text), "  {:<19} {} (runs beside: {})\n",
                    "error of " + part.name, words, part.refined_run);
   }
 }
 
-// "8796.3 +- 0.8 N"; "8800 N (error not known)" where it is infinite; without an error estimate
-// so many decimals.
-std::string final_value(const Result& result, double value, double error, int decimals,
-                        const char* unit) {
-  if (!result.error_estimate) return fmt::format("{:.{}f} {}", value, decimals, unit);
-  const std::optional<Rounding> rounding = rounding_of(error, decimals);
-  if (!rounding) return fmt::format("{} {} (error not known)", with_two_digits(value), unit);
-  return fmt::format("{} +- {} {}", with_decimals(value, rounding->decimals), rounding->error,
-                     unit);
+std::string maxima_text(const Result& result) {
+  return fmt::format("force {}, indentation {}",
+                     total_text(result, "peak_force_N", result.max_force, 1.0, 2, "N"),
+                     total_text(result, "max_indentation_m", result.max_indentation, mm, 6, "mm"));
 }
 
-std::string maxima_text(const Result& result, const FinalErrors& errors) {
+std::string final_velocities_text(const Case& input, const Result& result) {
+  const double restitution =
+      (result.beam_mean_velocity - result.striker_velocity) / input.scene.striker.velocity;
   return fmt::format(
-      "force {}, indentation {}", final_value(result, result.max_force, errors.max_force, 2, "N"),
-      final_value(result, result.max_indentation * mm, errors.max_indentation * mm, 6, "mm"));
-}
-
-std::string final_velocities_text(const Result& result, const FinalErrors& errors) {
-  return fmt::format(
-      "striker {}, beam (mean) {}",
-      final_value(result, result.striker_velocity, errors.striker_velocity, 6, "m/s"),
-      final_value(result, result.beam_mean_velocity, errors.beam_velocity, 6, "m/s"));
+      "striker {}, beam (mean) {}; restitution {}",
+      total_text(result, "striker_velocity_m_per_s", result.striker_velocity, 1.0, 6, "m/s"),
+      total_text(result, "beam_mean_velocity_m_per_s", result.beam_mean_velocity, 1.0, 6, "m/s"),
+      total_text(result, "restitution", restitution, 1.0, 6, ""));
 }
 
 // The entry of the envelope where a value is largest.
@@ -193,21 +208,22 @@ std::string outcome_caveat(const Result& result) {
 }
 
 std::string error_words(const Case& input, const Result& result) {
-  if (!result.error_estimate)
-    return "not known; without --error-bars=off a companion run estimates it";
+  if (!result.error_estimate) {
+    return "not known; without --error-bars=off runs on coarser meshes estimate it";
+  }
   const ErrorEstimate& estimate = *result.error_estimate;
-  const std::string text = valid_times_text(result, estimate.largest_error,
-                                            estimate.first_unresolved, undecided_reason(result));
-  return result.n_decided() == std::size_t{0} && !result.sub_impacts.empty()
+  const std::string text =
+      certain_text(result, estimate.largest_error, estimate.first_unresolved, estimate.reason);
+  return result.n_certain() == std::size_t{0} && !result.sub_impacts.empty()
              ? text + setting_to_try(input, result)
              : text;
 }
 
-std::string decided_words(const Result& result) {
-  const std::optional<std::size_t> n = result.n_decided();
+std::string certain_words(const Result& result) {
+  const std::optional<std::size_t> n = result.n_certain();
   if (!n) return {};
-  if (result.all_decided()) return ", all decided";
-  return fmt::format(", {} decided{}", *n,
+  if (result.all_certain()) return ", all certain";
+  return fmt::format(", {} certain{}", *n,
                      *n == result.sub_impacts.size() ? ", which may not be all" : "");
 }
 
@@ -253,7 +269,22 @@ std::string neglected_shear_words(const NeglectedShear& shear) {
                      change);
 }
 
-std::string sub_impact_table(const Result& result) {
+// Uncertain sub-impacts in succession, in one line: their sums.
+std::string folded_line(const Result& result, std::size_t first, std::size_t last) {
+  double impulse = 0.0, force = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    impulse += result.sub_impacts[i].impulse;
+    force = std::max(force, result.sub_impacts[i].peak_force);
+  }
+  const SubImpact& end = result.sub_impacts[last];
+  return fmt::format(
+      "  {}-{}? {:.1f} to {:.1f} us: {} in this run, not certain one by one; forces up to "
+      "{} N, impulse {} N s in all",
+      first + 1, last + 1, us * result.sub_impacts[first].start, us * result.end_of(end),
+      last - first + 1, with_digits(force, 3), with_digits(impulse, 3));
+}
+
+std::string sub_impact_table(const Result& result, bool fold) {
   const SubImpactRows table = sub_impact_rows(result);
   std::string text;
   const auto add_line = [&](const std::string& line) {
@@ -268,14 +299,10 @@ std::string sub_impact_table(const Result& result) {
   }
   add_line(names);
   add_line(units);
-  const std::string undecided =
-      fmt::format("from here on not decided: {}", undecided_reason(result));
-  const std::size_t n_rows = table.rows.size();
-  const std::size_t n_decided = result.n_decided().value_or(n_rows);
+  const std::vector<SubImpact>& all = result.sub_impacts;
   int zone = 0, subzone = 0;
-  for (std::size_t i = 0; i < n_rows; ++i) {
-    if (i == n_decided) add_line(undecided);
-    const SubImpact& s = result.sub_impacts[i];
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const SubImpact& s = all[i];
     if (s.zone != zone) {
       add_line(fmt::format("zone {}", s.zone));
     } else if (s.subzone != subzone) {
@@ -283,6 +310,17 @@ std::string sub_impact_table(const Result& result) {
     }
     zone = s.zone;
     subzone = s.subzone;
+    std::size_t last = i;
+    while (fold && !table.rows[i].is_certain && last + 1 < all.size() &&
+           !table.rows[last + 1].is_certain && all[last + 1].zone == zone &&
+           all[last + 1].subzone == subzone) {
+      ++last;
+    }
+    if (last > i + 1) {
+      add_line(folded_line(result, i, last));
+      i = last;
+      continue;
+    }
     std::string line;
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       line += fmt::format("{}{:>{}}", k == 0 ? "" : " ", table.rows[i].cells[k],
@@ -290,8 +328,11 @@ std::string sub_impact_table(const Result& result) {
     }
     add_line(line);
   }
-  // A refined run has sub-impacts that this run lacks.
-  if (n_decided == n_rows && !undecided_reason(result).empty()) add_line(undecided);
+  if (!result.error_estimate) return text;
+  for (const ErrorEstimate::UncertainFlight& flight : result.error_estimate->uncertain_flights) {
+    if (flight.after + 1 < all.size()) continue;
+    add_line("after the last one there may be another: " + flight.reason);
+  }
   return text;
 }
 
@@ -320,20 +361,19 @@ std::string run_summary(const Case& input, const Result& result) {
   line("masses", fmt::format("beam {}, striker {}", mass_text(input.scene.beam.mass()),
                              mass_text(input.scene.striker.mass)));
   line("sub-impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
-                                  counted(zones.size(), "zone"), decided_words(result)));
-  text.append(zone_text(zones, result.n_decided()));
+                                  counted(zones.size(), "zone"), certain_words(result)));
+  text.append(zone_text(result));
   line("first yield",
        fmt::format("section {}, contact {}", time_or_never(result.first_section_yield),
                    time_or_never(result.first_contact_yield)));
   line("yielded sections",
        fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
-  const FinalErrors errors = final_errors(input, result);
-  line("maxima", maxima_text(result, errors));
+  line("maxima", maxima_text(result));
   if (!result.envelope.empty() && result.used.section != "rigid") {
     line("bending", bending_text(result));
     if (!result.plastic_zones.empty()) line("permanent set", permanent_set_text(result));
   }
-  line("final velocities", final_velocities_text(result, errors));
+  line("final velocities", final_velocities_text(input, result));
   line("conservation",
        result.max_momentum_error
            ? fmt::format("energy to {:.1e}, momentum to {:.1e}, relative", result.max_energy_error,

@@ -201,9 +201,9 @@ const Record<WishOutcome>& wish_record() {
   static const Record<WishOutcome> record = {
       {"event_times_s", "error of event times that was asked for", &WishOutcome::wished,
        Form::finite},
-      {"reached_error_s", "largest error before the horizon; null: not known",
+      {"reached_error_s", "largest error of a certain event time; null: not known",
        &WishOutcome::reached},
-      {"horizon_s", "up to which event times are decided and within that error",
+      {"horizon_s", "up to which event times are certain and within that error",
        &WishOutcome::horizon, Form::finite},
       {"reason", "why the horizon comes before the end", &WishOutcome::reason, Form::empty_is_null},
       {"key_to_free", "key of the case that stands in the way", &WishOutcome::key,
@@ -229,24 +229,84 @@ const Record<ErrorEstimate::Part>& error_part_record() {
   static const Record<Part> record = {
       {"name", "time, mesh or layers", &Part::name},
       {"refined_run", "the run compared with", &Part::refined_run},
-      {"max_error_s", "largest error before the first unresolved one", &Part::largest_error},
+      {"max_error_s", "largest error of a certain time", &Part::largest_error},
       {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact",
        &Part::first_unresolved, Form::from_one},
       {"reason", "why it is uncertain", &Part::reason, Form::empty_is_null}};
   return record;
 }
 
+const Record<ErrorEstimate::UncertainFlight>& flight_record() {
+  using Flight = ErrorEstimate::UncertainFlight;
+  static const Record<Flight> record = {
+      {"after_index", "number, from 1, of the sub-impact before it", &Flight::after,
+       Form::from_one},
+      {"reason", "why it may hold another sub-impact", &Flight::reason}};
+  return record;
+}
+
 const Record<ErrorEstimate>& error_record() {
   static const Record<ErrorEstimate> record = {
       {"refined_run", "the runs compared with", &ErrorEstimate::refined_run},
-      {"max_time_error_s", "largest error of a time before the first unresolved one",
-       &ErrorEstimate::largest_error},
-      {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact",
+      {"max_time_error_s", "largest error of a certain time", &ErrorEstimate::largest_error},
+      {"first_unresolved_index", "number, from 1, of the first sub-impact that is not certain",
        &ErrorEstimate::first_unresolved, Form::from_one},
       {"reason", "why it is uncertain", &ErrorEstimate::reason, Form::empty_is_null},
       list_entry<ErrorEstimate>("parts", "sources of error, one by one", &ErrorEstimate::parts,
-                                error_part_record())};
+                                error_part_record()),
+      list_entry<ErrorEstimate>("uncertain_flights", "", &ErrorEstimate::uncertain_flights,
+                                flight_record())};
   return record;
+}
+
+Json json_of(const Total& total) {
+  return {{"value", subimpact::json_of(total.value, Form::plain)},
+          {"error", subimpact::json_of(total.error, Form::plain)}};
+}
+
+void assign(Total& total, const Json& json) {
+  subimpact::assign(total.value, json.at("value"), "value", Form::plain);
+  subimpact::assign(total.error, json.at("error"), "error", Form::plain);
+}
+
+constexpr std::pair<const char*, Total ZoneTotals::*> zone_totals[] = {
+    {"start_s", &ZoneTotals::start},
+    {"end_s", &ZoneTotals::end},
+    {"impulse_Ns", &ZoneTotals::impulse},
+    {"sub_impacts", &ZoneTotals::sub_impacts}};
+
+// Names lead to objects of a value and an error; without error bars there are none.
+RunEntry totals_entry() {
+  RunEntry entry("totals",
+                 "numbers of the run as a whole, each with its value and its error, "
+                 "which covers 95 of 100; null: not known. by_zone: for each zone "
+                 "start_s, end_s, impulse_Ns, sub_impacts");
+  entry.write = [](Json& object, const DescribedRun& run) {
+    Json& totals = object["totals"] = nullptr;
+    if (!run.result->error_estimate) return;
+    for (const auto& [name, total] : run.result->error_estimate->totals) {
+      totals[name] = json_of(total);
+    }
+    totals["by_zone"] = Json::array();
+    for (const ZoneTotals& zone : run.result->error_estimate->zones) {
+      Json entry;
+      for (const auto& [name, member] : zone_totals) entry[name] = json_of(zone.*member);
+      totals["by_zone"].push_back(std::move(entry));
+    }
+  };
+  entry.read = [](const Json& object, DescribedRun& run) {
+    const Json& totals = object.at("totals");
+    if (totals.is_null() || !run.result->error_estimate) return;
+    ErrorEstimate& estimate = *run.result->error_estimate;
+    for (const auto& [name, json] : totals.items()) {
+      if (name != "by_zone") assign(estimate.totals.emplace_back(name, Total()).total, json);
+    }
+    for (const Json& json : totals.at("by_zone")) {
+      ZoneTotals& zone = estimate.zones.emplace_back();
+      for (const auto& [name, member] : zone_totals) assign(zone.*member, json.at(name));
+    }
+  };
+  return entry;
 }
 
 const Record<Predictability>& predictability_record() {
@@ -421,6 +481,7 @@ Record<DescribedRun> make_run_record() {
        result(&Result::max_impulse_error)},
       object_entry<DescribedRun>("error_bars", "errors of event times; null: not estimated",
                                  result(&Result::error_estimate), error_record()),
+      totals_entry(),
       object_entry<DescribedRun>("predictability", "of a case with scatter",
                                  result(&Result::predictability), predictability_record()),
 

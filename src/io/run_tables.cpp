@@ -12,14 +12,6 @@ std::optional<double> duration(const SubImpact& s) {
   return s.end ? std::optional(*s.end - s.start) : std::nullopt;
 }
 
-// `n_decided`: leading sub-impacts that are decided; none without an error estimate.
-Column<SubImpact> decided_column(const std::optional<std::size_t>& n_decided) {
-  return {"decided", "1: certain in count and order; 0: not; empty: without error bars",
-          [n_decided](const SubImpact&, std::size_t index) {
-            return n_decided ? std::optional(index < *n_decided ? 1 : 0) : std::nullopt;
-          }};
-}
-
 // A number of nine digits: fields are looked at and integrated, and their files are large.
 Column<ShapeRow> short_column(const char* name, const char* meaning, double ShapeRow::*member) {
   Column<ShapeRow> column(name, meaning, member);
@@ -98,7 +90,9 @@ const RunTable<SubImpact>& run_table() {
        {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
        {"striker_velocity_m_per_s", "velocity of the striker at the end",
         &SubImpact::striker_velocity},
-       decided_column(std::nullopt),
+       {"certain", "1: exists, alone, in this place; 0: uncertain; empty: without error bars",
+        &SubImpact::certain},
+       {"probability", "of that; 1 where certain", &SubImpact::probability},
        {"start_error_s",
         "error of start_s, sum of its parts; this and what follows: empty without "
         "error bars",
@@ -114,7 +108,16 @@ const RunTable<SubImpact>& run_table() {
        {"start_scatter_s",
         "standard deviation of start_s by the case's [scatter]; this and the next: empty without",
         &SubImpact::start_scatter},
-       {"end_scatter_s", "standard deviation of end_s", &SubImpact::end_scatter}},
+       {"end_scatter_s", "standard deviation of end_s", &SubImpact::end_scatter},
+       {"peak_force_error_N", "error of peak_force_N; this and the next: empty where not known",
+        &SubImpact::peak_force_error},
+       {"impulse_error_Ns", "error of impulse_Ns", &SubImpact::impulse_error},
+       {"max_indentation_error_m", "error of max_indentation_m", &SubImpact::max_indentation_error},
+       {"residual_indentation_error_m", "error of residual_indentation_m",
+        &SubImpact::residual_indentation_error},
+       {"striker_velocity_error_m_per_s", "error of striker_velocity_m_per_s",
+        &SubImpact::striker_velocity_error},
+       {"doubt", "why it is not certain", &SubImpact::doubt}},
       &Result::sub_impacts,
       one};
   return table;
@@ -249,13 +252,6 @@ const RunTable<EnvelopeRow>& run_table() {
       "at least 1/4000 of time.end apart",
       envelope_columns(), &Result::envelope, one_with_shapes};
   return table;
-}
-
-Columns<SubImpact> columns_for(const RunTable<SubImpact>& table, const Result& result) {
-  Columns<SubImpact> columns = table.columns;
-  *std::ranges::find(columns, "decided", &Column<SubImpact>::name) =
-      decided_column(result.n_decided());
-  return columns;
 }
 
 std::string column_listing() {

@@ -37,19 +37,11 @@ void for_each_run_table(Use use) {
   use(run_table<EnvelopeRow>());
 }
 
-/// The columns of a table as a result fills them.
-template <class Row>
-const Columns<Row>& columns_for(const RunTable<Row>& table, const Result&) {
-  return table.columns;
-}
-/// With `decided`.
-Columns<SubImpact> columns_for(const RunTable<SubImpact>& table, const Result& result);
-
 /// The contents of a file.
 template <class Row>
 std::string csv_of(const Result& result) {
   const RunTable<Row>& table = run_table<Row>();
-  return csv_text(columns_for(table, result), result.*table.rows);
+  return csv_text(table.columns, result.*table.rows);
 }
 
 }  // namespace subimpact

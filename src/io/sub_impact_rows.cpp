@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "io/uncertain.h"
@@ -14,75 +13,59 @@ namespace {
 
 constexpr double us = 1e6;  // per second
 constexpr double mm = 1e3;  // per metre
-constexpr double unknown = std::numeric_limits<double>::infinity();
 
 constexpr std::size_t least_number_width = 4;
+constexpr int digits_if_uncertain = 3;
 
-enum Quantity { start, end, duration, peak, impulse, indentation, residual, velocity };
-constexpr std::size_t n_quantities = 8;
-
-struct QuantityFormat {
+// A value of a sub-impact in its unit, none where the sub-impact has no end; its error likewise,
+// none where it is not known.
+using Number = std::optional<double>;
+struct Quantity {
   const char* name;
   const char* unit;
   std::size_t least_width;
   int decimals;       // without an error estimate
   int most_decimals;  // with one
-  bool is_time;
-  bool shows_error;
+  bool is_instant;
+  Number (*value)(const SubImpact&);
+  Number (*error)(const SubImpact&);
 };
-constexpr QuantityFormat formats[n_quantities] = {
-    {"start", "us", 13, 4, 6, true, true},      {"end", "us", 13, 4, 6, true, true},
-    {"duration", "us", 11, 4, 6, true, false},  {"peak force", "N", 11, 2, 2, false, false},
-    {"impulse", "N s", 11, 6, 6, false, false}, {"indentation", "max, mm", 12, 7, 7, false, false},
-    {"residual", "mm", 12, 7, 7, false, false}, {"striker", "m/s", 11, 6, 6, false, false},
+
+Number scaled(const Number& value, double factor) {
+  return value ? Number(*value * factor) : std::nullopt;
+}
+
+Number duration(const SubImpact& s) {
+  return s.end ? Number((*s.end - s.start) * us) : std::nullopt;
+}
+Number duration_error(const SubImpact& s) {
+  return s.start_error && s.end_error ? Number((*s.start_error + *s.end_error) * us) : std::nullopt;
+}
+
+// The member of a sub-impact in a unit.
+template <auto member, double factor = 1.0>
+Number in(const SubImpact& s) {
+  return scaled(s.*member, factor);
+}
+
+constexpr Quantity quantities[] = {
+    {"start", "us", 13, 4, 6, true, in<&SubImpact::start, us>, in<&SubImpact::start_error, us>},
+    {"end", "us", 13, 4, 6, true, in<&SubImpact::end, us>, in<&SubImpact::end_error, us>},
+    {"duration", "us", 11, 4, 6, false, duration, duration_error},
+    {"peak force", "N", 11, 2, 2, false, in<&SubImpact::peak_force>,
+     in<&SubImpact::peak_force_error>},
+    {"impulse", "N s", 11, 6, 6, false, in<&SubImpact::impulse>, in<&SubImpact::impulse_error>},
+    {"indentation", "max, mm", 12, 7, 7, false, in<&SubImpact::max_indentation, mm>,
+     in<&SubImpact::max_indentation_error, mm>},
+    {"residual", "mm", 12, 7, 7, false, in<&SubImpact::residual_indentation, mm>,
+     in<&SubImpact::residual_indentation_error, mm>},
+    {"striker", "m/s", 11, 6, 6, false, in<&SubImpact::striker_velocity>,
+     in<&SubImpact::striker_velocity_error>},
 };
 
 struct Cell {
   std::string value, error;
 };
-
-struct Number {
-  std::optional<double> value;  // in the unit of its column; none: the sub-impact has no end
-  double error = unknown;
-};
-using Numbers = std::vector<Number>;  // one per quantity
-
-std::optional<double> scaled(const std::optional<double>& value, double factor) {
-  return value ? std::optional(*value * factor) : std::nullopt;
-}
-
-// Sums of errors over the sub-impacts so far, and the values before the next one.
-struct Sums {
-  double velocity = 0.0, velocity_error = 0.0;
-  double residual = 0.0, residual_error = 0.0;
-};
-
-Numbers numbers_of(const SubImpact& s, double end_or_last, Sums& sums) {
-  const double start_error = s.start_error.value_or(unknown);
-  // A contact that is still open has no end whose error could stand for those of its values.
-  const double end_error = s.end ? s.end_error.value_or(unknown) : unknown;
-  const double length = end_or_last - s.start;
-  const double relative = length > 0.0 ? (start_error + end_error) / length : unknown;
-  const auto error_of = [&](double value, double before = 0.0) {
-    return value == before ? 0.0 : relative * std::abs(value - before);
-  };
-  const double indentation_error = sums.residual_error + error_of(s.max_indentation, sums.residual);
-  sums.velocity_error += error_of(s.striker_velocity, sums.velocity);
-  sums.residual_error += error_of(s.residual_indentation, sums.residual);
-  sums.velocity = s.striker_velocity;
-  sums.residual = s.residual_indentation;
-  Numbers numbers(n_quantities);
-  numbers[start] = {s.start * us, start_error * us};
-  numbers[end] = {scaled(s.end, us), end_error * us};
-  numbers[duration] = {s.end ? std::optional(length * us) : std::nullopt,
-                       (start_error + end_error) * us};
-  numbers[peak] = {s.peak_force, error_of(s.peak_force)};
-  numbers[impulse] = {s.impulse, error_of(s.impulse)};
-  numbers[indentation] = {s.max_indentation * mm, indentation_error * mm};
-  numbers[residual] = {s.residual_indentation * mm, sums.residual_error * mm};
-  numbers[velocity] = {s.striker_velocity, sums.velocity_error};
-  return numbers;
-}
 
 // An exact number shows the digits that it has: "0" for the first start.
 std::string exact_text(double value, int decimals) {
@@ -93,51 +76,37 @@ std::string exact_text(double value, int decimals) {
   return text;
 }
 
-// Formats the numbers of one quantity, row after row.
-class Formatter {
- public:
-  /// `undecided_decimals`: most decimals of rows that are not decided, where an error is known.
-  Formatter(const QuantityFormat& format, bool has_errors, std::optional<int> undecided_decimals)
-      : format_(format), has_errors_(has_errors), decimals_(undecided_decimals) {}
+// A value that is not 0 is not printed as 0.
+std::string rounded(double value, int decimals) {
+  const std::string text = with_decimals(value, decimals);
+  const bool is_zero = text.find_first_of("123456789") == text.npos;
+  return is_zero && value != 0.0 ? with_digits(value, 2) : text;
+}
 
-  Cell cell(const Number& number, bool is_decided) {
-    if (!number.value) return {};
-    if (!has_errors_) return {with_decimals(*number.value, format_.decimals), {}};
-    const std::optional<Rounding> rounding = rounding_of(number.error, format_.most_decimals);
-    const char* doubt = format_.shows_error ? "?" : "";
-    if (is_decided && !rounding) return {with_two_digits(*number.value), doubt};
-    if (!is_decided) {
-      if (rounding && number.error > 0.0) allow_decimals(rounding->decimals);
-      return {decimals_ ? with_decimals(*number.value, *decimals_) : with_two_digits(*number.value),
-              doubt};
-    }
-    if (number.error == 0.0) return {exact_text(*number.value, rounding->decimals), {}};
-    allow_decimals(rounding->decimals);
-    return {with_decimals(*number.value, rounding->decimals),
-            format_.shows_error ? rounding->error : std::string()};
+// Decimals with which the start and the end of a contact differ.
+int decimals_of_times(const SubImpact& s) {
+  if (!s.end) return 1;
+  const double length = *duration(s);
+  if (!(length > 0.0)) return quantities[0].most_decimals;
+  return std::clamp(2 - static_cast<int>(std::floor(std::log10(length))), 1,
+                    quantities[0].most_decimals);
+}
+
+Cell cell_of(const Quantity& quantity, const SubImpact& s, bool has_errors) {
+  const Number value = quantity.value(s);
+  if (!value) return {};
+  if (!has_errors) return {with_decimals(*value, quantity.decimals), {}};
+  if (!s.certain.value_or(true)) {
+    return {quantity.is_instant ? with_decimals(*value, decimals_of_times(s))
+                                : with_digits(*value, digits_if_uncertain),
+            {}};
   }
-
- private:
-  void allow_decimals(int decimals) {
-    decimals_ = std::min(decimals_.value_or(format_.decimals), decimals);
-  }
-
-  const QuantityFormat& format_;
-  bool has_errors_;
-  std::optional<int> decimals_;  // of rows that are not decided; none while no error is known
-};
-
-// The decimals that the largest error of a time leaves; none if no error is known.
-std::optional<int> decimals_of_times(const std::vector<Numbers>& rows) {
-  double largest = 0.0;
-  for (const Numbers& row : rows) {
-    for (const Quantity q : {start, end}) {
-      if (std::isfinite(row[q].error)) largest = std::max(largest, row[q].error);
-    }
-  }
-  if (largest == 0.0) return std::nullopt;
-  const std::optional<Rounding> rounding = rounding_of(largest, formats[start].decimals);
-  return rounding ? std::optional(rounding->decimals) : std::nullopt;
+  const Number error = quantity.error(s);
+  const auto rounding = rounding_of(error.value_or(HUGE_VAL), quantity.most_decimals);
+  if (!rounding) return {with_digits(*value, digits_if_uncertain), {}};
+  if (*error == 0.0) return {exact_text(*value, rounding->decimals), {}};
+  return {rounded(*value, rounding->decimals),
+          quantity.is_instant ? rounding->error : std::string()};
 }
 
 // Puts the decimal points of a column under each other, and words to the right; each text then has
@@ -185,77 +154,63 @@ std::pair<std::vector<std::string>, std::size_t> column_texts(const std::vector<
 
 SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
   const std::vector<SubImpact>& all = result.sub_impacts;
-  const std::size_t n_decided = result.n_decided().value_or(all.size());
+  const bool has_errors = result.error_estimate.has_value();
+  const bool has_marks = has_errors && result.n_certain() != all.size();
   SubImpactRows table;
-  table.columns.push_back({"", "no.", least_number_width});
   std::vector<std::string> numbers;
-  std::vector<Numbers> rows;
-  Sums sums;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    table.rows.push_back({i < n_decided, {}});
-    const char* mark = i < n_decided ? (n_decided < all.size() ? " " : "") : "?";
+    table.rows.push_back({all[i].certain.value_or(true), {}});
+    const char* mark = !has_marks ? "" : table.rows.back().is_certain ? " " : "?";
     numbers.push_back(fmt::format("{}{}", i + 1, mark));
-    rows.push_back(numbers_of(all[i], result.end_of(all[i]), sums));
   }
-  const auto add_column = [&](std::vector<std::string> texts, std::size_t width) {
-    SubImpactRows::Column& column = table.columns.back();
+  const std::size_t number_width = numbers.empty() ? 0 : numbers.back().size();
+  for (std::string& number : numbers) number = fmt::format("{:>{}}", number, number_width);
+  const auto add_column = [&](SubImpactRows::Column column, std::vector<std::string> texts,
+                              std::size_t width) {
     column.width = std::max(column.width, width);
+    table.columns.push_back(column);
     for (std::size_t i = 0; i < texts.size(); ++i) {
       table.rows[i].cells.push_back(std::move(texts[i]));
     }
   };
-  const std::size_t number_width = numbers.empty() ? 0 : numbers.back().size();
-  for (std::string& number : numbers) number = fmt::format("{:>{}}", number, number_width);
-  add_column(numbers, number_width);
-  const std::optional<int> time_decimals = decimals_of_times(rows);
-  for (std::size_t q = 0; q < n_quantities; ++q) {
-    Formatter formatter(formats[q], result.error_estimate.has_value(),
-                        formats[q].is_time ? time_decimals : std::nullopt);
+  add_column({"", "no.", least_number_width}, numbers, number_width);
+  for (const Quantity& quantity : quantities) {
     std::vector<Cell> cells;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      cells.push_back(formatter.cell(rows[i][q], i < n_decided));
-      if (q == end && !all[i].end) cells.back() = {"(open)", {}};
+    for (const SubImpact& s : all) {
+      cells.push_back(cell_of(quantity, s, has_errors));
+      if (quantity.name == std::string_view("end") && !s.end) cells.back() = {"(open)", {}};
     }
     auto [texts, width] = column_texts(cells, plus_minus);
-    table.columns.push_back({formats[q].name, formats[q].unit, formats[q].least_width});
-    add_column(std::move(texts), width);
+    add_column({quantity.name, quantity.unit, quantity.least_width}, std::move(texts), width);
   }
   return table;
 }
 
-FinalErrors final_errors(const Case& input, const Result& result) {
-  const std::vector<SubImpact>& all = result.sub_impacts;
-  const std::size_t n_decided = result.n_decided().value_or(0);
-  FinalErrors errors;
-  double force = 0.0, indentation = 0.0;
-  Sums sums;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Numbers row = numbers_of(all[i], result.end_of(all[i]), sums);
-    const auto error = [&](Quantity q) { return i < n_decided ? row[q].error : unknown; };
-    if (all[i].peak_force > force) {
-      force = all[i].peak_force;
-      errors.max_force = error(peak);
-    }
-    if (all[i].max_indentation > indentation) {
-      indentation = all[i].max_indentation;
-      errors.max_indentation = error(Quantity::indentation) / mm;
-    }
-    errors.striker_velocity = error(velocity);
+std::string total_text(const Result& result, const char* name, double value, double factor,
+                       int decimals, const char* unit) {
+  value *= factor;
+  const std::string in_unit = *unit ? std::string(" ") + unit : std::string();
+  if (!result.error_estimate) return fmt::format("{:.{}f}{}", value, decimals, in_unit);
+  const auto& totals = result.error_estimate->totals;
+  const auto found = std::ranges::find(totals, name, &NamedTotal::name);
+  const Number error = found == totals.end() ? std::nullopt : scaled(found->total.error, factor);
+  const auto rounding = rounding_of(error.value_or(HUGE_VAL), decimals);
+  if (!rounding) {
+    return fmt::format("{}{} (a run beside did not complete, so that no error is known)",
+                       with_digits(value, digits_if_uncertain), in_unit);
   }
-  if (!result.error_estimate || result.error_estimate->first_unresolved) {
-    errors.striker_velocity = unknown;
-  }
-  const bool is_conserved = result.max_momentum_error && input.scene.beam.damping.mass == 0.0;
-  errors.beam_velocity =
-      is_conserved ? errors.striker_velocity * input.scene.striker.mass / input.scene.beam.mass()
-                   : unknown;
-  return errors;
+  return fmt::format("{} +- {}{}", rounded(value, rounding->decimals), rounding->error, in_unit);
 }
 
-std::string undecided_reason(const Result& result) {
-  if (!result.error_estimate || !result.error_estimate->first_unresolved) return {};
-  const std::string& reason = result.error_estimate->reason;
-  return reason.empty() ? "the reason is not known" : reason;
+std::string place_of_doubt(const Result& result, std::size_t first_unresolved,
+                           const std::string& reason) {
+  if (first_unresolved >= result.sub_impacts.size()) return "after the last sub-impact";
+  const auto is_there = [&](const ErrorEstimate::UncertainFlight& flight) {
+    return flight.after + 1 == first_unresolved && reason.ends_with(flight.reason);
+  };
+  return std::ranges::any_of(result.error_estimate->uncertain_flights, is_there)
+             ? fmt::format("after sub-impact {}", first_unresolved)
+             : fmt::format("sub-impact {}", first_unresolved + 1);
 }
 
 }  // namespace subimpact

@@ -50,12 +50,14 @@ std::optional<Rounding> rounding_of(double error, int most_decimals) {
   return Rounding{decimals, with_decimals(decimals >= 0 ? units / unit : units * unit, decimals)};
 }
 
-std::string with_two_digits(double value) {
+std::string with_digits(double value, int digits) {
   const double size = std::abs(value);
-  if (size > 0.0 && size < 1e-6) return fmt::format("{:.1e}", value);
-  return with_decimals(value, size > 0.0 && std::isfinite(size)
-                                  ? 1 - static_cast<int>(std::floor(std::log10(size)))
-                                  : 0);
+  if (size > 0.0 && size < 1e-6) return fmt::format("{:.{}e}", value, digits - 1);
+  if (!(size > 0.0 && std::isfinite(size))) return with_decimals(value, 0);
+  int decimals = digits - 1 - static_cast<int>(std::floor(std::log10(size)));
+  // 99.99 becomes 100 with three digits, not 100.0.
+  if (std::round(size * std::pow(10.0, decimals)) >= std::pow(10.0, digits)) --decimals;
+  return with_decimals(value, decimals);
 }
 
 std::string error_text(double seconds) {

@@ -48,7 +48,7 @@ Json run_row(const FinishedRun& run, const std::string& name, std::size_t i) {
                                   duration_text(result.outcome.time))},
           {"sub_impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
                                       counted(summarise_zones(result.sub_impacts).size(), "zone"),
-                                      decided_words(result))},
+                                      certain_words(result))},
           {"force", fmt::format("{:.5g} N", result.max_force)},
           {"mesh", result.used.mesh},
           {"method", to_string(run.input.solver.method)},
@@ -83,7 +83,7 @@ Json pair_row(const MatchedPair& pair, const Result& first, const Result& second
   cells.resize(8);
   return {{"from", shown.start},
           {"to", (a ? first : second).end_of(shown)},
-          {"row_class", a && b ? "" : " class=\"undecided\""},
+          {"row_class", a && b ? "" : " class=\"uncertain\""},
           {"cells", cells}};
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "case/counted.h"
 #include "io/sealed_files.h"
 #include "io/write_file.h"
 #include "report/figure_script.h"
@@ -36,14 +37,13 @@ void mark_clauses(FigureScript& figure, const std::string& text) {
   }
 }
 
-std::string undecided_mark(const Result& result) {
+std::string uncertain_mark(const Result& result) {
   const std::size_t n = result.sub_impacts.size();
-  const std::size_t n_decided = result.n_decided().value_or(n);
-  if (!result.error_estimate || result.all_decided()) return {};
-  if (n_decided == n) return "there may be another sub-impact after the last";
-  if (n_decided == 0) return "no sub-impact is decided";
-  return n_decided + 1 == n ? fmt::format("sub-impact {} is not decided", n)
-                            : fmt::format("sub-impacts {} to {} are not decided", n_decided + 1, n);
+  const std::size_t n_certain = result.n_certain().value_or(n);
+  if (!result.error_estimate || result.all_certain()) return {};
+  if (n_certain == n) return "there may be another sub-impact";
+  return fmt::format("{} of {} {} not certain", n - n_certain, counted(n, "sub-impact"),
+                     n - n_certain == 1 ? "is" : "are");
 }
 
 constexpr const char* script_names[] = {"style",       "tables",   "response", "first-sub-impact",
@@ -106,10 +106,10 @@ std::vector<FigureScript> figure_scripts(const Case& input, const Result& result
   if (!result.shapes.empty()) figures.push_back(shapes_figure(input, result));
   if (!result.envelope.empty()) figures.push_back(envelope_figure(input, result));
   const std::string caveat = outcome_caveat(result);
-  const std::string undecided = undecided_mark(result);
+  const std::string uncertain = uncertain_mark(result);
   for (FigureScript& figure : figures) {
     mark_clauses(figure, caveat);
-    if (!undecided.empty()) figure.mark(undecided);
+    if (!uncertain.empty()) figure.mark(uncertain);
   }
   return figures;
 }

@@ -10,7 +10,6 @@
 
 #include "case/problem.h"
 #include "report/figure_script.h"
-#include "subimpact/study/strike_account.h"
 
 namespace subimpact {
 namespace {
@@ -27,30 +26,38 @@ void add_line(NumberRows& rows, std::size_t number, const std::vector<Point>& po
   for (const Point& p : points) rows.push_back({static_cast<double>(number), p.x, p.y});
 }
 
+// The sub-impacts after the first in which the contact yielded further.
+std::vector<std::size_t> yielding_again(const Result& result) {
+  std::vector<std::size_t> found;
+  const auto& hits = result.sub_impacts;
+  for (std::size_t i = 1; i < hits.size(); ++i) {
+    if (hits[i].residual_indentation > hits[i - 1].residual_indentation) found.push_back(i);
+  }
+  return found;
+}
+
 // The table $sub_impacts, and where their zones and sub-zones are. Without an error estimate all
-// count as decided.
+// count as certain.
 void add_sub_impacts(FigureScript& figure, const Result& result) {
-  const std::size_t n_decided = result.n_decided().value_or(result.sub_impacts.size());
+  const std::size_t n_certain = result.n_certain().value_or(result.sub_impacts.size());
   NumberRows rows, zones, subzones;
   for (const SubImpact& s : result.sub_impacts) {
     const std::size_t i = rows.size();
     rows.push_back({1.0 + static_cast<double>(i), 1.0 * s.zone, s.start, result.end_of(s),
-                    s.impulse, i < n_decided ? 1.0 : 0.0, s.start_error.value_or(0.0),
+                    s.impulse, s.certain.value_or(true) ? 1.0 : 0.0, s.start_error.value_or(0.0),
                     s.start_scatter.value_or(0.0)});
+    const bool begins_zone = i == 0 || result.sub_impacts[i - 1].zone != s.zone;
+    const bool begins = begins_zone || result.sub_impacts[i - 1].subzone != s.subzone;
+    if (begins_zone) zones.push_back({s.start, 0.0, 1.0 * s.zone});
+    if (begins) subzones.push_back({s.start, 0.0, 1.0 * s.subzone});
+    zones.back()[1] = subzones.back()[1] = result.end_of(s);
   }
-  for (const StrikePart& part : strike_parts(result)) {
-    if (part.kind == StrikePart::Kind::zone) {
-      zones.push_back({part.start, part.end, 1.0 * part.zone});
-    } else if (part.kind == StrikePart::Kind::subzone) {
-      subzones.push_back({part.start, part.end, 1.0 * part.subzone});
-    }
-  }
-  figure.table("sub_impacts", "number,zone,from,to,impulse,decided,start_error,start_scatter",
+  figure.table("sub_impacts", "number,zone,from,to,impulse,certain,start_error,start_scatter",
                rows);
   figure.table("zones", "from,to,number", zones);
   figure.table("subzones", "from,to,number", subzones);
   figure.set("end", result.outcome.time);
-  figure.set("n_undecided", static_cast<double>(rows.size() - n_decided));
+  figure.set("n_uncertain", static_cast<double>(rows.size() - n_certain));
 }
 
 // --- force against indentation -------------------------------------------------------------------
@@ -154,7 +161,7 @@ FigureScript response_figure(const Case&, const Result& result) {
   FigureScript figure("response",
                       "Contact force and displacements over the strike: w_c of the struck point, "
                       "w_m of the striker, f_c = w_c − w(0) the beam's deflection at the struck "
-                      "point. Shaded: sub-impacts, hatched where they are not decided.",
+                      "point. Shaded: sub-impacts, hatched where they are not certain.",
                       {800, 580});
   figure.history({"force_N", "w_c_m", "w_m_m", "f_c_m"}, result.history, {690, 210});
   add_sub_impacts(figure, result);
@@ -220,7 +227,7 @@ FigureScript energies_figure(const Case&, const Result& result) {
   FigureScript figure("energies",
                       "Energies, and the motion of striker (u_mf = w_m − w(0)) and struck point "
                       "(f_c = w_c − w(0)) relative to the beam's end. Above: zones, sub-zones and "
-                      "sub-impacts, pale where they are not decided; zones are shaded.",
+                      "sub-impacts, pale where they are not certain; zones are shaded.",
                       {800, 660});
   figure.history({"U_m_J", "U_k_J", "U_e_J", "U_p_J", "D_c_J", "D_b_J", "f_c_m", "u_mf_m"},
                  result.history, {660, 280});
@@ -236,7 +243,7 @@ FigureScript energies_figure(const Case&, const Result& result) {
 FigureScript timeline_figure(const Case&, const Result& result) {
   std::string caption =
       "Every sub-impact at the time it begins: duration and impulse, on logarithmic "
-      "axes; numbers count the sub-impacts. Pale with open circles: not decided.";
+      "axes; numbers count the sub-impacts. Pale with open circles: not certain.";
   const auto any = [&](std::optional<double> SubImpact::*bar) {
     return std::ranges::any_of(
         result.sub_impacts, [&](double x) { return x > 0.0; },

@@ -28,21 +28,25 @@ Json headlines(const Result& result) {
     list.push_back(headline(certain, words));
   };
   const std::size_t n = result.sub_impacts.size();
-  if (const std::optional<std::size_t> n_decided = result.n_decided()) {
+  if (const std::optional<std::size_t> n_certain = result.n_certain()) {
     const std::string within =
         result.error_estimate->largest_error > 0.0
             ? ", each start and end within " + error_text(result.error_estimate->largest_error)
             : "";
-    if (result.all_decided()) {
-      line(true, fmt::format("count and order of all {}{}.", counted(n, "sub-impact"), within));
-    } else if (*n_decided > 0) {
-      const std::string first = *n_decided == 1 ? "sub-impact" : counted(*n_decided, "sub-impact");
+    if (result.all_certain() && n == 0) {
+      line(true, "that there are no sub-impacts.");
+    } else if (result.all_certain()) {
       line(true,
-           fmt::format("the first {}, up to {}{}.", first,
-                       duration_text(result.end_of(result.sub_impacts[*n_decided - 1])), within));
-    }
-    if (const std::string reason = undecided_reason(result); !reason.empty()) {
-      line(false, fmt::format("what comes from sub-impact {} on: {}.", *n_decided + 1, reason));
+           fmt::format("{}{}, and that there are no others.",
+                       n == 1 ? "the one sub-impact" : "all " + counted(n, "sub-impact"), within));
+    } else {
+      if (*n_certain > 0) {
+        line(true, fmt::format("{} of {}{}.", *n_certain, counted(n, "sub-impact"), within));
+      }
+      const ErrorEstimate& estimate = *result.error_estimate;
+      line(false, fmt::format("{}: {}.",
+                              place_of_doubt(result, *estimate.first_unresolved, estimate.reason),
+                              estimate.reason));
     }
   } else {
     line(false, "event times, count and order of sub-impacts: no error bars were computed.");
@@ -55,33 +59,22 @@ Json headlines(const Result& result) {
   return list;
 }
 
-// A number with the digits that the error allows; two where it is not known.
-Json number_tile(const Result& result, double value, double error, const char* unit,
-                 const char* label) {
-  const std::optional<Rounding> rounding = rounding_of(error, 6);
-  const bool not_known = result.error_estimate && !rounding;
-  const std::string text = !result.error_estimate ? fmt::format("{:.4g}", value)
-                           : rounding
-                               ? with_decimals(value, rounding->decimals) + " ± " + rounding->error
-                               : with_two_digits(value);
-  return {{"value", text + " " + unit},
-          {"label", fmt::format("{}{}", label, not_known ? " (error not known)" : "")}};
-}
-
-Json tiles(const Case& input, const Result& result) {
+Json tiles(const Result& result) {
   const std::size_t n = result.sub_impacts.size();
   const std::size_t n_zones = summarise_zones(result.sub_impacts).size();
-  const FinalErrors errors = final_errors(input, result);
+  const auto tile = [&](const char* name, double value, double factor, const char* unit,
+                        const char* label) -> Json {
+    return {{"value", in_print(total_text(result, name, value, factor, 6, unit))},
+            {"label", label}};
+  };
   return {
-      {{"value", n}, {"label", noun_after(n, "sub-impact") + decided_words(result)}},
+      {{"value", n}, {"label", noun_after(n, "sub-impact") + certain_words(result)}},
       {{"value", n_zones}, {"label", noun_after(n_zones, "zone")}},
-      number_tile(result, 1e-3 * result.max_force, 1e-3 * errors.max_force, "kN", "largest force"),
-      number_tile(result, 1e3 * result.max_indentation, 1e3 * errors.max_indentation, "mm",
-                  "largest indentation"),
-      number_tile(result, result.striker_velocity, errors.striker_velocity, "m/s",
-                  "striker, at the end"),
-      number_tile(result, result.beam_mean_velocity, errors.beam_velocity, "m/s",
-                  "beam (mean), at the end")};
+      tile("peak_force_N", result.max_force, 1e-3, "kN", "largest force"),
+      tile("max_indentation_m", result.max_indentation, 1e3, "mm", "largest indentation"),
+      tile("striker_velocity_m_per_s", result.striker_velocity, 1.0, "m/s", "striker, at the end"),
+      tile("beam_mean_velocity_m_per_s", result.beam_mean_velocity, 1.0, "m/s",
+           "beam (mean), at the end")};
 }
 
 Json figure_list(const DrawnFigures& figures, const std::filesystem::path& figure_directory) {
@@ -94,18 +87,13 @@ Json figure_list(const DrawnFigures& figures, const std::filesystem::path& figur
   });
 }
 
-// The table of sub-impacts; a line across it stands where they are no longer decided, which may be
-// after the last row, if a refined run has sub-impacts that this run lacks.
+// The table of sub-impacts.
 void add_sub_impacts(Json& page, const Result& result) {
   const SubImpactRows table = sub_impact_rows(result, "±");
-  const std::size_t n_decided = result.n_decided().value_or(table.rows.size());
-  const std::string reason = undecided_reason(result);
   page["n_columns"] = table.columns.size();
   page["columns"] = list_of(table.columns, [](const SubImpactRows::Column& column) -> Json {
     return {{"name", column.name}, {"unit", column.unit == std::string("us") ? "µs" : column.unit}};
   });
-  page["undecided_reason"] = in_print(reason);
-  page["undecided_after"] = result.n_decided() == table.rows.size() && !reason.empty();
   Json list = Json::array();
   int zone = 0, subzone = 0;
   for (const SubImpact& s : result.sub_impacts) {
@@ -114,8 +102,8 @@ void add_sub_impacts(Json& page, const Result& result) {
     zone = s.zone;
     subzone = s.subzone;
     list.push_back({{"index", list.size()},
-                    {"row_class", row.is_decided ? "" : " class=\"undecided\""},
-                    {"undecided_from", list.size() == n_decided},
+                    {"row_class", row.is_certain ? "" : " class=\"uncertain\""},
+                    {"doubt", in_print(s.doubt)},
                     {"begins", begins},
                     {"zone", zone},
                     {"subzone", subzone},
@@ -145,21 +133,27 @@ Json method_rows(const FinishedRun& run) {
   });
 }
 
-Json error_bars(const std::optional<ErrorEstimate>& estimate) {
-  if (!estimate) return nullptr;
-  const auto part_row = [](const ErrorEstimate::Part& part) -> Json {
+Json error_bars(const Result& result) {
+  if (!result.error_estimate) return nullptr;
+  const bool has_certain = *result.n_certain() > 0;
+  const auto part_row = [&](const ErrorEstimate::Part& part) -> Json {
     const std::optional<std::size_t>& unresolved = part.first_unresolved;
     return {{"name", part.name},
             {"run", part.refined_run},
-            {"error", unresolved == std::size_t{0} ? "" : in_print(error_text(part.largest_error))},
-            {"valid", unresolved ? fmt::format("before sub-impact {}; from there on count and "
-                                               "order are uncertain: {}",
-                                               *unresolved + 1, in_print(part.reason))
+            {"error", has_certain ? in_print(error_text(part.largest_error)) : ""},
+            {"valid", unresolved ? fmt::format("of certain ones; {}: {}",
+                                               place_of_doubt(result, *unresolved, part.reason),
+                                               in_print(part.reason))
                                  : "for all sub-impacts"}};
   };
-  const std::optional<std::size_t>& unresolved = estimate->first_unresolved;
-  return {{"parts", list_of(estimate->parts, part_row)},
-          {"uncertain", unresolved ? Json(*unresolved + 1) : Json(nullptr)}};
+  return {{"parts", list_of(result.error_estimate->parts, part_row)}};
+}
+
+Json flights(const std::optional<ErrorEstimate>& estimate) {
+  if (!estimate) return nullptr;
+  return list_of(estimate->uncertain_flights, [](const auto& flight) -> Json {
+    return {{"after", flight.after + 1}, {"reason", in_print(flight.reason)}};
+  });
 }
 
 void add_conservation(Json& page, const Result& result) {
@@ -213,14 +207,16 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"scatter_table",
        if_any(result.predictability, [&](const auto&) { return scatter_table(result); })},
       {"caveat", in_print(outcome_caveat(result))},
+      {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
       {"warnings", result.warnings},
       {"neglected", if_any(result.neglected_shear, neglected_shear_words)},
-      {"tiles", tiles(run.input, result)},
-      {"paragraphs", list_of(strike_words(run.input, result), in_print)},
+      {"tiles", tiles(result)},
+      {"flights", flights(result.error_estimate)},
+      {"summary", in_print(run_summary(run.input, result))},
       {"figures", figure_list(figures, figure_directory)},
       {"left_out", figures.left_out},
       {"failed", figures.failed},
-      {"error_bars", error_bars(result.error_estimate)},
+      {"error_bars", error_bars(result)},
       {"method", method_rows(run)},
       {"no_error_bars", !result.error_estimate}};
   add_sub_impacts(page, result);

@@ -171,7 +171,6 @@ Json number_or_null(const std::optional<double>& value) {
 }
 
 Json sub_impacts_json(const Result& result) {
-  const std::size_t n_decided = result.n_decided().value_or(result.sub_impacts.size());
   return list_of(result.sub_impacts,
                  [&, index = std::size_t{0}](const SubImpact& s) mutable -> Json {
                    return {{"start", s.start},
@@ -182,7 +181,7 @@ Json sub_impacts_json(const Result& result) {
                            {"end_error", number_or_null(s.end_error)},
                            {"start_scatter", number_or_null(s.start_scatter)},
                            {"end_scatter", number_or_null(s.end_scatter)},
-                           {"decided", index++ < n_decided}};
+                           {"certain", s.certain.value_or(true)}};
                  });
 }
 

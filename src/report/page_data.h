@@ -24,9 +24,4 @@ PageData page_data(const Case& input, const Result& result);
 std::string comparison_data(const std::vector<std::string>& names,
                             const std::vector<const Result*>& results);
 
-/// A description of a strike in sentences: sub-impacts and zones, first yields, what the striker
-/// lost, and compression and recovery in terms of the beam's elastic energy. One paragraph per
-/// entry.
-std::vector<std::string> strike_words(const Case& input, const Result& result);
-
 }  // namespace subimpact

@@ -48,7 +48,9 @@ std::vector<DampingOfMethod> by_method(const std::vector<Damping>& rows) {
 template <class Row>
 StabilityPart part_of(const char* name, const StudyColumns<Row>& columns,
                       const std::vector<Row>& rows) {
-  StabilityPart part{printed_table(columns, rows), name};
+  StabilityPart part;
+  part.text = printed_table(columns, rows);
+  part.name = name;
   part.tables = {{part.name + ".csv", csv_text(columns_in_file(columns), rows)}};
   return part;
 }

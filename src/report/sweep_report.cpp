@@ -29,8 +29,8 @@ struct Shown {
 constexpr Shown shown_results[] = {
     {"n_sub_impacts", "sub-impacts", "", 1.0},
     {"n_zones", "zones", "", 1.0},
-    {"n_decided", "sub-impacts decided", "", 1.0},
-    {"all_decided", "all decided (1: yes)", "", 1.0},
+    {"n_certain", "sub-impacts certain", "", 1.0},
+    {"all_certain", "all certain (1: yes)", "", 1.0},
     {"time_s", "time reached", "ms", 1e3},
     {"wish_met", "wish met (1: yes)", "", 1.0},
     {"horizon_s", "horizon of the wish", "µs", 1e6},
@@ -118,9 +118,9 @@ std::map<std::string, std::size_t> outcomes(const SweptRuns& runs) {
 
 Json headlines(const SweptRuns& runs) {
   Json list = Json::array();
-  if (const SweptRuns::Column* decided = runs.find("all_decided")) {
-    const auto n_certain = std::ranges::count(decided->numbers, 1.0);
-    const auto n_uncertain = std::ranges::count(decided->numbers, 0.0);
+  if (const SweptRuns::Column* certain = runs.find("all_certain")) {
+    const auto n_certain = std::ranges::count(certain->numbers, 1.0);
+    const auto n_uncertain = std::ranges::count(certain->numbers, 0.0);
     if (n_certain > 0) {
       list.push_back(headline(true, fmt::format("count and order of the sub-impacts in {} of {}.",
                                                 n_certain, counted(runs.numbers.size(), "run"))));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
 #include "system/accounts.h"
@@ -22,6 +24,11 @@ double RunView::indentation() const { return beam_.indentation(state_); }
 double RunView::residual_indentation() const { return beam_.contact().residual_indentation(); }
 double RunView::contact_force() const { return beam_.contact_force(state_); }
 Energies RunView::energies() const { return Accounts(beam_).energies(state_); }
+
+std::optional<std::size_t> Result::n_certain() const {
+  if (!error_estimate) return std::nullopt;
+  return std::ranges::count(sub_impacts, std::optional(true), &SubImpact::certain);
+}
 
 std::string Result::brief_report() const {
   return fmt::format("{} at {:.6g} s: {} sub-impacts, energy error {:.1e}, {} steps, {:.3g} s",

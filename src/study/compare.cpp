@@ -8,7 +8,7 @@
 
 #include "case/counted.h"
 #include "study/method_choice.h"
-#include "subimpact/study/error_bars.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
@@ -89,7 +89,8 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
     return !comparison.interrupted;
   };
   if (announce) announce("reference");
-  comparison.reference = simulate_with_error_bars(comparison.reference_input, watched);
+  comparison.reference = simulate_judged(
+      comparison.reference_input, cases_beside_in_time(comparison.reference_input), 1, watched);
   require_completed(comparison.reference);
   for (ComparedRun& run : runs) {
     if (announce) announce(run.name);
@@ -111,7 +112,8 @@ std::vector<TheoryRun> compare_theories(std::span<const Case> cases, Jobs jobs,
     if (announce) announce(i);
     Case input = cases[i];
     input.output.keep_no_rows();
-    TheoryRun run{input.scene.beam.theory, simulate_with_companion(input, jobs, progress), {}};
+    TheoryRun run{
+        input.scene.beam.theory, simulate_judged(input, cases_beside(input), jobs, progress), {}};
     if (run.result.outcome.kind == OutcomeKind::stopped) break;
     const Result& first = runs.empty() ? run.result : runs.front().result;
     run.pairs = match_sub_impacts(first.sub_impacts, run.result.sub_impacts);

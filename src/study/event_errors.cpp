@@ -8,7 +8,7 @@
 
 #include "case/problem.h"
 #include "study/method_choice.h"
-#include "subimpact/study/error_bars.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 namespace {
@@ -38,11 +38,11 @@ std::pair<std::size_t, std::string> count_known(const Result& result, double lar
   const std::size_t n = result.sub_impacts.size();
   for (std::size_t i = 0; i < n; ++i) {
     const SubImpact& s = result.sub_impacts[i];
-    if (result.error_estimate->first_unresolved == i) {
+    if (!s.certain.value_or(false)) {
       return {i, fmt::format("the reference does not resolve sub-impact {}", i + 1)};
     }
     if (!s.end) return {i, fmt::format("sub-impact {} has not ended at the case's end", i + 1)};
-    const double error = std::max(*s.start_error, *s.end_error);
+    const double error = std::max(s.start_error.value_or(HUGE_VAL), s.end_error.value_or(HUGE_VAL));
     if (error > largest_error) {
       return {i, fmt::format("the reference gives sub-impact {} only to within {:.1e} us", i + 1,
                              1e6 * error)};
@@ -75,7 +75,8 @@ Reference compute_reference(const Case& input, double largest_error, const Progr
   const Result other = refined_run.get();
   require_completed(result, first);
   require_completed(other, second);
-  add_error_bars(result, other, reference.description);
+  const RunBeside beside{{refined_input, "time", reference.description, 1.0}, other};
+  judge(reference.input, result, {&beside, 1});
 
   const auto [n, reason] = count_known(result, largest_error);
   if (n == 0) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <string>
 
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {
@@ -36,46 +36,19 @@ double wave_constant(const Beam& beam) {
   return std::sqrt(beam.bending_stiffness() / beam.mass_per_length());
 }
 
-struct Doubt {
-  std::size_t first;
-  std::string reason;
-};
+// Of the striker, in what the shortest contacts move at once.
+constexpr double largest_mass_share = 0.17;  // a sixth of the sum is a fifth of the striker
+constexpr double fewest_cells_to_end = 6.0;
 
-std::optional<Doubt> short_contact(const Result& result, const Case& input) {
-  const double shortest = shortest_contact_shown(input);
-  const auto& all = result.sub_impacts;
-  for (std::size_t i = 0; i < all.size() && all[i].end; ++i) {
-    const double contact = *all[i].end - all[i].start;
-    const double separation = i + 1 < all.size() ? all[i + 1].start - *all[i].end : shortest;
-    if (contact >= shortest && separation >= shortest) continue;
-    return Doubt{
-        i, fmt::format("{} {:.2g} us, and the mesh shows none shorter than {:.2g} us: it "
-                       "does not resolve the bending waves",
-                       contact < shortest ? "its contact lasts" : "the separation after it lasts",
-                       us * std::min(contact, separation), us * shortest)};
+// Of the strike, m; infinite without a free end.
+double distance_to_free_end(const Scene& scene) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const double at = scene.striker.position;
+  if (scene.beam.ends[0] == EndSupport::free) nearest = at * scene.beam.length;
+  if (scene.beam.ends[1] == EndSupport::free) {
+    nearest = std::min(nearest, (1.0 - at) * scene.beam.length);
   }
-  return std::nullopt;
-}
-
-std::optional<Doubt> open_contact(const Result& result, const Case& input) {
-  if (result.sub_impacts.empty() || result.sub_impacts.back().end) return std::nullopt;
-  const double needed =
-      parts_that_resolve(input, result.used.contact_time) / refinement_at_strike(input);
-  if (mesh_count(input) >= needed) return std::nullopt;
-  return Doubt{result.sub_impacts.size() - 1,
-               fmt::format("it lasts to the end, and {} parts of the mesh do not resolve the "
-                           "bending waves of contacts as short as {:.2g} us, as {:.0f} would",
-                           mesh_count(input), us * result.used.contact_time, std::ceil(needed))};
-}
-
-// Of the first n sub-impacts, s.
-double largest_error(const Result& result, std::size_t n) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const SubImpact& s = result.sub_impacts[i];
-    largest = std::max({largest, s.start_error.value_or(0.0), s.end_error.value_or(0.0)});
-  }
-  return largest;
+  return nearest;
 }
 
 }  // namespace
@@ -94,22 +67,59 @@ double shortest_contact_shown(const Case& input) {
   return std::pow(beam.length / cells, 2) / wave_constant(beam);
 }
 
-void doubt_unresolved_contacts(Result& result, const Case& input) {
-  if (!mesh_order(input)) return;
-  ErrorEstimate& estimate = *result.error_estimate;
-  for (const std::optional<Doubt>& doubt :
-       {short_contact(result, input), open_contact(result, input)}) {
-    if (!doubt || estimate.first_unresolved.value_or(doubt->first + 1) <= doubt->first) continue;
-    estimate.first_unresolved = doubt->first;
-    estimate.reason = doubt->reason;
-    estimate.largest_error = largest_error(result, doubt->first);
-    for (ErrorEstimate::Part& part : estimate.parts) {
-      if (!part.name.starts_with("mesh")) continue;
-      part.first_unresolved = doubt->first;
-      part.reason = doubt->reason;
-      part.largest_error = std::min(part.largest_error, estimate.largest_error);
-    }
+std::string unresolved_contact(const Case& input, const Result& result, std::size_t i) {
+  if (!mesh_order(input)) return {};
+  const auto& all = result.sub_impacts;
+  const SubImpact& here = all[i];
+  if (!here.end) {
+    const double needed =
+        parts_that_resolve(input, result.used.contact_time) / refinement_at_strike(input);
+    if (mesh_count(input) >= needed) return {};
+    return fmt::format(
+        "it lasts to the end and {} parts of the mesh do not resolve the bending "
+        "waves of contacts as short as {:.2g} us as {:.0f} would",
+        mesh_count(input), us * result.used.contact_time, std::ceil(needed));
   }
+  const double shortest = shortest_contact_shown(input);
+  const double contact = *here.end - here.start;
+  const double separation = i + 1 < all.size() ? all[i + 1].start - *here.end : shortest;
+  if (contact >= shortest && separation >= shortest) return {};
+  return fmt::format(
+      "{} {:.2g} us and the mesh shows none shorter than {:.2g} us: it does not "
+      "resolve the bending waves",
+      contact < shortest ? "its contact lasts" : "the separation after it lasts",
+      us * std::min(contact, separation), us * shortest);
+}
+
+std::string mesh_doubt(const Case& input, const ResolvedSettings& used) {
+  if (!mesh_order(input)) return {};
+  if (used.contact_mass_share > largest_mass_share) {
+    return fmt::format("the part of the mesh under the striker is {:.2g} times as heavy as it",
+                       used.contact_mass_share / (1.0 - used.contact_mass_share));
+  }
+  const double cells = refinement_at_strike(input) * cells_of_a_part(input) * mesh_count(input);
+  const double at = input.scene.striker.position;
+  const double to_end = std::min(at, 1.0 - at) * cells;
+  if (at == 0.0 || at == 1.0 || to_end >= fewest_cells_to_end) return {};
+  return fmt::format("the strike is {:.2g} cells of the mesh from an end", to_end);
+}
+
+double free_end_error(const Case& input, double contact_time, double time) {
+  const Beam& beam = input.scene.beam;
+  const bool cells = input.model.mesh == MeshKind::cells && !input.parts.mesh;
+  if (!cells || beam.theory != BeamTheory::rayleigh) return 0.0;
+  const auto n_free = std::count(beam.ends.begin(), beam.ends.end(), EndSupport::free);
+  if (n_free == 0) return 0.0;
+  const double speed = std::sqrt(beam.youngs_modulus / beam.density);
+  const double y2 = std::pow(beam.radius_of_gyration() / (speed * contact_time), 2);
+  const double x = 0.5 * (y2 + std::sqrt(y2 * (y2 + 4.0)));
+  const double stretch = 1.0 + x;
+  const double group_velocity = speed * std::sqrt(x) * (2.0 + x) / (stretch * std::sqrt(stretch));
+  const double round_trip = 2.0 * beam.length / group_velocity;
+  const double nearest = distance_to_free_end(input.scene);
+  const double reflected =
+      std::min(static_cast<double>(n_free) * time + round_trip, time * beam.length / nearest);
+  return reflected / input.model.segments * x / stretch;
 }
 
 }  // namespace subimpact

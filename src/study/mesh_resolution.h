@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 
@@ -24,10 +27,40 @@ constexpr double most_cells_at_first = 2000.0;
 /// beam. 0 for a rigid beam and for meshes of the caller's own.
 double shortest_contact_shown(const Case& input);
 
-/// Sets first_unresolved in the error estimate of a result to its first sub-impact that the mesh
-/// does not show: one with a contact, or a separation after it, that is too short; a contact that
-/// lasts to the end, whose end two runs may both have missed on a mesh with fewer than
-/// parts_that_resolve.
-void doubt_unresolved_contacts(Result& result, const Case& input);
+/// Why a sub-impact is not shown by the mesh, empty if it is: its contact, or the separation after
+/// it, is too short; or it lasts to the end, on a mesh with fewer than parts_that_resolve, where
+/// two runs may both have missed its end.
+std::string unresolved_contact(const Case& input, const Result& result, std::size_t i);
+
+/// Why the mesh shows no sub-impact rightly, empty if it may: what the striker moves at once is as
+/// heavy as a fifth of the striker, or the strike is a few cells from an end.
+std::string mesh_doubt(const Case& input, const ResolvedSettings& used);
+
+/// The first-order part of the error that cells with free ends leave in an event time: s, for an
+/// event at `time` (s) of a run with this `contact_time` (s, ResolvedSettings). 0 for other meshes,
+/// for supported ends and in Euler-Bernoulli theory.
+///
+/// The outer half of an end cell has no rotary inertia (CellMesh). By Rayleigh's quotient, a mode
+/// phi that lacks the inertia J dx/2 at each of n free ends has a frequency too high by
+///
+///     d omega/omega = (J dx/4) sum phi'^2(ends)/integral of (rho A phi^2 + J phi'^2)
+///                   = (n/N) x/(1 + x),   x = (r beta)^2,
+///
+/// the latter for wave numbers beta whose decaying waves do not reach the other end, where
+/// phi'^2(end) is four times the mean of phi'^2. beta follows from omega by
+/// (omega r/c)^2 = x^2/(1 + x), with the radius of gyration r and c = sqrt(E/rho). The shift grows
+/// with omega; the modes that matter go up to 1/contact_time.
+///
+/// Times shorten in the same proportion, on average. The shift is made where waves are reflected:
+/// each time T = 2 l/c_g, with the group velocity c_g, brings one reflection from each end, the
+/// first of them after 2 a/c_g, with the distance a of the strike from the nearest free end. So the
+/// shift is at most
+///
+///     x/(1 + x) min(n t + T, t l/a)/N.
+///
+/// All else of the mesh's error is of second order and falls faster, so that on fine meshes of
+/// thick beams this part takes over, with the other sign: in between, two meshes may agree by
+/// chance.
+double free_end_error(const Case& input, double contact_time, double time);
 
 }  // namespace subimpact

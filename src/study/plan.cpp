@@ -11,7 +11,7 @@
 #include "simulate/methods.h"
 #include "study/method_choice.h"
 #include "study/refinement.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {

@@ -8,7 +8,7 @@
 #include "simulate/methods.h"
 #include "study/mesh_resolution.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {

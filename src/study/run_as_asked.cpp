@@ -2,26 +2,32 @@
 
 #include <utility>
 
-#include "subimpact/study/error_bars.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 namespace {
 
-Result simulate_as_given(const Case& input, RunRequest& request) {
-  RowSink* rows = request.rows ? request.rows() : nullptr;
-  if (!request.error_bars)
-    return simulate_with_companion(input, request.jobs, request.progress, rows);
+std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& request) {
+  if (!request.error_bars) return cases_beside(input);
   switch (*request.error_bars) {
     case ErrorBars::time:
-      return simulate_with_error_bars(input, request.progress, rows);
+      return cases_beside_in_time(input);
     case ErrorBars::all:
-      return simulate_with_all_error_bars(input, request.progress, rows);
+      return cases_beside_by_part(input);
     case ErrorBars::off:
       break;
   }
-  if (!request.resolved) return simulate(input, request.progress, nullptr, rows);
-  return simulate(std::move(*request.resolved), request.progress, nullptr, rows);
+  return {};
+}
+
+Result simulate_as_given(const Case& input, RunRequest& request) {
+  RowSink* rows = request.rows ? request.rows() : nullptr;
+  if (request.error_bars == ErrorBars::off && request.resolved) {
+    return simulate(std::move(*request.resolved), request.progress, nullptr, rows);
+  }
+  resolve(input);  // whatever is wrong with the case itself
+  return simulate_judged(input, cases_asked_for(input, request), request.jobs, request.progress,
+                         rows);
 }
 
 }  // namespace
@@ -32,8 +38,8 @@ std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& give
   if (input.accuracy.event_times) {
     if (!error_bars) return open;
     throw InvalidCase("accuracy.event_times",
-                      "cannot go with error bars of another kind: the errors of a wish for event "
-                      "times come from companion runs; leave out one of the two");
+                      "cannot go with error bars of another kind: the errors of a searched mesh "
+                      "come from coarser ones; leave out one of the two");
   }
   if (open.all() && !error_bars) return open;
   return std::nullopt;

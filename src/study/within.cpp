@@ -4,341 +4,263 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"
-#include "study/error_part.h"
 #include "study/refinement.h"
-#include "study/run_beside.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {
 
-// Meshes finer by less than this are not worth a run. After a doubling the last run is the
-// companion of the next; a larger step would rely on the stated error of too coarse a mesh.
+// Meshes finer by less than this are not worth a run; a larger step than the usual one would rely
+// on errors of too coarse a mesh.
 constexpr double least_refinement = 1.25;
 constexpr double usual_refinement = 2.0;
-constexpr double half_refinement = 1.4142135623730951;
-// An error that a finer mesh leaves larger than this share of what it was is not the mesh's.
-constexpr double stalled = 0.8;
 // Of the refinement that the stated error asks for.
-constexpr double margin = 1.05;
-// Of the time scale of the shortest contacts, where nothing is wished.
+constexpr double margin = 1.1;
+// Of the time scale of the shortest contacts, where the case has no tolerance.
 constexpr double default_share_of_contact = 0.1;
-
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
+// Work of a run and of those beside it over that of the run.
+constexpr double work_with_others = 2.1;
+constexpr double usual_growth = 2.5;  // of the work with the mesh
 
-double default_wish(const Case& input) {
+double default_tolerance(const Case& input) {
   return default_share_of_contact * resolve(input).settings().contact_time;
+}
+
+double largest_time_error(const SubImpact& s) {
+  return std::max(s.start_error.value_or(HUGE_VAL), s.end ? s.end_error.value_or(HUGE_VAL) : 0.0);
 }
 
 struct Level {
   Case input;
   Result result;
+  std::vector<RunBeside> beside;
 };
 
-// How many leading sub-impacts are decided and within an error, and what ends them.
-struct Reach {
-  std::size_t n_within = 0;
-  double error_within = 0.0;   // s, the largest stated one of these
-  double error_beyond = 0.0;   // s, of the first decided one that is not within; 0: there is none
-  double error_decided = 0.0;  // s, of all that are decided
-  bool all_decided = false;
-  std::string reason;  // empty if all are within the error
-};
-
-Reach reach_of(const Result& result, double wish) {
-  Reach reach;
-  const auto& all = result.sub_impacts;
-  const std::size_t n_decided = result.n_decided().value_or(0);
-  reach.all_decided = result.all_decided();
-  bool within = true;
-  for (std::size_t i = 0; i < n_decided; ++i) {
-    const double error = std::max(all[i].start_error.value_or(0.0), all[i].end_error.value_or(0.0));
-    reach.error_decided = std::max(reach.error_decided, error);
-    if (within && error > wish) {
-      within = false;
-      reach.error_beyond = error;
-      reach.reason = fmt::format("the error of sub-impact {} is {:.2g} us", i + 1, 1e6 * error);
-    }
-    if (!within) continue;
-    reach.n_within = i + 1;
-    reach.error_within = reach.error_decided;
-  }
-  if (within && !reach.all_decided) {
-    reach.reason = result.error_estimate ? result.error_estimate->reason
-                                         : "no coarser run is possible that would show the error";
-  }
-  return reach;
-}
-
-class Ladder {
+// Runs a case on finer and finer meshes.
+class Search {
  public:
-  Ladder(const Case& input, const OpenChoices& open, const WithinOptions& options)
-      : input_(input), open_(open), options_(options) {}
+  Search(const Case& input, const OpenChoices& open, const WithinOptions& options)
+      : input_(input), open_(open), options_(options) {
+    choose(may_yield(input));
+    const std::optional<double>& tolerance = input.accuracy.event_times;
+    tolerance_ = tolerance.value_or(default_tolerance(model_.input));
+    work_limit_ = tolerance ? input.accuracy.work_limit : default_work_limit;
+  }
 
-  WithinRun climb();
+  WithinRun run() {
+    std::optional<Case> next = refinement_->first();
+    while (next) {
+      Level level = level_of(*next, is_last(*next));
+      if (level.result.outcome.kind == OutcomeKind::stopped) return ended_early(std::move(level));
+      if (!level.result.outcome.completed() && best_) {
+        obstacle_ = "the run on the next mesh failed (" + level.result.outcome.message + ")";
+        break;
+      }
+      best_ = std::move(level);
+      if (change_model()) {
+        next = refinement_->first();
+        continue;
+      }
+      if (!best_->result.outcome.completed() || is_met()) break;
+      next = finer_case();
+    }
+    if (!has_rows_) run_again();
+    WithinRun found{std::move(best_->input), std::move(best_->result)};
+    describe(found);
+    return found;
+  }
 
  private:
-  void choose(bool yields);
-  bool run(const Case& next);
-  void retire_level();
-  const Level* known(const Case& input) const;
-  void count(const Result& result);
-  bool try_other_model();
-  std::optional<Case> finer_case();
-  double work_of_next(double ratio) const;
-  double observed_order() const;
-  double ratio_towards_wish() const;
-  bool is_out_of_reach();
-  double horizon(const Result& result) const;
-  void report(WithinRun& run) const;
+  void choose(bool yields) {
+    yields_ = yields;
+    model_ = choose_model(input_, open_, yields);
+    refinement_.emplace(model_.input, open_);
+  }
+
+  // `keeps_rows`: whether no run after this one is to be expected.
+  Level level_of(const Case& input, bool keeps_rows) {
+    if (options_.announce) {
+      options_.announce(resolve(input).settings().mesh + ", " +
+                        descriptor_of(input.solver.method).name);
+    }
+    Level level{input, {}, {}};
+    if (!keeps_rows) {
+      level.input.output.keep_no_rows();
+      level.input.output.shapes = 0.0;
+    }
+    has_rows_ = keeps_rows;
+    level.beside = simulate_beside(level.input, cases_beside(level.input), options_.jobs,
+                                   options_.progress, rows_if(keeps_rows), level.result);
+    level.input.output = input.output;
+    judge(level.input, level.result, level.beside);
+    work_ += counted_work(level.result);
+    if (options_.finished) options_.finished(level.result);
+    for (const RunBeside& other : level.beside) {
+      work_ += counted_work(other.result);
+      if (options_.finished) options_.finished(other.result);
+    }
+    return level;
+  }
+
+  RowSink* rows_if(bool keeps_rows) const {
+    return keeps_rows && options_.rows ? options_.rows() : nullptr;
+  }
+
+  // The best level once more, for its rows and fields.
+  void run_again() {
+    Level again = level_of(best_->input, true);
+    if (again.result.outcome.kind != OutcomeKind::stopped) best_ = std::move(again);
+  }
+
+  // What a user who interrupts gets: the last level that ended, else the one in hand.
+  WithinRun ended_early(Level level) {
+    if (!best_) return {level.input, std::move(level.result)};
+    obstacle_ = "the search was stopped";
+    WithinRun found{std::move(best_->input), std::move(best_->result)};
+    describe(found);
+    found.result.outcome = {OutcomeKind::stopped,
+                            found.result.outcome.time,
+                            "stopped on request; these are the results of the last mesh that was "
+                            "finished, without a history",
+                            {}};
+    return found;
+  }
+
+  // Whether the beam turned out to bend elastically though it could yield, or the other way round.
+  bool change_model() {
+    if (!may_change_model_ || !open_.mesh || !open_.method || !may_yield(input_)) return false;
+    const bool yielded = best_->result.n_yielded_sections > 0;
+    if (yielded == yields_ || !best_->result.outcome.completed()) return false;
+    may_change_model_ = yields_;  // back at most once
+    choose(yielded);
+    best_.reset();
+    return true;
+  }
+
+  double largest_error() const {
+    return best_->result.error_estimate ? best_->result.error_estimate->largest_error : HUGE_VAL;
+  }
+  bool is_met() const { return best_->result.all_certain() && largest_error() <= tolerance_; }
+
+  // Of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
+  double work_of_next(double ratio) const {
+    double growth = usual_growth;
+    if (!best_->beside.empty()) {
+      const Level& level = *best_;
+      const RunBeside& other = level.beside.back();
+      const double sizes =
+          static_cast<double>(mesh_count(level.input)) / mesh_count(other.of.input);
+      if (sizes > 1.0) {
+        growth =
+            std::log(counted_work(level.result) / counted_work(other.result)) / std::log(sizes);
+      }
+    }
+    return work_with_others * counted_work(best_->result) *
+           std::pow(ratio, std::clamp(growth, 1.0, 4.0));
+  }
+
+  // Whether no level is affordable after this one, or none is to be expected.
+  bool is_last(const Case& next) const {
+    if (refinement_->fixed_key()) return true;
+    if (!best_) return false;
+    const double ratio = static_cast<double>(mesh_count(next)) / mesh_count(best_->input);
+    const double after = work_ + work_of_next(ratio) + work_of_next(least_refinement * ratio);
+    if (after > work_limit_) return true;
+    const double falls = std::pow(ratio, refinement_->order());
+    return best_->result.all_certain() && largest_error() / falls <= tolerance_;
+  }
+
+  // What the largest error asks for; the usual refinement while sub-impacts are uncertain.
+  double ratio_wanted() const {
+    if (!best_->result.all_certain()) return usual_refinement;
+    const double asked =
+        margin * std::pow(largest_error() / tolerance_, 1.0 / refinement_->order());
+    return std::clamp(asked, least_refinement, usual_refinement);
+  }
+
+  std::optional<Case> finer_case() {
+    if (const char* key = refinement_->fixed_key()) {
+      return refuse(key, fmt::format("{} is fixed by the case", key));
+    }
+    double ratio = ratio_wanted();
+    while (work_ + work_of_next(ratio) > work_limit_ && ratio > least_refinement) {
+      ratio = std::max(least_refinement, 0.9 * ratio);
+    }
+    const double work = work_ + work_of_next(ratio);
+    if (work > work_limit_) {
+      return refuse("accuracy.work_limit",
+                    fmt::format("a finer mesh would take the counted work from {:.1e} to {:.1e}, "
+                                "above the limit of {:.1e}",
+                                work_, work, work_limit_));
+    }
+    const std::optional<Case> finer = refinement_->finer(best_->input, ratio);
+    if (!finer) return refuse(refinement_->size_key(), "the mesh is the finest that is allowed");
+    try {
+      check_memory(resolve(*finer).settings());
+    } catch (const InvalidCase& error) {
+      return refuse(error.key, fmt::format("on a finer mesh {} {}", error.key, error.what()));
+    }
+    return finer;
+  }
+
+  std::nullopt_t refuse(const std::string& key, const std::string& obstacle) {
+    key_ = key;
+    obstacle_ = obstacle;
+    return std::nullopt;
+  }
+
+  void describe(WithinRun& run) const {
+    Result& result = run.result;
+    result.choice = model_.reason + (obstacle_.empty() ? "" : "; " + obstacle_);
+    if (!input_.accuracy.event_times) return;
+    WishOutcome& outcome = result.wish.emplace();
+    outcome.wished = tolerance_;
+    outcome.horizon = result.outcome.time;
+    outcome.reached = result.error_estimate ? result.error_estimate->largest_error : HUGE_VAL;
+    outcome.met =
+        result.outcome.completed() && result.all_certain() && outcome.reached <= tolerance_;
+    if (outcome.met) return;
+    const auto beyond = std::ranges::find_if(result.sub_impacts, [&](const SubImpact& s) {
+      return s.certain.value_or(false) && largest_time_error(s) > tolerance_;
+    });
+    std::string reason = result.error_estimate ? result.error_estimate->reason
+                                               : "no coarser run is possible that shows the error";
+    if (beyond != result.sub_impacts.end()) {
+      outcome.horizon = beyond->start;
+      reason =
+          fmt::format("the error of sub-impact {} is {:.2g} us",
+                      beyond - result.sub_impacts.begin() + 1, 1e6 * largest_time_error(*beyond));
+    } else if (result.error_estimate && result.error_estimate->first_unresolved) {
+      reason =
+          fmt::format("sub-impact {}: {}", *result.error_estimate->first_unresolved + 1, reason);
+    }
+    outcome.reason = result.outcome.completed() ? reason : result.outcome.message;
+    if (!obstacle_.empty()) outcome.reason += "; " + obstacle_;
+    outcome.key = key_;
+  }
 
   Case input_;
   OpenChoices open_;
   WithinOptions options_;
-  double wish_ = 0.0;  // s
+  double tolerance_ = 0.0;  // s
   double work_limit_ = 0.0;
   bool yields_ = false;
   bool may_change_model_ = true;
+  bool has_rows_ = false;  // the last run
   ChosenModel model_;
   std::optional<Refinement> refinement_;
-  std::optional<Level> level_;
-  std::deque<Level> earlier_;       // without rows; companions, and levels that may become ones
-  const Level* coarser_ = nullptr;  // the companion of the level
-  Reach reach_;
-  double work_ = 0.0;        // of all runs so far
-  double last_error_ = 0.0;  // s, of the decided events of the level before
-  int last_count_ = 0;       // cells or elements of that level
-  std::string obstacle_;     // why no finer mesh is run
-  std::string key_;          // that stands in the way
+  std::optional<Level> best_;  // the last one that ended
+  double work_ = 0.0;          // of all runs so far
+  std::string obstacle_;       // why no finer mesh is run
+  std::string key_;            // that stands in the way
 };
-
-void Ladder::choose(bool yields) {
-  yields_ = yields;
-  model_ = choose_model(input_, open_, yields);
-  refinement_.emplace(model_.input, open_);
-}
-
-void Ladder::count(const Result& result) {
-  work_ += counted_work(result);
-  if (options_.finished) options_.finished(result);
-}
-
-// Runs the case and its companion; false if stopped.
-bool Ladder::run(const Case& next) {
-  const std::optional<Companion> companion = companion_of(next);
-  if (options_.announce) {
-    options_.announce(resolve(next).settings().mesh + ", " +
-                      descriptor_of(next.solver.method).name);
-  }
-  retire_level();
-  coarser_ = companion ? known(companion->input) : nullptr;
-  RunPair pair =
-      run_beside(next, companion && !coarser_ ? &companion->input : nullptr, options_.jobs,
-                 options_.progress, options_.rows ? options_.rows() : nullptr);
-  const bool stopped = pair.run.outcome.kind == OutcomeKind::stopped;
-  count(pair.run);
-  if (pair.other) {
-    count(*pair.other);
-    earlier_.push_back({companion->input, std::move(*pair.other)});
-    coarser_ = &earlier_.back();
-  }
-  if (companion && !stopped) add_companion_errors(pair.run, next, *companion, coarser_->result);
-  level_ = Level{next, std::move(pair.run)};
-  return !stopped;
-}
-
-void Ladder::retire_level() {
-  if (!level_) return;
-  level_->result.history.clear();
-  level_->result.section_history.clear();
-  earlier_.push_back(std::move(*level_));
-  level_.reset();
-}
-
-// The run of a setting, if there was one.
-const Level* Ladder::known(const Case& input) const {
-  const auto is_same = [&](const Level& level) {
-    return level.result.outcome.completed() && Refinement::is_same_setting(level.input, input);
-  };
-  const auto found = std::ranges::find_if(earlier_, is_same);
-  return found == earlier_.end() ? nullptr : &*found;
-}
-
-// Whether the beam turned out to bend elastically though it could yield, or the other way round.
-bool Ladder::try_other_model() {
-  if (!may_change_model_ || !open_.mesh || !open_.method || !may_yield(input_)) return false;
-  const bool yielded = level_->result.n_yielded_sections > 0;
-  if (yielded == yields_ || !level_->result.outcome.completed()) return false;
-  may_change_model_ = yields_;  // back at most once
-  choose(yielded);
-  return true;
-}
-
-// As the counted work of the last two runs grows; the companion's is a quarter.
-double Ladder::work_of_next(double ratio) const {
-  double exponent = 2.0;
-  if (coarser_) {
-    const double sizes = static_cast<double>(mesh_count(level_->input)) /
-                         static_cast<double>(mesh_count(coarser_->input));
-    if (sizes > 1.0) {
-      exponent =
-          std::log(counted_work(level_->result) / counted_work(coarser_->result)) / std::log(sizes);
-    }
-  }
-  exponent = std::clamp(exponent, 1.0, 4.0);
-  const double companion = std::abs(ratio - 2.0) < 0.01 ? 0.0 : std::pow(0.5, exponent);
-  return counted_work(level_->result) * std::pow(ratio, exponent) * (1.0 + companion);
-}
-
-// At which stated errors fall; the order of the mesh where there is no saying.
-double Ladder::observed_order() const {
-  if (!(last_error_ > 0.0 && reach_.error_decided > 0.0)) return refinement_->order();
-  const double sizes = static_cast<double>(mesh_count(level_->input)) / last_count_;
-  if (sizes < least_refinement) return refinement_->order();
-  return std::log(last_error_ / reach_.error_decided) / std::log(sizes);
-}
-
-// What the stated error asks for; a doubling where that costs no more, as it needs no companion of
-// its own.
-double Ladder::ratio_towards_wish() const {
-  const double order = refinement_->order();
-  const double falls = std::clamp(observed_order(), 0.5 * order, order);
-  const double asked = margin * std::pow(reach_.error_decided / wish_, 1.0 / falls);
-  const double ratio = std::clamp(asked, least_refinement, usual_refinement);
-  return work_of_next(usual_refinement) <= work_of_next(ratio) ? usual_refinement : ratio;
-}
-
-// Whether not even the first sub-impact beyond the horizon can come within the wish. Errors of two
-// levels must have shown how they fall.
-bool Ladder::is_out_of_reach() {
-  if (!(last_error_ > 0.0) || !(reach_.error_beyond > wish_)) return false;
-  const double order = std::max(observed_order(), refinement_->order());
-  const double work = work_ + work_of_next(std::pow(reach_.error_beyond / wish_, 1.0 / order));
-  if (work <= work_limit_) return false;
-  key_ = "accuracy.work_limit";
-  obstacle_ = fmt::format(
-      "a mesh on which it is within the wish would take the counted work from {:.1e} to some "
-      "{:.1e}, above the limit of {:.1e}",
-      work_, work, work_limit_);
-  return true;
-}
-
-std::optional<Case> Ladder::finer_case() {
-  if (const char* key = refinement_->fixed_key()) {
-    key_ = key;
-    obstacle_ = fmt::format("{} is fixed by the case", key);
-    return std::nullopt;
-  }
-  if (!open_.tolerance && last_error_ > 0.0 && reach_.error_decided > stalled * last_error_) {
-    key_ = level_->input.solver.step ? "solver.step" : "solver.rtol";
-    obstacle_ =
-        fmt::format("the error no longer falls with the mesh, and {} is fixed by the case", key_);
-    return std::nullopt;
-  }
-  if (is_out_of_reach()) return std::nullopt;
-  double ratio = usual_refinement;
-  if (reach_.error_decided <= wish_) {
-    // The run may be right, and its companion too coarse to show it. Of the next but one this run
-    // is the companion.
-    ratio = half_refinement;
-  } else if (reach_.all_decided) {
-    ratio = ratio_towards_wish();
-  }
-  last_error_ = reach_.error_decided;
-  last_count_ = mesh_count(level_->input);
-  ratio = std::clamp(ratio, least_refinement, usual_refinement);
-  while (work_ + work_of_next(ratio) > work_limit_ && ratio > least_refinement) {
-    ratio = std::max(least_refinement, 0.9 * ratio);
-  }
-  if (work_ + work_of_next(ratio) > work_limit_) {
-    key_ = "accuracy.work_limit";
-    obstacle_ = fmt::format(
-        "a finer mesh would take the counted work from {:.1e} to {:.1e}, above "
-        "the limit of {:.1e}",
-        work_, work_ + work_of_next(ratio), work_limit_);
-    return std::nullopt;
-  }
-  const std::optional<Case> finer = refinement_->finer(level_->input, ratio);
-  if (!finer) {
-    key_ = refinement_->size_key();
-    obstacle_ = "the mesh is the finest that is allowed";
-    return std::nullopt;
-  }
-  try {
-    check_memory(resolve(*finer).settings());
-  } catch (const InvalidCase& error) {
-    key_ = error.key;
-    obstacle_ = fmt::format("on a finer mesh {} {}", error.key, error.what());
-    return std::nullopt;
-  }
-  return finer;
-}
-
-WithinRun Ladder::climb() {
-  choose(may_yield(input_));
-  const std::optional<double>& wish = input_.accuracy.event_times;
-  wish_ = wish.value_or(default_wish(model_.input));
-  work_limit_ = wish ? input_.accuracy.work_limit : default_work_limit;
-  Case next = refinement_->first();
-  std::optional<Case> sound;  // the last level that completed
-  while (run(next)) {
-    if (!level_->result.outcome.completed() && sound) {
-      obstacle_ =
-          fmt::format("the run on the next mesh failed ({})", level_->result.outcome.message);
-      if (run(*sound)) reach_ = reach_of(level_->result, wish_);
-      break;
-    }
-    if (level_->result.outcome.completed()) sound = level_->input;
-    if (try_other_model()) {
-      next = refinement_->first();
-      sound.reset();
-      continue;
-    }
-    reach_ = reach_of(level_->result, wish_);
-    if (reach_.reason.empty()) break;
-    const std::optional<Case> finer = finer_case();
-    if (!finer) break;
-    next = *finer;
-  }
-  WithinRun run{std::move(level_->input), std::move(level_->result)};
-  report(run);
-  return run;
-}
-
-// Up to where event times are within the wish: the first start beyond it or, where a run compared
-// with has a sub-impact after the last one here, the end of the last.
-double Ladder::horizon(const Result& result) const {
-  const auto& all = result.sub_impacts;
-  if (reach_.n_within < all.size()) return all[reach_.n_within].start;
-  if (result.all_decided()) return result.outcome.time;
-  return all.empty() ? 0.0 : result.end_of(all.back());
-}
-
-void Ladder::report(WithinRun& run) const {
-  Result& result = run.result;
-  result.choice = model_.reason;
-  if (!obstacle_.empty() && !input_.accuracy.event_times) result.choice += "; " + obstacle_;
-  if (!input_.accuracy.event_times) return;
-  WishOutcome outcome;
-  outcome.wished = wish_;
-  outcome.met = result.outcome.completed() && reach_.reason.empty();
-  outcome.reached = reach_.error_within;
-  outcome.horizon = horizon(result);
-  if (!result.outcome.completed()) {
-    outcome.reason = result.outcome.message;
-  } else if (!outcome.met) {
-    outcome.reason = reach_.reason + "; " + obstacle_;
-    outcome.key = key_;
-  }
-  result.wish = outcome;
-}
 
 }  // namespace
 
@@ -357,7 +279,7 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
   ChosenModel chosen = choose_model(input, open, may_yield(input));
   const Refinement refinement(chosen.input, open);
   chosen.input = refinement.first();
-  const std::optional<double>& wish = input.accuracy.event_times;
+  const std::optional<double>& tolerance = input.accuracy.event_times;
   if (const char* key = refinement.fixed_key()) {
     chosen.reason += fmt::format("; {} is fixed by the case", key);
     return chosen;
@@ -365,8 +287,8 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
   chosen.reason += fmt::format(
       "; refined until every event time is within {:.3g} us{} of the limit of fine meshes, or the "
       "counted work reaches {:.1e}",
-      1e6 * wish.value_or(default_wish(chosen.input)), wish ? "" : " (the default)",
-      wish ? input.accuracy.work_limit : default_work_limit);
+      1e6 * tolerance.value_or(default_tolerance(chosen.input)), tolerance ? "" : " (the default)",
+      tolerance ? input.accuracy.work_limit : default_work_limit);
   if (may_yield(input) && open.mesh && open.method) {
     chosen.reason += "; elements in natural modes instead if no section yields";
   }
@@ -375,7 +297,7 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
 
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options) {
-  return Ladder(input, open, options).climb();
+  return Search(input, open, options).run();
 }
 
 }  // namespace subimpact

@@ -248,9 +248,19 @@ class Extremes(unittest.TestCase):
     def test_the_timeline_with_its_bars(self):
         hits = self.program.table("strike", "events.csv")
         figure = self.figure("timeline")
-        script = (self.program.directory / "strike" / "timeline.gp").read_text(encoding="utf-8")
-        columns = [tuple(map(float, line.split(",")))
-                   for line in script.split("$columns << EOD\n")[1].split("EOD")[0].splitlines()[1:]]
+        zones = {}
+        for hit in hits:
+            start, end = float(hit["start_s"]), float(hit["end_s"] or hits[-1]["start_s"])
+            zones[hit["zone"]] = (zones.get(hit["zone"], (start, 0.0))[0], end)
+        # Columns as wide as the zones last, at least 0.15 of all, between 0.11 and 0.98 of the width.
+        total = sum(end - start for start, end in zones.values())
+        shares = [max((end - start) / total, 0.15) for start, end in zones.values()]
+        per_share = (0.98 - 0.11 - 0.03 * (len(shares) - 1)) / sum(shares)
+        columns, left = [], 0.11
+        for (start, end), share in zip(zones.values(), shares):
+            margin = 0.022 * (end - start) / (per_share * share)
+            columns.append((1e3 * (start - margin), 1e3 * (end + margin), left, left + per_share * share))
+            left += per_share * share + 0.03
         self.assertGreaterEqual(len(columns), 2)  # zones
         n = len(columns)
         self.assertEqual(len(figure.panels()), 2 * n)

@@ -1,5 +1,6 @@
 """Titles, names and words that would be markup: hostile_texts_test.py PROGRAM CASE"""
 
+import hashlib
 import json
 import shutil
 import xml.etree.ElementTree as ElementTree
@@ -53,11 +54,9 @@ class HostileTexts(PageTestCase):
     def test_words_of_result_files_appear_as_text(self):
         directory = self.program.directory / "changed"
         shutil.copytree(self.page.parent, directory)
-        (directory / "manifest.json").unlink()  # as an older version left the files
         path = directory / "summary.json"
         summary = json.loads(path.read_text(encoding="utf-8"))
         words = "</p></script><script>window.hacked = 1</script>`${1}`\n{{data}} \" '"
-        summary["layout"] = 3
         summary["warnings"] = [words]
         summary["choice"] = summary["program"]["version"] = summary["used"]["mesh"] = words
         summary["libraries"] = {words: words}
@@ -66,6 +65,10 @@ class HostileTexts(PageTestCase):
             part.update({"name": words, "refined_run": words, "reason": words, "first_unresolved_index": 1})
         summary["outcome"].update({"kind": "solver-failed", "message": words})
         path.write_text(json.dumps(summary), encoding="utf-8")
+        manifest = json.loads((directory / "manifest.json").read_text(encoding="utf-8"))
+        manifest["files"]["summary.json"] = {"bytes": path.stat().st_size,
+                                             "sha256": hashlib.sha256(path.read_bytes()).hexdigest()}
+        (directory / "manifest.json").write_text(json.dumps(manifest), encoding="utf-8")
         self.program("report", "changed")
         browser.open_page(self.driver, directory / "report.html")
         self.assertIsNone(self.js("return window.hacked"))

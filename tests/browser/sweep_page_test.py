@@ -18,7 +18,7 @@ class SweepPage(PageTestCase):
         cls.program.run("one", "time.end=9e-4", "model.segments=51")
         heading, *hits = (cls.program.directory / "one" / "events.csv").read_text().splitlines()
         cls.runs, cls.hits = [], {}
-        runs = ["run,striker.mass,striker.velocity,solver.method,outcome,time_s,n_sub_impacts,n_decided,all_decided,"
+        runs = ["run,striker.mass,striker.velocity,solver.method,outcome,time_s,n_sub_impacts,n_certain,all_certain,"
                 "max_force_N,message"]
         rows = ["run," + heading]
         for m in range(5):
@@ -26,12 +26,12 @@ class SweepPage(PageTestCase):
                 for method in cls.METHODS:
                     run = len(runs) - 1
                     n = 1 + (m + v) % len(hits)
-                    decided = n if (m + v) % 3 else n - 1
-                    cls.runs.append((0.1 * 2**m, 2.0 + v, method, n, decided))
+                    certain = n if (m + v) % 3 else n - 1
+                    cls.runs.append((0.1 * 2**m, 2.0 + v, method, n, certain))
                     if run == 7:
                         runs.append(f"{run},{0.1 * 2**m},{2.0 + v},{method},refused,,,,,,because <b>`; \"of this\"")
                         continue
-                    runs.append(f"{run},{0.1 * 2**m},{2.0 + v},{method},completed,0.0009,{n},{decided},{int(n == decided)},"
+                    runs.append(f"{run},{0.1 * 2**m},{2.0 + v},{method},completed,0.0009,{n},{certain},{int(n == certain)},"
                                 f"{1000.5 + run},")
                     rows += [f"{run},{hit}" for hit in hits[:n]]
                     cls.hits[run] = [dict(zip(heading.split(","), hit.split(","))) for hit in hits[:n]]
@@ -90,19 +90,19 @@ class SweepPage(PageTestCase):
         self.assertGreater(sum(abs(a - b) for a, b in zip(low, high)), 250)
 
     def test_counts_that_are_not_decided_have_a_cross(self):
-        for run, (_, _, _, n, decided) in enumerate(self.runs):
+        for run, (_, _, _, n, certain) in enumerate(self.runs):
             if run == 7:
                 continue
             x, y = self.centre(run)
             colours = {tuple(self.pixel(x + d, y + d)) for d in (-2, 0, 2)}
             plain = self.js("return page.map.shade.rgb(arguments[0])", n)
             has_cross = any(max(abs(a - b) for a, b in zip(c, plain)) > 40 for c in colours)
-            self.assertEqual(has_cross, decided < n, f"run {run}: {colours}")
+            self.assertEqual(has_cross, certain < n, f"run {run}: {colours}")
         self.assertIn("the counts of", self.find("ul.headline").text)
 
     def test_a_click_opens_the_numbers_of_a_run(self):
         run = 33
-        mass, velocity, method, n, decided = self.runs[run]
+        mass, velocity, method, n, certain = self.runs[run]
         tip = self.click(run)
         for words in ("run 33:", f"{mass:g} kg", f"{velocity:g} m/s", method):
             self.assertIn(words, tip)
@@ -115,7 +115,7 @@ class SweepPage(PageTestCase):
             start = float(cells[1].split(" ")[0].replace("−", "-"))
             self.assertAlmostEqual(start, 1e6 * float(hit["start_s"]), delta=1e-3 * max(1.0, start))
             self.assertAlmostEqual(float(cells[4]), float(hit["peak_force_N"]), delta=1e-4 * float(hit["peak_force_N"]))
-            self.assertEqual("undecided" in row.get_attribute("class"), i >= decided)
+            self.assertEqual("uncertain" in row.get_attribute("class"), i >= certain)
         self.assertGreater(self.js(COUNT, self.find("#timeline"), "line1"), 10)
         command = self.js("return document.getElementById('command').textContent")
         self.assertIn(f"--set striker.mass={mass:g}", command)

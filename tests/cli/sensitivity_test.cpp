@@ -89,7 +89,8 @@ TEST(Run, OfACaseWithScatterStatesHowFarItCanBePredicted) {
   const auto summary = nlohmann::json::parse(read_file(directory.path / "r" / "summary.json"));
   // 1.654 us by ln v.
   EXPECT_NEAR(summary.at("predictability").at("zones").at(0).at("start_scatter_s"), 0.0, 1e-15);
-  expect_in(read_file(directory.path / "r" / "events.csv"), "start_scatter_s,end_scatter_s\n");
+  const std::string events = read_file(directory.path / "r" / "events.csv");
+  expect_in(events.substr(0, events.find('\n')), ",start_scatter_s,end_scatter_s,");
 }
 
 TEST(Run, OfACaseWithoutScatterDoesNotSayHowFarItCanBePredicted) {

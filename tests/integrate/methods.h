@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "integrate/sundials.h"
 #include "integrate/central_difference.h"
 #include "integrate/nystrom.h"
+#include "integrate/sundials.h"
 
 namespace subimpact {
 

@@ -118,8 +118,13 @@ TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
     s.error_mesh = 0.9e-9;
     s.start_mesh_limit = s.start + 1e-10;
   }
-  result.error_estimate = ErrorEstimate{
-      "the same, finer", 2, "they part", 3e-9, {{"mesh", "the same, finer", 2, "they part", 3e-9}}};
+  ErrorEstimate estimate;
+  estimate.refined_run = "the same, coarser";
+  estimate.first_unresolved = 2;
+  estimate.reason = "they part";
+  estimate.largest_error = 3e-9;
+  estimate.parts = {{"mesh", "the same, coarser", 2, "they part", 3e-9}};
+  result.error_estimate = estimate;
   write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
   const FinishedRun run = read_results(directory.path);
   EXPECT_EQ(csv_of<SubImpact>(run.result), csv_of<SubImpact>(result));
@@ -155,14 +160,52 @@ TEST(ReadResults, KeepsAWishAndThatNoneWasMade) {
   expect_in(summary_json(input, sample_result()), "\"wish_met\": null");
 }
 
-TEST(ReadResults, KeepWhichSubImpactsAreDecided) {
+TEST(ReadResults, KeepWhichSubImpactsAreCertain) {
   for (const std::size_t n : {0u, 1u, 3u}) {
     const TemporaryDirectory directory;
     const Result result = sample_result_with_errors(n);
     write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
     const FinishedRun run = read_results(directory.path);
-    EXPECT_EQ(run.result.n_decided(), n);
+    EXPECT_EQ(run.result.n_certain(), n);
+    EXPECT_EQ(run.result.all_certain(), n == 3);
     EXPECT_EQ(csv_of<SubImpact>(run.result), csv_of<SubImpact>(result));
+    ASSERT_EQ(run.result.sub_impacts.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(run.result.sub_impacts[i].certain, i < n);
+      EXPECT_EQ(run.result.sub_impacts[i].probability, i < n ? 1.0 : 0.75);
+      EXPECT_EQ(run.result.sub_impacts[i].doubt, i < n ? "" : "they part");
+      EXPECT_EQ(run.result.sub_impacts[i].impulse_error, result.sub_impacts[i].impulse_error);
+    }
+  }
+}
+
+TEST(ReadResults, KeepTotalsZonesAndUncertainFlights) {
+  const TemporaryDirectory directory;
+  const Case input = read_case_text(small_case_text(), "small.toml").value;
+  Result result = sample_result_with_an_uncertain_flight(1);
+  result.error_estimate->totals.at(2).total.error.reset();
+  write_results(directory.path, input, result);
+  const FinishedRun run = read_results(directory.path);
+  EXPECT_EQ(summary_json(run.input, run.result), summary_json(input, result));
+  ASSERT_TRUE(run.result.error_estimate);
+  const ErrorEstimate& read = *run.result.error_estimate;
+  const ErrorEstimate& written = *result.error_estimate;
+  ASSERT_EQ(read.uncertain_flights.size(), 1u);
+  EXPECT_EQ(read.uncertain_flights.front().after, 1u);
+  EXPECT_EQ(read.uncertain_flights.front().reason, written.uncertain_flights.front().reason);
+  ASSERT_EQ(read.totals.size(), written.totals.size());
+  for (std::size_t i = 0; i < read.totals.size(); ++i) {
+    EXPECT_EQ(read.totals[i].name, written.totals[i].name);
+    EXPECT_EQ(read.totals[i].total.value, written.totals[i].total.value);
+    EXPECT_EQ(read.totals[i].total.error, written.totals[i].total.error);
+  }
+  ASSERT_EQ(read.zones.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (const auto member :
+         {&ZoneTotals::start, &ZoneTotals::end, &ZoneTotals::impulse, &ZoneTotals::sub_impacts}) {
+      EXPECT_EQ((read.zones[k].*member).value, (written.zones[k].*member).value);
+      EXPECT_EQ((read.zones[k].*member).error, (written.zones[k].*member).error);
+    }
   }
 }
 

@@ -54,9 +54,11 @@ TEST(EventsCsv, HasTheAgreedColumns) {
   EXPECT_EQ(
       csv_of<SubImpact>({}),
       "index,zone,subzone,start_s,end_s,duration_s,peak_force_N,impulse_Ns,"
-      "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s,decided,"
-      "start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
-      "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s,start_scatter_s,end_scatter_s\n");
+      "max_indentation_m,residual_indentation_m,striker_velocity_m_per_s,certain,"
+      "probability,start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
+      "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s,start_scatter_s,end_scatter_s,"
+      "peak_force_error_N,impulse_error_Ns,max_indentation_error_m,residual_indentation_error_m,"
+      "striker_velocity_error_m_per_s,doubt\n");
 }
 
 TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
@@ -76,32 +78,47 @@ TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
 
 TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
   const Table rows = parse_csv(csv_of<SubImpact>(sample_result()));
-  ASSERT_EQ(rows[3].size(), 22u);
+  ASSERT_EQ(rows[3].size(), 29u);
   EXPECT_EQ(rows[3][4], "");
   EXPECT_EQ(rows[3][5], "");
   EXPECT_NE(rows[3][6], "");
 }
 
 TEST(EventsCsv, HasTheSameColumnsWhetherErrorsAreKnownOrNot) {
-  Result result = sample_result();
-  const Table without = parse_csv(csv_of<SubImpact>(result));
-  for (SubImpact& s : result.sub_impacts) s.start_error = s.end_error = s.error_mesh = 1e-9;
-  result.error_estimate = ErrorEstimate{"the same, finer", 1, "they part", 1e-9, {}};
+  const Table without = parse_csv(csv_of<SubImpact>(sample_result()));
+  const Result result = sample_result_with_errors(1);
   const Table with = parse_csv(csv_of<SubImpact>(result));
   EXPECT_EQ(with[0], without[0]);
-  ASSERT_EQ(with[0][11], "decided");
+  ASSERT_EQ(with[0][11], "certain");
+  ASSERT_EQ(with[0][13], "start_error_s");
+  ASSERT_EQ(with[0][23], "peak_force_error_N");
   for (std::size_t i = 1; i < 4; ++i) {
-    EXPECT_EQ(without[i][11], "");
-    EXPECT_EQ(without[i][12], "");
+    const SubImpact& s = result.sub_impacts[i - 1];
+    for (std::size_t column = 11; column < 29; ++column) EXPECT_EQ(without[i].at(column), "");
     EXPECT_EQ(with[i][11], i == 1 ? "1" : "0");
-    EXPECT_EQ(number(with[i][12]), 1e-9);
+    EXPECT_EQ(number(with[i][12]), i == 1 ? 1.0 : 0.75);
+    EXPECT_EQ(number(with[i][13]), *s.start_error);
+    EXPECT_EQ(number(with[i][23]), *s.peak_force_error);
+    EXPECT_EQ(number(with[i][24]), *s.impulse_error);
+    EXPECT_EQ(number(with[i][25]), *s.max_indentation_error);
+    EXPECT_EQ(number(with[i][26]), *s.residual_indentation_error);
+    EXPECT_EQ(number(with[i][27]), *s.striker_velocity_error);
+    EXPECT_EQ(with[i][28], i == 1 ? "" : "they part");
   }
 }
 
-TEST(EventsCsv, OfARefinedRunWithMoreSubImpactsHaveOnlyDecidedOnes) {
-  Result result = sample_result();
-  result.error_estimate = ErrorEstimate{"the same, finer", 3, "the refined run has 4", 1e-9, {}};
-  for (const auto& row : parse_csv(csv_of<SubImpact>(result))) EXPECT_NE(row[11], "0");
+TEST(EventsCsv, LeavesAnErrorEmptyThatIsNotKnown) {
+  Result result = sample_result_with_errors(3);
+  result.sub_impacts[1].impulse_error.reset();
+  const Table rows = parse_csv(csv_of<SubImpact>(result));
+  EXPECT_EQ(rows[2][24], "");
+  EXPECT_NE(rows[1][24], "");
+}
+
+TEST(EventsCsv, OfARunThatMayHaveAnotherSubImpactHasCertainOnesAlone) {
+  const Table rows = parse_csv(csv_of<SubImpact>(sample_result_with_an_uncertain_flight(2)));
+  ASSERT_EQ(rows.size(), 4u);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(rows[i][11], "1");
 }
 
 TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
@@ -182,6 +199,32 @@ TEST(SummaryJson, TellsOutcomeCountsZonesAndCost) {
   EXPECT_EQ(json.at("work").at("wall_s"), 0.25);
   EXPECT_EQ(json.at("first_yield").at("contact_s"), 1e-6 / 3.0);
   EXPECT_TRUE(json.at("first_yield").at("section_s").is_null());
+}
+
+TEST(SummaryJson, GivesTotalsOfTheRunAndOfItsZonesWithTheirErrors) {
+  Result result = sample_result_with_errors(2);
+  result.error_estimate->totals.at(3).total.error.reset();
+  const auto json = parsed_summary(sample_case(), result).at("totals");
+  EXPECT_EQ(json.at("sub_impacts").at("value"), 3.0);
+  EXPECT_EQ(json.at("sub_impacts").at("error"), 1.0);
+  EXPECT_EQ(json.at("peak_force_N").at("value"), result.max_force);
+  EXPECT_EQ(json.at("peak_force_N").at("error"), 0.43);
+  EXPECT_TRUE(json.at("beam_mean_velocity_m_per_s").at("error").is_null());
+  ASSERT_EQ(json.at("by_zone").size(), 2u);
+  EXPECT_EQ(json.at("by_zone")[0].at("end_s").at("value"), 0.6e-3);
+  EXPECT_EQ(json.at("by_zone")[0].at("end_s").at("error"), 0.26e-6);
+  EXPECT_EQ(json.at("by_zone")[1].at("sub_impacts").at("error"), 1.0);
+  EXPECT_TRUE(parsed_summary(sample_case(), sample_result()).at("totals").is_null());
+}
+
+TEST(SummaryJson, ListsUncertainFlights) {
+  const auto json =
+      parsed_summary(sample_case(), sample_result_with_an_uncertain_flight(1)).at("error_bars");
+  ASSERT_EQ(json.at("uncertain_flights").size(), 1u);
+  EXPECT_EQ(json.at("uncertain_flights")[0].at("after_index"), 2);
+  EXPECT_EQ(json.at("uncertain_flights")[0].at("reason"),
+            "there is another one with the same, coarser");
+  EXPECT_EQ(json.at("first_unresolved_index"), 3);
 }
 
 TEST(SummaryJson, ListsNearMissesInTheirOrderInTime) {

@@ -83,9 +83,16 @@ TEST(Rounding, NeverStatesLessThanTheErrorNorMoreThanHalfAsMuchAgain) {
 }
 
 TEST(WithTwoDigits, HasNoRowOfZeros) {
-  EXPECT_EQ(with_two_digits(8796.3), "8800");
-  EXPECT_EQ(with_two_digits(-5.7933e-4), "-0.00058");
-  EXPECT_EQ(with_two_digits(1.93e-33), "1.9e-33");
+  EXPECT_EQ(with_digits(8796.3, 2), "8800");
+  EXPECT_EQ(with_digits(-5.7933e-4, 2), "-0.00058");
+  EXPECT_EQ(with_digits(1.93e-33, 2), "1.9e-33");
+}
+
+TEST(WithThreeDigits, HasNoFourthWhereTheyRoundUp) {
+  EXPECT_EQ(with_digits(99.99, 3), "100");
+  EXPECT_EQ(with_digits(0.09996, 3), "0.100");
+  EXPECT_EQ(with_digits(-9996.0, 3), "-10000");
+  EXPECT_EQ(with_digits(99.94, 3), "99.9");
 }
 
 TEST(WithDecimals, HasNoNegativeZero) {

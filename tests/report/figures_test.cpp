@@ -109,21 +109,21 @@ std::vector<Point> table_in(const std::string& script, const std::string& name) 
   return points;
 }
 
-// The column "decided" of the sub-impacts in a script.
-std::vector<int> decided_in(const std::string& script) {
+// The column "certain" of the sub-impacts in a script.
+std::vector<int> certain_in(const std::string& script) {
   const std::string start = "$sub_impacts << EOD\n";
   std::istringstream lines(script.substr(script.find(start) + start.size()));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "number,zone,from,to,impulse,decided,start_error,start_scatter");
-  std::vector<int> decided;
+  EXPECT_EQ(line, "number,zone,from,to,impulse,certain,start_error,start_scatter");
+  std::vector<int> certain;
   while (std::getline(lines, line) && line != "EOD") {
     std::istringstream cells(line);
     std::string cell;
     for (int i = 0; i < 6; ++i) std::getline(cells, cell, ',');
-    decided.push_back(std::stoi(cell));
+    certain.push_back(std::stoi(cell));
   }
-  return decided;
+  return certain;
 }
 
 TEST(ThinOut, KeepsTheExtremeOfAPathThatGoesBackAlongItself) {
@@ -233,18 +233,39 @@ TEST(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
   }
 }
 
-TEST(Figures, SetUndecidedSubImpactsApart) {
+TEST(Figures, SetUncertainSubImpactsApart) {
   const TemporaryDirectory directory;
   const Case input = short_case({});
   const Result result = sample_result_with_errors(1);
   for (const FigureScript& figure : figure_scripts(input, result)) {
-    expect_in(figure.text(), "sub-impacts 2 to 3 are not decided");
+    expect_in(figure.text(), "2 of 3 sub-impacts are not certain");
   }
   const std::string response = response_figure(input, result).text();
-  EXPECT_EQ(decided_in(response), (std::vector<int>{1, 0, 0}));
-  EXPECT_EQ(decided_in(timeline_figure(input, result).text()), (std::vector<int>{1, 0, 0}));
+  EXPECT_EQ(certain_in(response), (std::vector<int>{1, 0, 0}));
+  EXPECT_EQ(certain_in(timeline_figure(input, result).text()), (std::vector<int>{1, 0, 0}));
   draw_figure(directory.path, "response", response);
-  expect_in(content(directory.path / "response.svg"), "not decided");
+  expect_in(content(directory.path / "response.svg"), "not certain");
+}
+
+TEST(Figures, MarkThatThereMayBeAnotherSubImpact) {
+  const Case input = short_case({});
+  const Result result = sample_result_with_an_uncertain_flight(1);
+  for (const FigureScript& figure : figure_scripts(input, result)) {
+    expect_in(figure.text(), "there may be another sub-impact");
+  }
+  EXPECT_EQ(certain_in(response_figure(input, result).text()), (std::vector<int>{1, 1, 1}));
+}
+
+TEST(Figures, SetASubImpactApartThatIsUncertainAmongCertainOnes) {
+  Result result = sample_result_with_errors(1);
+  result.sub_impacts[2].certain = true;
+  const Case input = short_case({});
+  const std::string response = response_figure(input, result).text();
+  EXPECT_EQ(certain_in(response), (std::vector<int>{1, 0, 1}));
+  expect_in(response, "n_uncertain = 1.000000\n");
+  for (const FigureScript& figure : figure_scripts(input, result)) {
+    expect_in(figure.text(), "1 of 3 sub-impacts is not certain");
+  }
 }
 
 TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
@@ -256,7 +277,7 @@ TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
   result.sub_impacts[1].start_scatter = 2.5e-6;
   result.predictability = Predictability{1, "contacts merge", 1e-3 / 3.0, 2.5e-6, {}, {}};
   const FigureScript figure = timeline_figure(input, result);
-  expect_in(figure.text(), ",1,2.6e-07,2.5e-06\n");  // of a sub-impact: decided, error, scatter
+  expect_in(figure.text(), ",1,2.6e-07,2.5e-06\n");  // of a sub-impact: certain, error, scatter
   expect_in(figure.text(), "horizon = 0.0003333333");
   expect_in(figure.caption(), "Purple bars: its standard deviation");
   draw_figure(directory.path, "timeline", figure.text());
@@ -271,11 +292,11 @@ TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
 TEST(Figures, OfARunWithoutErrorBarsSetNoSubImpactApart) {
   const Case input = short_case({});
   for (const FigureScript& figure : figure_scripts(input, sample_result())) {
-    EXPECT_EQ(figure.text().find("are not decided\""), std::string::npos) << figure.name();
+    EXPECT_EQ(figure.text().find("are not certain\""), std::string::npos) << figure.name();
   }
   const std::string response = response_figure(input, sample_result()).text();
-  EXPECT_EQ(decided_in(response), (std::vector<int>{1, 1, 1}));
-  expect_in(response, "n_undecided = 0.000000\n");
+  EXPECT_EQ(certain_in(response), (std::vector<int>{1, 1, 1}));
+  expect_in(response, "n_uncertain = 0.000000\n");
 }
 
 TEST(SpacingOfTics, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {

@@ -9,7 +9,6 @@
 #include "report/page_data.h"
 #include "sample_result.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/study/strike_account.h"
 #include "temporary_directory.h"
 
 namespace subimpact {
@@ -128,11 +127,11 @@ TEST(HtmlReport, IsWellFormedAndNeedsNothingFromOutside) {
   expect_in(page, "id='response-gp");
 }
 
-TEST(HtmlReport, HoldsCaseWordsTableFiguresMethodErrorBarsAndConservation) {
+TEST(HtmlReport, HoldsCaseSummaryTableFiguresMethodErrorBarsAndConservation) {
   const FinishedRun run = small_run();
   const std::string page = page_of(run);
   for (const char* piece : {"Beam &lt;A&gt; &amp; &quot;B&quot;",
-                            "In words",
+                            "Summary",
                             "Figures",
                             "figure-response",
                             "figure-bending",
@@ -176,13 +175,35 @@ TEST(HtmlReport, HoldsTheLibraryOfChartsOrStatesHowToGetIt) {
 
 TEST(HtmlReport, StatesFirstWhatIsCertainAndWhatIsNot) {
   FinishedRun run = small_run();
+  const auto page_with = [&](const Result& result) {
+    run.result = result;
+    return html_report(run, {}, ".");
+  };
   expect_in(html_report(run, {}, "."), "Not certain:</b> event times, count and order");
-  run.result = sample_result_with_errors(1);
+  const std::string page = page_with(sample_result_with_errors(1));
+  expect_in(page, "Certain:</b> 1 of 3 sub-impacts, each start and end within 0.017 µs.</li>");
+  expect_in(page, "Not certain:</b> sub-impact 2: they part.</li>");
+  EXPECT_LT(page.find("Certain:</b>"), page.find("class=\"tiles\""));
+  const std::string certain = page_with(sample_result_with_errors(3));
+  expect_in(certain,
+            "Certain:</b> all 3 sub-impacts, each start and end within 0.3 µs, and that there are "
+            "no others.</li>");
+  EXPECT_EQ(certain.find("Not certain:</b>"), std::string::npos);
+  EXPECT_EQ(page_with(sample_result_with_errors(0)).find("0 of 3"), std::string::npos);
+}
+
+TEST(HtmlReport, NamesTheFlightsThatMayHoldAnotherSubImpact) {
+  FinishedRun run = small_run();
+  run.result = sample_result_with_an_uncertain_flight(1);
   const std::string page = html_report(run, {}, ".");
-  expect_in(page, "Certain:</b> the first sub-impact, up to 333");
-  expect_in(page, "Not certain:</b> what comes from sub-impact 2 on: they part.");
-  run.result = sample_result_with_errors(3);
-  expect_in(html_report(run, {}, "."), "Certain:</b> count and order of all 3 sub-impacts");
+  EXPECT_EQ(xml_problem(page), "");
+  expect_in(page,
+            "Not certain:</b> after sub-impact 2: there is another one with the same, coarser.");
+  expect_in(page,
+            "<p>After sub-impact 2 there may be another one: there is another one with the same, "
+            "coarser.</p>");
+  expect_in(page, "of certain ones; after sub-impact 2: there is another one");
+  expect_in(page, "<b>3</b><span>sub-impacts, 3 certain, which may not be all</span>");
 }
 
 TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
@@ -211,43 +232,60 @@ TEST(HtmlReport, CountsOneAsOne) {
 
 TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   FinishedRun run = small_run();
-  for (SubImpact& s : run.result.sub_impacts) s.start_error = s.error_time = 2e-9;
+  for (SubImpact& s : run.result.sub_impacts) {
+    s.start_error = s.error_time = 2e-9;
+    s.certain = true;
+  }
+  run.result.sub_impacts.at(1).certain = false;
   ErrorEstimate estimate;
   estimate.first_unresolved = 1;
-  estimate.parts = {{"time", "the same with rtol = 1e-10", {}, "", 2e-9},
-                    {"mesh", "the same with 103 cells", 1, "they <part>", 3e-7}};
+  estimate.reason = "they <part>";
+  estimate.parts = {{"time", "the same with rtol = 1e-7", {}, "", 2e-9},
+                    {"mesh", "the same with 43 cells", 1, "they <part>", 3e-7}};
   run.result.error_estimate = estimate;
   const std::string page = page_of(run);
   EXPECT_EQ(xml_problem(page), "");
-  for (const char* piece : {"the same with rtol = 1e-10", "0.002 µs", "for all sub-impacts",
-                            "the same with 103 cells", "before sub-impact 2", "they &lt;part&gt;",
-                            "sub-impact 2 is the first that is uncertain"}) {
+  for (const char* piece :
+       {"<td>the same with rtol = 1e-7</td><td>0.002 µs</td><td>for all sub-impacts</td>",
+        "<td>the same with 43 cells</td><td>0.3 µs</td><td>of certain ones; sub-impact 2: they "
+        "&lt;part&gt;</td>",
+        "Not certain:</b> sub-impact 2: they &lt;part&gt;."}) {
     expect_in(page, piece);
   }
 }
 
-TEST(HtmlReport, CountsAndMarksDecidedSubImpacts) {
+TEST(HtmlReport, ListsNoErrorOfTimesWhereNoSubImpactIsCertain) {
+  FinishedRun run = small_run();
+  run.result = sample_result_with_errors(0);
+  expect_in(html_report(run, {}, "."),
+            "<td>the same, coarser</td><td></td><td>of certain ones; sub-impact 1: they part</td>");
+}
+
+TEST(HtmlReport, CountsAndMarksUncertainSubImpacts) {
   FinishedRun run = small_run();
   run.result = sample_result_with_errors(1);
   const std::string page = html_report(run, {}, ".");
   EXPECT_EQ(xml_problem(page), "");
-  expect_in(page, "<b>3</b><span>sub-impacts, 1 decided</span>");
+  expect_in(page, "<b>3</b><span>sub-impacts, 1 certain</span>");
   expect_in(page, "333.333 ± 0.017");
-  const auto line = page.find("From here on not decided: they part.");
-  const auto first_row = page.find(" class=\"undecided\">");
-  ASSERT_NE(line, std::string::npos);
-  ASSERT_NE(first_row, std::string::npos);
-  EXPECT_LT(page.find("333.333 ±"), line);
-  EXPECT_LT(line, first_row);
-  expect_in(page, "Error of the event times: times to 0.3 µs up to sub-impact 1");
-  expect_in(page, "3 sub-impacts in 2 zones, 1 decided");
+  EXPECT_NE(page.find("<tr data-hit=\"0\" title=\"\">"), std::string::npos);
+  const auto second = page.find("<tr data-hit=\"1\" class=\"uncertain\" title=\"they part\">");
+  const auto third = page.find("<tr data-hit=\"2\" class=\"uncertain\" title=\"they part\">");
+  ASSERT_NE(second, std::string::npos);
+  ASSERT_NE(third, std::string::npos);
+  EXPECT_LT(page.find("<td>333.333 ±"), second);
+  EXPECT_LT(second, third);
+  EXPECT_EQ(page.substr(second, page.find("</table>", second) - second).find("±"),
+            std::string::npos);
+  expect_in(page, "Error of the event times: 1 of 3 sub-impacts certain, their times to 0.017 µs");
+  expect_in(page, "3 in 2 zones, 1 certain");
 }
 
 TEST(HtmlReport, WithoutErrorBarsMarksNoSubImpact) {
   FinishedRun run = small_run();
   run.result = sample_result();
   const std::string page = html_report(run, {}, ".");
-  EXPECT_EQ(page.find("class=\"undecided\""), std::string::npos);
+  EXPECT_EQ(page.find("class=\"uncertain\""), std::string::npos);
   expect_in(page, "<b>3</b><span>sub-impacts</span>");
   expect_in(page, "Error of the event times: not known");
 }
@@ -265,15 +303,13 @@ TEST(HtmlReport, ShowsNoDigitBelowTheErrorOfWhatARunEndsWith) {
   FinishedRun run = small_run();
   run.result = sample_result_with_errors(3);
   run.result.striker_velocity = 5.76912;
-  run.result.max_momentum_error = 1e-9;
-  run.result.sub_impacts.back().start_error = 0.1e-6;
   const std::string known = page_of(run);
   expect_in(known, "<b>5.7691 ± 0.0007 m/s</b><span>striker, at the end</span>");
-  expect_in(known, "<b>8.7963 ± 0.0005 kN</b>");
-  run.result.error_estimate->first_unresolved = 1;
+  expect_in(known, "<b>8.7963 ± 0.0005 kN</b><span>largest force</span>");
+  run.result.error_estimate->totals.at(2).total.error.reset();
   const std::string unknown = page_of(run);
-  expect_in(unknown, "<b>5.8 m/s</b><span>striker, at the end (error not known)</span>");
-  EXPECT_EQ(unknown.find("5.76"), std::string::npos);
+  expect_in(unknown, "<b>5.77 m/s (a run beside did not complete, so that no error is known)</b>");
+  EXPECT_EQ(unknown.find("5.769"), std::string::npos);
 }
 
 TEST(HtmlReport, StatesWhatTheTheoryLeavesOut) {
@@ -309,33 +345,6 @@ TEST(ComparisonReport, ListsTheKeysThatDifferAndMatchesSubImpacts) {
   const std::string same = comparison_report({runs[0], runs[0]}, {"one", "two"}, "/nowhere");
   expect_in(same, "None: the cases are the same.");
   expect_in(same, "+0.0000");
-}
-
-TEST(StrikeWords, TellZonesYieldsTheStrikersLossAndTheBeamsRecovery) {
-  const FinishedRun run = small_run();
-  std::string text;
-  for (const std::string& paragraph : strike_words(run.input, run.result)) text += paragraph + "\n";
-  for (const char* piece : {" sub-impacts in 1 zone", "The contact first yields after",
-                            "A fibre of the beam first", "At no time does it gain energy",
-                            "separates compression from recovery", "Its largest value"}) {
-    expect_in(text, piece);
-  }
-}
-
-TEST(StrikeWords, OfAnElasticReboundSayThatTheStrikerGains) {
-  // A light ball on a heavy rigid body comes back: compression and recovery in one contact.
-  const FinishedRun run =
-      small_run({parse_override("model.mesh=rigid"), parse_override("beam.yield_stress=inf"),
-                 parse_override("striker.mass=0.01")});
-  const auto account = account_of(run.result);
-  ASSERT_TRUE(account);
-  EXPECT_GT(account->striker_gain, 0.5 * run.result.used.initial_energy);
-  EXPECT_EQ(account->parts.size(), 2u);  // one zone of one sub-zone
-  std::string text;
-  for (const std::string& paragraph : strike_words(run.input, run.result)) text += paragraph + "\n";
-  expect_in(text, "single contact");
-  expect_in(text, "It gains energy at times");
-  expect_in(text, "The contact stays elastic");
 }
 
 }  // namespace

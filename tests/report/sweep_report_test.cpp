@@ -34,7 +34,7 @@ SweptRuns three_runs() {
   runs.columns = {{"striker.mass", true, {0.1, 0.2, 0.3}, {}},
                   {"outcome", false, {}, {"completed", "completed", "</script>"}},
                   {"n_sub_impacts", false, {7.0, 9.0, none}, {}},
-                  {"all_decided", false, {1.0, 0.0, none}, {}}};
+                  {"all_certain", false, {1.0, 0.0, none}, {}}};
   runs.sub_impacts.resize(3);
   runs.sub_impacts[0].resize(7);
   return runs;
@@ -126,7 +126,7 @@ TEST(SweepReport, OfDamagedTablesIsAMessageOrAWholePage) {
     }
   }
   const std::string runs =
-      "run,striker.mass,solver.method,outcome,time_s,n_sub_impacts,n_decided,all_decided,message\n"
+      "run,striker.mass,solver.method,outcome,time_s,n_sub_impacts,n_certain,all_certain,message\n"
       "0,0.1,erk,completed,0.008,3,3,1,\n1,0.2,erk,completed,0.008,3,2,0,\n"
       "2,0.3,nystrom,refused,,,,,why\n";
   std::mt19937 random(19);

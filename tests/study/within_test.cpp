@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "subimpact/study/judgement.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,7 +13,7 @@
 #include "paper_scene.h"
 #include "same_results.h"
 #include "subimpact/study/match.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {
@@ -180,36 +182,40 @@ TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
   EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
 }
 
-TEST(ACompanion, IsHalfAsFineInMeshAndTime) {
+TEST(CasesBeside, AreCoarserInMeshAndTime) {
   Case input = paper_case(1e-3);
   input.model.segments = 401;
   input.solver.method = Method::central_difference;
-  const auto central = companion_of(input);
-  ASSERT_TRUE(central);
-  EXPECT_EQ(central->input.model.segments, 201);
-  EXPECT_EQ(central->name, "mesh and time");
-  const double step = *resolve(input).settings().step;
-  EXPECT_NEAR(*resolve(central->input).settings().step, 2.0 * step, 0.1 * step);
+  const std::vector<CaseBeside> cases = cases_beside(input);
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].input.model.segments, 341);
+  EXPECT_EQ(cases[1].input.model.segments, 281);
+  EXPECT_EQ(cases[1].part, "mesh and time");
+  EXPECT_GT(*resolve(cases[1].input).settings().step, 1.05 * *resolve(input).settings().step);
   input.solver.method = Method::erk;
   input.solver.rtol = 1e-7;
-  EXPECT_NEAR(companion_of(input)->input.solver.rtol, 1e-6, 1e-12);
+  EXPECT_NEAR(cases_beside(input).at(1).input.solver.rtol, 1e-6, 1e-12);
 }
 
-TEST(ACompanion, OfARigidBeamIsCoarserInTimeAlone) {
+TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {
   Case input = paper_case(1e-3);
   input.model.mesh = MeshKind::rigid;
-  const auto companion = companion_of(input);
-  ASSERT_TRUE(companion);
-  EXPECT_EQ(companion->name, "time");
+  const std::vector<CaseBeside> cases = cases_beside(input);
+  ASSERT_EQ(cases.size(), 1u);
+  EXPECT_EQ(cases[0].part, "time");
 }
 
-TEST(ACompanion, RevealsThatTheDefaultMeshMissesAnOpening) {
-  Case input = paper_case(0.25e-3);
-  input.solver.method = Method::central_difference;
-  const Result result = simulate_with_companion(input, 1);
-  ASSERT_TRUE(result.error_estimate);
-  // 501 cells bridge the opening at 203 us; the contact that lasts to 217 us is not decided.
-  EXPECT_EQ(result.error_estimate->first_unresolved, 0u);
+TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {
+  Case input = paper_case(0.5e-3);
+  input.accuracy.event_times = 1e-9;
+  WithinOptions options;
+  int n_meshes = 0;
+  options.announce = [&](const std::string&) { ++n_meshes; };
+  options.progress = [&](double) { return n_meshes < 2; };
+  const WithinRun run = simulate_within(input, {}, options);
+  EXPECT_EQ(run.result.outcome.kind, OutcomeKind::stopped);
+  EXPECT_TRUE(run.result.n_certain().has_value());
+  EXPECT_NEAR(run.result.outcome.time, 0.5e-3, 1e-9);
 }
 
 }  // namespace

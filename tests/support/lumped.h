@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "integrate/sundials.h"
 #include "integrate/central_difference.h"
 #include "integrate/exponential.h"
 #include "integrate/nystrom.h"
+#include "integrate/sundials.h"
 #include "lumped_mesh.h"
 #include "model/modal_mesh.h"
 #include "simulate/event_loop.h"

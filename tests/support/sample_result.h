@@ -1,6 +1,6 @@
 #pragma once
 
-#include <limits>
+#include <algorithm>
 
 #include "subimpact/simulate/result.h"
 
@@ -46,22 +46,61 @@ inline Result sample_result() {
   return result;
 }
 
-/// The same with errors of 0.0163 and 0.26 us in the first two sub-impacts, of which `n_decided`
-/// are decided.
-inline Result sample_result_with_errors(std::size_t n_decided) {
+/// The same with errors of 0.0163 and 0.26 us in the first two sub-impacts, of which `n_certain`
+/// are certain, as the judgement of a run leaves it.
+inline Result sample_result_with_errors(std::size_t n_certain) {
   Result result = sample_result();
-  result.sub_impacts[0].start_error = 0.0;
-  result.sub_impacts[0].end_error = 0.0163e-6;
-  result.sub_impacts[1].start_error = result.sub_impacts[1].end_error = 0.26e-6;
-  result.sub_impacts[2].start_error = 0.26e-6;  // still open
+  const std::size_t n = result.sub_impacts.size();
   ErrorEstimate estimate;
-  estimate.refined_run = "the same, finer";
-  if (n_decided < result.sub_impacts.size()) estimate.first_unresolved = n_decided;
-  estimate.reason = n_decided < result.sub_impacts.size() ? "they part" : "";
-  estimate.largest_error = 0.26e-6;
-  estimate.parts = {{"mesh", "the same, finer", estimate.first_unresolved, estimate.reason,
+  estimate.refined_run = "the same, coarser";
+  if (n_certain < n) {
+    estimate.first_unresolved = n_certain;
+    estimate.reason = "they part";
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    SubImpact& s = result.sub_impacts[i];
+    const bool first = i == 0;
+    const double error = first ? 0.0163e-6 : 0.26e-6;
+    s.certain = i < n_certain;
+    s.probability = *s.certain ? 1.0 : 0.75;
+    s.doubt = *s.certain ? "" : "they part";
+    s.start_error = first ? 0.0 : error;
+    if (s.end) s.end_error = error;
+    s.error_mesh = error;
+    s.peak_force_error = first ? 0.43 : 46.0;
+    s.impulse_error = first ? 4.9e-6 : 5.2e-4;
+    s.max_indentation_error = s.residual_indentation_error = first ? 8e-9 : 9e-7;
+    s.striker_velocity_error = first ? 6.4e-4 : 0.068;
+    if (*s.certain) estimate.largest_error = error;
+  }
+  estimate.parts = {{"mesh", "the same, coarser", estimate.first_unresolved, estimate.reason,
                      estimate.largest_error}};
+  const auto count = [&](std::size_t from, std::size_t to) {  // of [from, to), uncertain ones
+    const std::size_t n_before = std::clamp(n_certain, from, to);
+    return Total{static_cast<double>(to - from), static_cast<double>(to - n_before)};
+  };
+  estimate.totals = {{"sub_impacts", count(0, n)},
+                     {"zones", {2.0, 0.0}},
+                     {"striker_velocity_m_per_s", {result.striker_velocity, 6.4e-4}},
+                     {"beam_mean_velocity_m_per_s", {result.beam_mean_velocity, 5.7e-4}},
+                     {"restitution", {0.0, 7.6e-5}},
+                     {"impulse_Ns", {0.3, 1.1e-3}},
+                     {"peak_force_N", {result.max_force, 0.43}},
+                     {"max_indentation_m", {result.max_indentation, 8e-9}}};
+  estimate.zones = {{{0.0, 0.0}, {0.6e-3, 0.26e-6}, {0.2, 5.3e-4}, count(0, 2)},
+                    {{5e-3, 0.26e-6}, {result.outcome.time, 0.0}, {0.1, 5.2e-4}, count(2, 3)}};
   result.error_estimate = estimate;
+  return result;
+}
+
+/// The same, all certain, but that there may be another sub-impact after one of them (from 0).
+inline Result sample_result_with_an_uncertain_flight(std::size_t after) {
+  Result result = sample_result_with_errors(sample_result().sub_impacts.size());
+  ErrorEstimate& estimate = *result.error_estimate;
+  estimate.uncertain_flights = {{after, "there is another one with the same, coarser"}};
+  estimate.first_unresolved = estimate.parts.front().first_unresolved = after + 1;
+  estimate.reason = estimate.parts.front().reason = estimate.uncertain_flights.front().reason;
+  estimate.totals.front().total.error = 1.0;
   return result;
 }
 

@@ -19,7 +19,7 @@
 #include "report/gnuplot.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paper/strike_account.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/strike_account.h"
 
 namespace subimpact::validation {
 namespace {

@@ -60,25 +60,25 @@ def draw_map(axes, runs, column, label, *, factor=1.0, doubtful=None, ticks=None
 
 
 def draw_counts(runs):
-    figure, (all_of_them, decided) = plt.subplots(1, 2, figsize=(10, 4.2), sharey=True)
+    figure, (all_of_them, certain) = plt.subplots(1, 2, figsize=(10, 4.2), sharey=True)
     most = runs.n_sub_impacts.max()
     ticks = [n for n in (5, 10, 20, 30, 50, 70, 100) if n <= most]
     draw_map(all_of_them, runs, "n_sub_impacts", "sub-impacts within 8 ms", ticks=ticks,
-             norm=matplotlib.colors.LogNorm(runs.n_sub_impacts.min(), most), doubtful=runs.all_decided != 1)
-    draw_map(decided, runs, "n_decided", "sub-impacts that are certain in count and order", vmin=0,
-             ticks=list(range(0, int(runs.n_decided.max()) + 1, 5)))
+             norm=matplotlib.colors.LogNorm(runs.n_sub_impacts.min(), most), doubtful=runs.all_certain != 1)
+    draw_map(certain, runs, "n_certain", "sub-impacts that are certain in count and order", vmin=0,
+             ticks=list(range(0, int(runs.n_certain.max()) + 1, 5)))
     all_of_them.set(ylabel="mass of the striker over that of the beam",
-                    title="sub-impacts of the run; hatched: not decided")
-    decided.set(title="leading sub-impacts that are decided")
+                    title="sub-impacts of the run; hatched: not certain")
+    certain.set(title="leading sub-impacts that are certain")
     save(figure, "counts.png")
 
 
 def draw_first_separation(runs):
     figure, axes = plt.subplots(figsize=(6.5, 4.4))
     draw_map(axes, runs, "first_separation_s", "us", factor=1e6, cmap="magma",
-             doubtful=runs.n_decided == 0)
+             doubtful=runs.n_certain == 0)
     axes.set(ylabel="mass of the striker over that of the beam",
-             title="end of the first contact; hatched: not decided")
+             title="end of the first contact; hatched: not certain")
     save(figure, "first_separation.png")
 
 
@@ -149,9 +149,9 @@ def words_on_map(runs):
     plan = si.Plan.from_file(HERE / "map.toml")
     done = runs[runs.outcome == "completed"]
     return (f"The map: {len(runs)} of {len(plan)} cases, {len(done)} completed, with {done.n_sub_impacts.min()} to "
-            f"{done.n_sub_impacts.max()} sub-impacts. In {(done.all_decided == 1).sum()} cases all of them are decided, in "
-            f"{(done.wish_met == 1).sum()} every event is within the wish, in {(done.n_decided > 0).sum()} the first "
-            f"separation is decided, with an error of {1e6 * done.first_separation_error_s.median():.2g} us in the median.")
+            f"{done.n_sub_impacts.max()} sub-impacts. In {(done.all_certain == 1).sum()} cases all of them are certain, in "
+            f"{(done.wish_met == 1).sum()} every event is within the wish, in {(done.n_certain > 0).sum()} the first "
+            f"separation is certain, with an error of {1e6 * done.first_separation_error_s.median():.2g} us in the median.")
 
 
 def renew_results(text):

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "subimpact/study/companion.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact::predictability {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "subimpact/case/case_keys.h"
-#include "subimpact/study/error_bars.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact::scenes {
@@ -151,8 +151,8 @@ void compare_counts(const Result& run, const Result& reference, Record& record) 
 void run_counts(const Drawn& drawn, double limit, Record& record) {
   const Case& input = drawn.input;
   Watch watch(input.end_time, 2.0 * limit);
-  const Result run =
-      simulate_with_error_bars(input, [&](double time) { return watch.go_on(time); });
+  const Result run = simulate_judged(input, cases_beside_in_time(input), 1,
+                                     [&](double time) { return watch.go_on(time); });
   take_outcome(run, watch, record);
   record.reached = run.outcome.time / input.end_time;
   for (const Failure& failure : failures_of(input, run)) record.failures.push_back(failure);

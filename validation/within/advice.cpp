@@ -8,7 +8,7 @@
 
 #include "study/parallel.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 #include "subimpact/study/plan.h"
 #include "within/judging.h"
 

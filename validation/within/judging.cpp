@@ -5,9 +5,9 @@
 
 #include "numerics/richardson.h"
 #include "study/refinement.h"
-#include "subimpact/study/companion.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 #include "subimpact/study/within.h"
 
 namespace subimpact::wishes {
@@ -24,9 +24,9 @@ double larger_difference(const SubImpact& a, const SubImpact& b) {
 
 }  // namespace
 
-Case open_scene(std::uint64_t seed, int number, const error_bars::Budget& budget,
+Case open_scene(std::uint64_t seed, int number, const within_study::Budget& budget,
                 double work_limit) {
-  Case input = error_bars::draw(seed, number, budget).input;
+  Case input = within_study::draw(seed, number, budget).input;
   const ModelOptions drawn = input.model;
   input.model = {};
   input.model.section = drawn.section;
@@ -40,11 +40,14 @@ Reference reference_of(const Case& finest, double factor) {
   Reference reference;
   try {
     const Case fine = on_other_mesh(finest, factor)->input;
-    const std::optional<Companion> companion = companion_of(fine);
-    if (!companion) return reference;
-    const Result below = simulate(companion->input);
-    Result best = simulate(fine);
-    add_companion_errors(best, fine, *companion, below);
+    const std::vector<CaseBeside> cases = cases_beside(fine);
+    Result best;
+    const std::vector<RunBeside> beside = simulate_beside(fine, cases, 1, {}, nullptr, best);
+    judge(fine, best, beside);
+    const Case& coarser = cases.back().input;
+    const double ratio = static_cast<double>(mesh_count(fine)) / mesh_count(coarser);
+    if (ratio <= 1.0) return reference;
+    const Result& below = beside.back().result;
     reference.sub_impacts = best.sub_impacts;
     const std::size_t n =
         std::min(best.error_estimate->first_unresolved.value_or(best.sub_impacts.size()),
@@ -54,10 +57,10 @@ Reference reference_of(const Case& finest, double factor) {
       SubImpact& s = reference.sub_impacts[i];
       const SubImpact& coarse = below.sub_impacts[i];
       reference.uncertainty.push_back(larger_difference(s, coarse) /
-                                      (std::pow(companion->ratio, order) - 1.0));
-      if (i > 0) s.start = richardson_limit(coarse.start, s.start, companion->ratio, order);
+                                      (std::pow(ratio, order) - 1.0));
+      if (i > 0) s.start = richardson_limit(coarse.start, s.start, ratio, order);
       if (s.end && coarse.end) {
-        s.end = richardson_limit(*coarse.end, *s.end, companion->ratio, order);
+        s.end = richardson_limit(*coarse.end, *s.end, ratio, order);
       }
     }
   } catch (const InvalidCase&) {  // finer than is allowed

@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
-#include "error_bars/scenes.h"
 #include "subimpact/case/simulate.h"
+#include "within/scenes.h"
 
 namespace subimpact::wishes {
 
 /// A scene of error_bars without its mesh and method, by seed and number.
-Case open_scene(std::uint64_t seed, int number, const error_bars::Budget& budget,
+Case open_scene(std::uint64_t seed, int number, const within_study::Budget& budget,
                 double work_limit);
 
 /// Event times in the limit of fine meshes, and how far each is known.
@@ -51,7 +51,7 @@ double median(std::vector<double> values);
 struct WishStudy {
   std::uint64_t seed = 2026;
   int n_scenes = 20;
-  error_bars::Budget budget;
+  within_study::Budget budget;
   double work_limit = 1e8;
   unsigned jobs = 0;   ///< 0: as many as there are cores
   bool trace = false;  ///< every run on stderr

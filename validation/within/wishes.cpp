@@ -9,7 +9,7 @@
 #include <string>
 
 #include "study/parallel.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 #include "subimpact/study/within.h"
 #include "within/judging.h"
 

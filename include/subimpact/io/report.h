@@ -16,12 +16,12 @@ namespace subimpact {
 /// the results passed every check, in one line; empty for a run that completed.
 std::string outcome_caveat(const Result& result);
 
-/// The error of the event times, in one line: of all, or up to which sub-impact and why no further;
-/// where nothing is known, which setting to try.
+/// What is certain, in one line: how many sub-impacts, the error of their times, and why the first
+/// of the others is not; where none is, which setting to try.
 std::string error_words(const Case& input, const Result& result);
 
-/// ", 9 decided", ", all decided": continues a number of sub-impacts. Empty without error estimate.
-std::string decided_words(const Result& result);
+/// ", 9 certain", ", all certain": continues a number of sub-impacts. Empty without error estimate.
+std::string certain_words(const Result& result);
 
 /// What became of a wished accuracy, in one line: wish, horizon, error reached, reason and the key
 /// to free.
@@ -32,9 +32,9 @@ std::string neglected_shear_words(const NeglectedShear& shear);
 
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
 /// with outcome_caveat(), if there is one. With an error estimate, times have their errors beside
-/// them, no number has a digit below what the errors allow, and a line with the reason stands where
-/// sub-impacts are no longer decided; these have question marks.
-std::string sub_impact_table(const Result& result);
+/// them and no number has a digit below what the errors allow; sub-impacts that are not certain
+/// have question marks. `fold`: three and more of these in succession are one line with their sums.
+std::string sub_impact_table(const Result& result, bool fold = true);
 
 /// Of a case with scatter, in one line: up to where its sub-impacts can be predicted, how well, and
 /// why no further.

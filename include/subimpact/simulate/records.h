@@ -3,6 +3,7 @@
 /// Sub-impacts, assembled from events, and what was nearly one.
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,23 +13,32 @@ namespace subimpact {
 
 /// From the instant contact begins to the instant its force returns to zero.
 struct SubImpact {
-  double start = 0.0;                  ///< s
-  std::optional<double> end;           ///< s; none: still in contact when the simulation ended
-  double peak_force = 0.0;             ///< N
-  double impulse = 0.0;                ///< N s, from the striker's velocities at start and end
-  double force_integral = 0.0;         ///< N s, the contact force integrated over the sub-impact
-  double max_indentation = 0.0;        ///< m, largest within this sub-impact
-  double residual_indentation = 0.0;   ///< m, after it
-  double striker_velocity = 0.0;       ///< m/s, at its end
-  double start_rate = 0.0;             ///< m/s, rate of the indentation at the start
-  double end_rate = 0.0;               ///< m/s, the same at the end
-  int zone = 0;                        ///< numbered from 1
-  int subzone = 0;                     ///< numbered from 1 within the zone
-  std::optional<double> start_error;   ///< s, error estimate of start: sum of its parts
-  std::optional<double> end_error;     ///< s, error estimate of end
-  std::optional<double> error_time;    ///< s, their part from the integration in time
-  std::optional<double> error_mesh;    ///< s, from the mesh
-  std::optional<double> error_layers;  ///< s, from layers in place of the exact section
+  double start = 0.0;                 ///< s
+  std::optional<double> end;          ///< s; none: still in contact when the simulation ended
+  double peak_force = 0.0;            ///< N
+  double impulse = 0.0;               ///< N s, from the striker's velocities at start and end
+  double force_integral = 0.0;        ///< N s, the contact force integrated over the sub-impact
+  double max_indentation = 0.0;       ///< m, largest within this sub-impact
+  double residual_indentation = 0.0;  ///< m, after it
+  double striker_velocity = 0.0;      ///< m/s, at its end
+  double start_rate = 0.0;            ///< m/s, rate of the indentation at the start
+  double end_rate = 0.0;              ///< m/s, the same at the end
+  int zone = 0;                       ///< numbered from 1
+  int subzone = 0;                    ///< numbered from 1 within the zone
+  /// What runs beside this one show (study/judgement.h); none, or no doubt, without them.
+  std::optional<bool> certain;                  ///< it exists, alone, in this place
+  std::optional<double> probability;            ///< of that; 1 where certain
+  std::string doubt;                            ///< why it is not certain
+  std::optional<double> start_error;            ///< s, error estimate of start: sum of its parts
+  std::optional<double> end_error;              ///< s, error estimate of end
+  std::optional<double> error_time;             ///< s, their part from the integration in time
+  std::optional<double> error_mesh;             ///< s, from the mesh
+  std::optional<double> error_layers;           ///< s, from layers in place of the exact section
+  std::optional<double> peak_force_error;       ///< N
+  std::optional<double> impulse_error;          ///< N s
+  std::optional<double> max_indentation_error;  ///< m
+  std::optional<double> residual_indentation_error;  ///< m
+  std::optional<double> striker_velocity_error;      ///< m/s
   /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
   /// meshes converges at the expected order.
   std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;

@@ -12,6 +12,7 @@
 #include "subimpact/ode/work_counts.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
+#include "subimpact/system/energies.h"
 #include "subimpact/system/plastic_zone.h"
 
 namespace subimpact {
@@ -181,24 +182,50 @@ struct Work : WorkCounts {
   double wall_seconds = 0.0;  ///< whole, set-up included
 };
 
-/// Error estimates of the event times of a result.
+/// A number of the run as a whole, and its estimated error; none: not known.
+struct Total {
+  double value = 0.0;
+  std::optional<double> error;
+};
+
+struct NamedTotal {
+  std::string name;  ///< with its unit, as in summary.json
+  Total total;
+};
+
+struct ZoneTotals {
+  Total start, end;   ///< s
+  Total impulse;      ///< N s
+  Total sub_impacts;  ///< their number
+};
+
+/// What runs beside a run show of it.
 struct ErrorEstimate {
   std::string refined_run;  ///< the runs it was compared with, in words
-  /// The first sub-impact (from 0) whose existence or place in the order is not certain; none if
-  /// all are.
+  /// The first sub-impact (from 0) that is not certain, or that follows a flight which may hold
+  /// another one; none if all are certain and no others are possible.
   std::optional<std::size_t> first_unresolved;
-  std::string reason;          ///< why it is unresolved
-  double largest_error = 0.0;  ///< s, of the times before that, all parts together
+  std::string reason;          ///< why it is not
+  double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
 
-  /// One source of error, from one refined run.
+  /// One source of error.
   struct Part {
     std::string name;         ///< "time", "mesh", "layers"
-    std::string refined_run;  ///< the run, in words
+    std::string refined_run;  ///< the runs, in words
     std::optional<std::size_t> first_unresolved;
     std::string reason;
-    double largest_error = 0.0;  ///< s, before first_unresolved
+    double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
   };
   std::vector<Part> parts;
+
+  /// A time between two sub-impacts, or after the last, that may hold another one.
+  struct UncertainFlight {
+    std::size_t after = 0;  ///< sub-impact, from 0
+    std::string reason;
+  };
+  std::vector<UncertainFlight> uncertain_flights;
+  std::vector<NamedTotal> totals;
+  std::vector<ZoneTotals> zones;
 };
 
 /// Ends of the first contact on one coarse mesh, without and with shear.
@@ -266,6 +293,7 @@ struct Result {
   double largest_displacement = 0.0;   ///< m, of the struck point, as seen there and at rows
   double striker_velocity = 0.0;       ///< m/s, at the end
   double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
+  Energies final_energies;             ///< J, at the end
   double max_energy_error = 0.0;       ///< largest relative error over all checks
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
   double contact_damping_loss = 0.0;         ///< J, dissipated by the damping of the contact
@@ -287,16 +315,10 @@ struct Result {
   bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
   /// The end of a sub-impact, s: that of the run for one that was still open.
   double end_of(const SubImpact& s) const { return s.end.value_or(outcome.time); }
-  /// How many leading sub-impacts are decided: certain in count and order. None without an error
-  /// estimate.
-  std::optional<std::size_t> n_decided() const {
-    if (!error_estimate) return std::nullopt;
-    return std::min(error_estimate->first_unresolved.value_or(sub_impacts.size()),
-                    sub_impacts.size());
-  }
-  /// Whether it is certain that there are these sub-impacts and no others. Not so where all of them
-  /// are decided, but the run compared with has more.
-  bool all_decided() const { return error_estimate && !error_estimate->first_unresolved; }
+  /// How many sub-impacts are certain. None without an error estimate.
+  std::optional<std::size_t> n_certain() const;
+  /// Whether it is certain that there are these sub-impacts and no others.
+  bool all_certain() const { return error_estimate && !error_estimate->first_unresolved; }
 
   /// One line: outcome, sub-impacts, error of the energy, steps and time.
   std::string brief_report() const;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/companion.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {

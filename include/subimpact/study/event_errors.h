@@ -25,9 +25,9 @@ struct Reference {
 
 /// Two runs by different methods, one beside the other on two cores: `exponential` and `nystrom` at
 /// rtol = 1e-12 where the beam is elastic, else `nystrom` and `erk`. The error stated for an event
-/// is three times the largest difference of the two over it and its neighbours (add_error_bars).
+/// follows from the difference of the two (study/judgement.h).
 ///
-/// A sub-impact counts if both runs have it and its stated error is at most `largest_error` (s):
+/// A sub-impact counts if it is certain and its stated error is at most `largest_error` (s):
 /// sub-impacts that graze amplify small differences until no computation can predict the next
 /// event. The horizon lies in the middle of the separation after the last that counts, or at the
 /// case's end if that is separation too. Throws InvalidCase if nothing counts, if either run fails,

@@ -43,7 +43,7 @@ struct Plan {
 };
 
 struct PlanOptions {
-  Jobs jobs = 1;  ///< the reference and its companion may run beside one another
+  Jobs jobs = 1;  ///< the two runs of the reference may run beside one another
   /// Called before each run, with its description and the time at which it ends (s).
   std::function<void(const std::string& what, double end_time)> announce;
   Progress progress;  ///< of the run in hand; returning false ends the plan with what there is

@@ -11,12 +11,12 @@ namespace subimpact {
 /// Where the error estimates of event times come from.
 enum class ErrorBars {
   off,   ///< there are none
-  time,  ///< a run refined in time (study/error_bars.h)
-  all    ///< refined runs of time, mesh and layers (study/mesh_error_bars.h)
+  time,  ///< another run in time (cases_beside_in_time)
+  all    ///< other runs in time, mesh and layers (cases_beside_by_part)
 };
 
 struct RunRequest : WithinOptions {
-  /// Empty: from a companion; and what a case that fixes nothing leaves open is chosen
+  /// Empty: from coarser meshes; and what a case that fixes nothing leaves open is chosen
   /// (study/within.h). Must be empty if the case has accuracy.event_times.
   std::optional<ErrorBars> error_bars;
   /// The case resolved already; taken by a run without error bars.

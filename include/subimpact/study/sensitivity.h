@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/companion.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 

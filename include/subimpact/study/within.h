@@ -8,7 +8,7 @@
 
 #include "subimpact/case/keys_without_effect.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/companion.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 
@@ -29,7 +29,7 @@ struct WithinOptions {
   Jobs jobs = 1;
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
-  /// Called with every run that ended, companions too.
+  /// Called with every run that ended, those beside the judged ones too.
   std::function<void(const Result& run)> finished;
   Progress progress;  ///< of the run in hand; returning false ends all with what there is
   /// Called before each run whose rows are kept: where they go. Those of the run before are to be
@@ -41,10 +41,10 @@ struct WithinOptions {
 /// and the steps in them in the same unit.
 double counted_work(const Result& result);
 
-/// Where nothing is wished (no accuracy.event_times), the wish is a tenth of the time scale of the
-/// shortest contacts (ResolvedSettings::contact_time), and this is the limit of the work: some
-/// second on one core.
-constexpr double default_work_limit = 2e8;
+/// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
+/// (ResolvedSettings::contact_time), and this is the limit of the work: some two seconds on two
+/// cores.
+constexpr double default_work_limit = 2e9;
 
 /// Where a beam bends elastically: elements (Hermite, or spectral where it shears) in natural
 /// modes, by the exponential method (fourth order in the mesh, next to no error in time). Where
@@ -61,20 +61,19 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open);
 
 /// A case with every choice made, and its run.
 struct WithinRun {
-  Case input;  ///< simulate_with_companion(input) repeats the run, bit for bit
+  Case input;  ///< simulate_judged() with cases_beside(input) repeats the run, bit for bit
   Result result;
 };
 
-/// Runs a case on finer and finer meshes, each beside its companion, until every event time of
-/// the run is stated within accuracy.event_times. The next mesh follows from the stated error and
-/// the order of the mesh; from the counted work of the runs so far follows whether it is
-/// affordable. Neither depends on measured time or on the number of jobs. The sequence ends early
-/// where, by the errors of two levels, not even the first event beyond the horizon can come within
-/// the wish for the work that is left; the horizon then is that of a coarser mesh than the work
-/// limit allows.
+/// Runs a case on finer and finer meshes, each beside the cases that judge it, until all
+/// sub-impacts are certain, no others are possible, and all event times are within
+/// accuracy.event_times. The next mesh follows from the stated errors and the order of the mesh;
+/// from the counted work of the runs so far follows whether it is affordable. Neither depends on
+/// measured time or on the number of jobs. Runs that are not expected to be the last keep no rows.
 ///
-/// Result::wish states whether the wish is met and up to where; if not, why, and which key of the
-/// case stands in the way. Result::choice gives the reason of the choice. Throws InvalidCase.
+/// Result::wish states whether this is met; if not, why, and which key of the case stands in the
+/// way. Result::choice gives the reason of the choice. A search that is stopped returns the last
+/// mesh that was finished. Throws InvalidCase.
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options = {});
 

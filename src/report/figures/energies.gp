@@ -1,6 +1,6 @@
-# Tables: $sub_impacts (from, to, decided), $zones, $subzones (from, to, number); $U_m_J, $U_k_J,
+# Tables: $sub_impacts (from, to, certain), $zones, $subzones (from, to, number); $U_m_J, $U_k_J,
 # $U_e_J, $U_p_J, $D_c_J, $D_b_J, $f_c_m, $u_mf_m (x, y: over time).
-# Variables: end, initial_energy, largest_displacement, n_undecided, is_damped.
+# Variables: end, initial_energy, largest_displacement, n_uncertain, is_damped.
 t = time_factor(end)
 e = energy_factor(initial_energy)
 d = length_factor(largest_displacement)
@@ -8,7 +8,7 @@ from(unused) = t*column('from')
 to(unused) = t*column('to')
 middle(unused) = 0.5*t*(column('from') + column('to'))
 is_wide(unused) = column('to') - column('from') > 0.012*end
-of_decided(value, y) = column('decided') == value ? y : NaN
+of_certain(value, y) = column('certain') == value ? y : NaN
 set multiplot title marks font ',12'
 set xrange [0:t*end]
 
@@ -25,9 +25,9 @@ plot $zones using (middle(0)):(2.5):(from(0)):(to(0)):(2.08):(2.92) with boxxyer
        lc rgb '#E3E3E3' notitle, \
      $subzones using (middle(0)):(1.5):(from(0)):(to(0)):(1.08):(1.92) with boxxyerror \
        lc rgb '#BDBDBD' notitle, \
-     $sub_impacts using (middle(0)):(of_decided(1, 0.5)):(from(0)):(to(0)):(0.08):(0.92) with boxxyerror \
+     $sub_impacts using (middle(0)):(of_certain(1, 0.5)):(from(0)):(to(0)):(0.08):(0.92) with boxxyerror \
        lc rgb '#E69F00' notitle, \
-     $sub_impacts using (middle(0)):(of_decided(0, 0.5)):(from(0)):(to(0)):(0.08):(0.92) with boxxyerror \
+     $sub_impacts using (middle(0)):(of_certain(0, 0.5)):(from(0)):(to(0)):(0.08):(0.92) with boxxyerror \
        lc rgb '#F6DDAA' notitle, \
      $zones using (is_wide(0) ? middle(0) : NaN):(2.5):'number' with labels font ',12' notitle, \
      $subzones using (is_wide(0) ? middle(0) : NaN):(1.5):'number' with labels font ',12' notitle
@@ -49,7 +49,7 @@ plot $U_m_J using (t*$1):(e*$2) with lines title 'striker U_m', \
      $D_c_J using (t*$1):(e*$2) with lines title 'contact, plastic D_c', \
      $D_b_J using (t*$1):(is_damped > 0 ? e*$2 : NaN) with lines title is_damped > 0 ? 'damping D_b' : '', \
      keyentry with boxes fillstyle solid noborder linecolor rgb '#F6DDAA' \
-       title n_undecided > 0 ? 'sub-impacts not decided' : ''
+       title n_uncertain > 0 ? 'sub-impacts not certain' : ''
 
 eval placed(0.15, 0.97, 0.1, 0.43)
 set ylabel 'deformation, '.length_unit(largest_displacement)

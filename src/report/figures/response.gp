@@ -1,5 +1,5 @@
-# Tables: $force_N, $w_c_m, $w_m_m, $f_c_m (x, y: over time), $sub_impacts (from, to, decided).
-# Variables: end, largest_force, largest_displacement, n_undecided.
+# Tables: $force_N, $w_c_m, $w_m_m, $f_c_m (x, y: over time), $sub_impacts (from, to, certain).
+# Variables: end, largest_force, largest_displacement, n_uncertain.
 t = time_factor(end)
 f = force_factor(largest_force)
 d = length_factor(largest_displacement)
@@ -17,9 +17,9 @@ set format x ''
 set key at graph 1, graph 1.16 right top horizontal maxrows 1 samplen 2.5
 plot $force_N using (t*$1):(f*$2) with lines lw 1 notitle, \
      keyentry with boxes fillstyle solid noborder linecolor rgb '#FBE6BE' \
-       title 'sub-impacts'.(n_undecided > 0 ? ', decided' : ''), \
+       title 'sub-impacts'.(n_uncertain > 0 ? ', certain' : ''), \
      keyentry with boxes fillstyle transparent pattern 4 noborder linecolor rgb '#F0CE8C' \
-       title n_undecided > 0 ? 'not decided' : ''
+       title n_uncertain > 0 ? 'not certain' : ''
 
 eval placed(0.11, 0.97, 0.12, 0.48)
 set key at graph 1, graph 1.16 right top horizontal maxrows 1 samplen 2.5 width -1

@@ -38,11 +38,11 @@ time_unit(x) = x > 1e-3 ? 'ms' : 'µs'
 time_factor(x) = x > 1e-3 ? 1e3 : 1e6
 
 # eval shaded('$table', factor, colour): bands behind the panels that follow, from columns "from"
-# and "to" times a factor; of sub-impacts the decided ones.
-# eval hatched('$sub_impacts', factor, colour): those not decided, hatched.
+# and "to" times a factor; of sub-impacts the certain ones.
+# eval hatched('$sub_impacts', factor, colour): those not certain, hatched.
 shaded(table, factor, colour) = 'unset object; '.bands(table, factor, colour, \
-  table eq '$sub_impacts' ? 'column("decided") == 1' : '1', 1, 'solid')
-hatched(table, factor, colour) = bands(table, factor, colour, 'column("decided") == 0', 100001, \
+  table eq '$sub_impacts' ? 'column("certain") == 1' : '1', 1, 'solid')
+hatched(table, factor, colour) = bands(table, factor, colour, 'column("certain") == 0', 100001, \
   'transparent pattern 4')
 bands(table, factor, colour, condition, first, fill) = 'n = |'.table.'| - 1; array from[n]; '.\
   'array to[n]; do for [i=1:n] { to[i] = -1 }; stats '.table.' using (i = int($0) + 1, '.\

@@ -1,5 +1,5 @@
-# Tables: $sub_impacts (number, zone, from, to, impulse, decided: 1 or 0; start_error, start_scatter,
-# 0: none), $zones (from, to, number). Variables: end, n_undecided, horizon of prediction (NaN: the
+# Tables: $sub_impacts (number, zone, from, to, impulse, certain: 1 or 0; start_error, start_scatter,
+# 0: none), $zones (from, to, number). Variables: end, n_uncertain, horizon of prediction (NaN: the
 # end).
 t = time_factor(end)
 # A column of panels per zone, as wide as the zone lasts; one for all where there are many zones.
@@ -37,8 +37,8 @@ predictable = t*horizon
 start(unused) = t*column('from')
 is_of(c) = n < n_zones || column('zone') == c
 of(c, name) = is_of(c) ? shown(name) : NaN
-decided(c, name) = column('decided') == 1 ? of(c, name) : NaN
-undecided(c, name) = column('decided') == 0 ? of(c, name) : NaN
+certain(c, name) = column('certain') == 1 ? of(c, name) : NaN
+uncertain(c, name) = column('certain') == 0 ? of(c, name) : NaN
 number(c, name) = has_number[int($0) + 1] == c ? of(c, name) : NaN
 bar(c, name) = column(name) > 0 && is_of(c) ? 1e6*column(name) : NaN
 m = |$sub_impacts| - 1
@@ -118,14 +118,14 @@ do for [name in 'duration impulse'] {
         set arrow from first predictable, graph 0 to first predictable, graph 1 nohead dt 2 lc rgb '#A8447F'
       }
     }
-    plot $sub_impacts using (start(0)):(decided(c, name)) with impulses lc rgb dark lw 2 notitle, \
-         $sub_impacts using (start(0)):(undecided(c, name)) with impulses lc rgb pale lw 1.5 notitle, \
+    plot $sub_impacts using (start(0)):(certain(c, name)) with impulses lc rgb dark lw 2 notitle, \
+         $sub_impacts using (start(0)):(uncertain(c, name)) with impulses lc rgb pale lw 1.5 notitle, \
          $sub_impacts using (start(0)):(first ? bar(c, 'start_scatter') : NaN) with impulses \
            lc rgb '#CC79A7' lw 6 notitle, \
          $sub_impacts using (start(0)):(first ? bar(c, 'start_error') : NaN) with impulses \
            lc rgb '#000000' lw 3 notitle, \
-         $sub_impacts using (start(0)):(decided(c, name)) with points lc rgb dark pt 7 ps 0.8 notitle, \
-         $sub_impacts using (start(0)):(undecided(c, name)) with points lc rgb pale pt 6 ps 0.9 notitle, \
+         $sub_impacts using (start(0)):(certain(c, name)) with points lc rgb dark pt 7 ps 0.8 notitle, \
+         $sub_impacts using (start(0)):(uncertain(c, name)) with points lc rgb pale pt 6 ps 0.9 notitle, \
          $sub_impacts using (start(0)):(number(c, name)):'number' with labels center offset 0, 0.8 \
            font ',11' notitle, \
          keyentry with boxes fillstyle solid noborder lc rgb '#000000' \

@@ -16,7 +16,7 @@ function overlay(canvas, name) {
 
 // Bands of sub-impacts in a unit of time.
 function bandsOf(hits, {per_second: perSecond}) {
-  return hits.map(({start, end, decided}) => ({from: start * perSecond, to: end * perSecond, decided}));
+  return hits.map(({start, end, certain}) => ({from: start * perSecond, to: end * perSecond, certain}));
 }
 
 // A zoomable chart over time. rows: [time, value, ...] in the units of the labels.
@@ -78,14 +78,14 @@ class TimeChart {
     return legend;
   }
 
-  // Sub-impacts, hatched where they are not decided.
+  // Sub-impacts, hatched where they are not certain.
   drawBands(draw, area, chart) {
     const hatch = hatching();
-    for (const {from, to, decided} of this.bands) {
+    for (const {from, to, certain} of this.bands) {
       const left = Math.max(chart.toDomXCoord(from), area.x);
       const right = Math.min(chart.toDomXCoord(to), area.x + area.w);
       if (right < left) continue;
-      draw.fillStyle = decided ? colour('band') : hatch;
+      draw.fillStyle = certain ? colour('band') : hatch;
       draw.fillRect(left, area.y, Math.max(right - left, 0.5), area.h);
     }
   }
@@ -223,11 +223,11 @@ class Timeline {
     this.marks = [];
     hits.forEach((s, i) => {
       this.marks.push({kind: 'contact', index: i, time: s.start, value: s.end - s.start,
-                       error: s.start_error, scatter: s.start_scatter, decided: s.decided});
+                       error: s.start_error, scatter: s.start_scatter, certain: s.certain});
       const after = hits[i + 1];
       if (!after || s.ongoing) return;
       this.marks.push({kind: 'separation', index: i, time: s.end, value: after.start - s.end,
-                       error: s.end_error, scatter: s.end_scatter, decided: after.decided});
+                       error: s.end_error, scatter: s.end_scatter, certain: after.certain});
     });
     this.bars = Timeline.barStyles.filter(({name}) => this.marks.some((mark) => mark[name] > 0));
     canvas.addEventListener('click', (event) => {
@@ -263,8 +263,8 @@ class Timeline {
     axes.inside((draw) => {
       this.drawHorizon(axes, draw);
       for (const bar of this.bars) this.marks.forEach((mark) => this.drawBar(axes, bar, mark));
-      for (const {kind, time, value, decided} of this.marks) {
-        this.drawMark(axes, kind, axes.toX(time * unit.per_second), axes.toY(1e6 * value), decided);
+      for (const {kind, time, value, certain} of this.marks) {
+        this.drawMark(axes, kind, axes.toX(time * unit.per_second), axes.toY(1e6 * value), certain);
       }
     });
     this.drawKey(axes);
@@ -311,7 +311,7 @@ class Timeline {
     draw.stroke();
   }
   drawKey(axes) {
-    const words = [['contact', 'contacts'], ['separation', 'separations'], ['open', 'open: not decided']];
+    const words = [['contact', 'contacts'], ['separation', 'separations'], ['open', 'open: not certain']];
     words.forEach(([kind, text], i) => {
       const x = axes.left + 12 + 100 * i;
       this.drawMark(axes, kind, x, 8, kind !== 'open');

@@ -152,7 +152,7 @@ class Page {
     const index = strike.subImpactAt(time);
     const parts = [`t = ${(time * per_second).toFixed(name === 'µs' ? 3 : 6)} ${name}`];
     if (event) parts.push(`event: ${eventKinds[event.kind].name}`);
-    parts.push(index < 0 ? 'apart' : `in sub-impact ${index + 1}${strike.sub_impacts[index].decided ? '' : ' (not decided)'}`);
+    parts.push(index < 0 ? 'apart' : `in sub-impact ${index + 1}${strike.sub_impacts[index].certain ? '' : ' (not certain)'}`);
     if (strike.hasHistory) {
       const depth = 1e3 * strike.at('indentation_m', time);
       parts.push(`force ${printed(strike.at('force_N', time))} N`,

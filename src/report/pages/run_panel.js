@@ -47,7 +47,7 @@ class RunPanel {
     byId('hits-note').textContent = isLeftOut ? 'Left out to keep the page small; sub_impacts.csv has them.'
       : hits.length === 0 ? 'It has none.'
       : this.runs.certainty(run) === 'unknown' ? 'Without error bars: how many of the digits are right is not known.'
-      : hits.every(({decided}) => decided) ? 'All are decided.' : 'Those in grey are not decided: their count, order and times may be wrong.';
+      : hits.every(({certain}) => certain) ? 'All are certain.' : 'Those in grey are not certain: their count, order and times may be wrong.';
     byId('sub-impacts').closest('.wide').hidden = hits.length === 0;
     byId('sub-impacts').tBodies[0].replaceChildren(...hits.map((hit, i) => RunPanel.rowOf(hit, i)));
     this.showTimeline(hits);
@@ -55,11 +55,11 @@ class RunPanel {
 
   static rowOf(hit, i) {
     const row = document.createElement('tr');
-    row.classList.toggle('undecided', !hit.decided);
+    row.classList.toggle('uncertain', !hit.certain);
     row.dataset.row = i;
-    const time = (value, error) => withError(1e6 * value, error === null ? null : 1e6 * error, hit.decided);
+    const time = (value, error) => withError(1e6 * value, error === null ? null : 1e6 * error, hit.certain);
     const sum = hit.start_error === null || hit.end_error === null ? null : hit.start_error + hit.end_error;
-    row.append(...cellsOf([`${i + 1}${hit.decided ? '' : '?'}`, time(hit.start, hit.start_error),
+    row.append(...cellsOf([`${i + 1}${hit.certain ? '' : '?'}`, time(hit.start, hit.start_error),
                            hit.ongoing ? '(open)' : time(hit.end, hit.end_error),
                            hit.ongoing ? '' : time(hit.end - hit.start, sum).split(' ')[0],
                            printed(hit.peak_force, 5), printed(hit.impulse, 4), printed(1e3 * hit.max_indentation, 5),

@@ -141,10 +141,10 @@ class SweepMap {
       draw.stroke();
     }
     if (tone === null) this.drawLack(mark);
-    else if (this.runs.certainty(mark.run) === 'undecided') this.drawCross(mark, this.shade.contrast(value));
+    else if (this.runs.certainty(mark.run) === 'uncertain') this.drawCross(mark, this.shade.contrast(value));
   }
 
-  // Count and order of the run's sub-impacts are not decided.
+  // Count and order of the run's sub-impacts are not certain.
   drawCross({left, top, width, height}, tone) {
     const size = Math.min(5, 0.32 * Math.min(width, height));
     const x = left + width / 2, y = top + height / 2;
@@ -169,8 +169,8 @@ class SweepMap {
       axes.text(words, x + 20, 12);
       x += 40 + draw.measureText(words).width;
     };
-    if (this.visible.some((run) => this.runs.certainty(run) === 'undecided')) {
-      entry('count not decided', (mark) => {
+    if (this.visible.some((run) => this.runs.certainty(run) === 'uncertain')) {
+      entry('count not certain', (mark) => {
         SweepMap.outline(draw, mark);
         draw.strokeStyle = colour('soft');
         draw.stroke();

@@ -46,10 +46,10 @@ class SweptRuns {
     });
   }
 
-  // 'decided', 'undecided' (count and order), or 'unknown' (no error bars).
+  // 'certain', 'uncertain' (count and order), or 'unknown' (no error bars).
   certainty(run) {
-    const value = this.column('all_decided')?.values[run];
-    return value === 1 ? 'decided' : value === 0 ? 'undecided' : 'unknown';
+    const value = this.column('all_certain')?.values[run];
+    return value === 1 ? 'certain' : value === 0 ? 'uncertain' : 'unknown';
   }
 
   // What a run is, with its value of the column that is shown.
@@ -57,10 +57,10 @@ class SweptRuns {
     const keys = this.keys.slice(0, 6).map((key) => `${key.label} ${key.text(run)}`);
     const parts = [`run ${this.numbers[run]}: ${keys.join(', ')}`];
     if (!shown.isKey) parts.push(`${shown.label} ${shown.text(run)}`);
-    if (this.certainty(run) === 'undecided') {
-      const n = this.column('n_decided')?.values[run];
-      parts.push(n > 0 ? `not decided: only the first ${n} of its sub-impacts are certain`
-                       : 'not decided: none of its sub-impacts is certain');
+    if (this.certainty(run) === 'uncertain') {
+      const n = this.column('n_certain')?.values[run];
+      parts.push(n > 0 ? `not certain: only the first ${n} of its sub-impacts are certain`
+                       : 'not certain: none of its sub-impacts is certain');
     }
     const outcome = this.column('outcome').text(run);
     if (outcome !== 'completed') parts.push(outcome);
@@ -70,13 +70,13 @@ class SweptRuns {
   subImpacts(run) {
     const {first, count} = this.places[run];
     const columns = this.subImpactColumns;
-    const decided = this.column('n_decided')?.values[run];
+    const certain = this.column('n_certain')?.values[run];
     const end = this.column('time_s')?.values[run] * 1e-3;
     const orNull = (value) => (Number.isNaN(value) ? null : value);
     return Array.from({length: Math.max(count, 0)}, (_, i) => {
       const row = Object.fromEntries(Object.entries(columns).map(([name, values]) => [name, orNull(values[first + i])]));
       const ongoing = row.end === null;
-      return {...row, end: ongoing ? Math.max(end, row.start) : row.end, ongoing, decided: !(i >= decided)};
+      return {...row, end: ongoing ? Math.max(end, row.start) : row.end, ongoing, certain: !(i >= certain)};
     });
   }
 }

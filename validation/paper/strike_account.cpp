@@ -1,4 +1,4 @@
-#include "subimpact/study/strike_account.h"
+#include "paper/strike_account.h"
 
 #include <algorithm>
 
@@ -43,15 +43,6 @@ std::vector<StrikePart> strike_parts(const Result& result) {
     parts[zone].end = parts[subzone].end = end;
   }
   return parts;
-}
-
-std::vector<std::size_t> yielding_again(const Result& result) {
-  std::vector<std::size_t> found;
-  const auto& hits = result.sub_impacts;
-  for (std::size_t i = 1; i < hits.size(); ++i) {
-    if (hits[i].residual_indentation > hits[i - 1].residual_indentation) found.push_back(i);
-  }
-  return found;
 }
 
 std::optional<StrikeAccount> account_of(const Result& result) {

@@ -7,7 +7,7 @@
 
 #include "subimpact/case/case.h"
 
-namespace subimpact::error_bars {
+namespace subimpact::judgement {
 
 struct DrawnScene {
   Case input;               ///< the run whose error bars are judged
@@ -24,7 +24,7 @@ struct Kind {
 
 /// What a scene's finest run may take, roughly.
 struct Budget {
-  double seconds = 12.0;
+  double seconds = 3.0;
 };
 
 /// Seed and number determine the scene. All ends, strikes, contact laws and theories; two in five
@@ -33,4 +33,4 @@ struct Budget {
 /// drawn again; one with more than twelve ends after them.
 DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind = {});
 
-}  // namespace subimpact::error_bars
+}  // namespace subimpact::judgement

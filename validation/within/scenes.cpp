@@ -1,4 +1,4 @@
-#include "error_bars/scenes.h"
+#include "within/scenes.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include "case/problem.h"
 #include "numerics/random.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/study/mesh_error_bars.h"
+#include "subimpact/study/other_mesh.h"
 
-namespace subimpact::error_bars {
+namespace subimpact::within_study {
 namespace {
 
 // Seconds a step takes for each unknown.
@@ -216,4 +216,4 @@ DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind)
   }
 }
 
-}  // namespace subimpact::error_bars
+}  // namespace subimpact::within_study

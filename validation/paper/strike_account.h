@@ -28,9 +28,6 @@ struct StrikePart {
 /// to their last separation; separations lie between them. Elastic energies are left 0.
 std::vector<StrikePart> strike_parts(const Result& result);
 
-/// Indices of the sub-impacts after the first in which the contact yielded further.
-std::vector<std::size_t> yielding_again(const Result& result);
-
 /// Poisson's division of an impact, applied to the elastic energy U_e of the beam: compression
 /// while U_e rises overall, recovery while U_e falls.
 struct StrikeAccount {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "subimpact/case/case.h"
+
+namespace subimpact {
+
+/// A case that differs from another one, and in words how.
+struct RefinedRun {
+  Case input;
+  std::string description;
+};
+
+/// The order at which event times of a case converge with its mesh: cells 2; Hermite elements 4,
+/// but where sections may yield 2, without hinges 1; nothing for a rigid beam.
+std::optional<int> mesh_order(const Case& input);
+
+/// The same case on a mesh with `factor` times as many cells or elements, as nearly as the mesh
+/// allows, of the same grading; nothing for a rigid beam or where too few would be left. A fixed
+/// step above the stability limit of the finer mesh is reduced to 0.9 of that limit.
+std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
+
+/// Its cells or elements over the whole length; 1 for a rigid beam.
+int mesh_count(const Case& input);
+
+}  // namespace subimpact

@@ -1,0 +1,491 @@
+#include "subimpact/study/judgement.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "numerics/richardson.h"
+#include "study/mesh_resolution.h"
+#include "study/totals.h"
+#include "subimpact/study/match.h"
+#include "subimpact/study/other_mesh.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double us = 1e6;  // per second
+constexpr double um = 1e6;  // per metre
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+// Measured on random scenes (validation/judgement).
+constexpr double time_safety = 3.5;
+constexpr double value_safety = 7.0;
+constexpr double margin_safety = 3.5;
+constexpr double existence_safety = 2.0;
+constexpr double end_safety = 4.0;  // of what free ends leave
+// Events on either side from which the error of the indentation at an event is taken.
+constexpr std::size_t half_window = 3;
+// Near misses correspond if they are closer than this share of the contact or the flight.
+constexpr double near_share = 0.25;
+constexpr double order_uncertainty = 0.35;  // of the ratio of differences for an order
+
+double end_of(const SubImpact& s, const Result& run) { return s.end.value_or(run.outcome.time); }
+
+// Whether runs show an error of the mesh.
+bool of_mesh(std::span<const RunBeside> beside) {
+  return std::ranges::any_of(
+      beside, [](const RunBeside& other) { return other.of.part.starts_with("mesh"); });
+}
+
+struct Partner {
+  const SubImpact* there = nullptr;  // none: it has no counterpart
+  bool alone = true;                 // no other one overlaps either of the two
+};
+
+// The counterparts of the sub-impacts of a run in another one, and those that have none here.
+struct Counterparts {
+  std::vector<Partner> of;
+  std::vector<const SubImpact*> extra;
+};
+
+Counterparts counterparts_in(const Result& run, const Result& other) {
+  Counterparts found;
+  found.of.resize(run.sub_impacts.size());
+  std::vector<const SubImpact*> lost;
+  for (const MatchedPair& pair : match_sub_impacts(run.sub_impacts, other.sub_impacts)) {
+    if (pair.first && pair.second) {
+      found.of[*pair.first].there = &other.sub_impacts[*pair.second];
+    } else if (pair.second) {
+      found.extra.push_back(&other.sub_impacts[*pair.second]);
+    } else {
+      lost.push_back(&run.sub_impacts[*pair.first]);
+    }
+  }
+  const auto overlap = [](const SubImpact& a, double end_a, const SubImpact& b, double end_b) {
+    return a.start < end_b && b.start < end_a;
+  };
+  for (std::size_t i = 0; i < found.of.size(); ++i) {
+    Partner& partner = found.of[i];
+    if (!partner.there) continue;
+    const SubImpact& here = run.sub_impacts[i];
+    const SubImpact& there = *partner.there;
+    const auto overlaps_here = [&](const SubImpact* extra) {
+      return overlap(here, end_of(here, run), *extra, end_of(*extra, other));
+    };
+    const auto overlaps_there = [&](const SubImpact* gone) {
+      return overlap(there, end_of(there, other), *gone, end_of(*gone, run));
+    };
+    partner.alone = here.end.has_value() == there.end.has_value() &&
+                    std::ranges::none_of(found.extra, overlaps_here) &&
+                    std::ranges::none_of(lost, overlaps_there);
+  }
+  return found;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// A start or an end; the error before safety.
+struct Event {
+  double time = 0.0;
+  double rate = 0.0;  // m/s, of the indentation
+  double error = 0.0;
+  bool known = false;
+};
+
+// Judges a run by the runs that show one part of its error. Event 2 i is the start of sub-impact i,
+// 2 i + 1 its end.
+class Judge {
+ public:
+  Judge(const Case& input, const Result& run, std::span<const RunBeside> beside)
+      : input_(input), run_(run), all_(run.sub_impacts), beside_(beside) {
+    for (const RunBeside& other : beside) {
+      counterparts_.push_back(counterparts_in(run, other.result));
+    }
+    set_events();
+    set_deltas();
+  }
+
+  double time_error(std::size_t event) const {
+    if (event == 0) return 0.0;  // the first touch is given
+    const Event& here = events_[event];
+    if (!here.known) return unknown;
+    const double least = here.rate > 0.0 ? deltas_[event] / here.rate : here.error;
+    const double since_touch = here.time - input_.scene.striker.first_touch();
+    const double of_ends =
+        of_mesh(beside_) ? free_end_error(input_, run_.used.contact_time, since_touch) : 0.0;
+    return std::max(time_safety * std::max(here.error, least), end_safety * of_ends);
+  }
+
+  double value_error(std::size_t i, double SubImpact::*value) const {
+    std::optional<double> error;
+    for (std::size_t k = 0; k < beside_.size(); ++k) {
+      const SubImpact* there = counterparts_[k].of[i].there;
+      if (!there) continue;
+      const double here = beside_[k].of.gain * std::abs(all_[i].*value - there->*value);
+      error = std::max(error.value_or(0.0), here);
+    }
+    return error ? value_safety * *error : unknown;
+  }
+
+  // Why a sub-impact is not certain; empty if it is.
+  std::string doubt_of(std::size_t i) const {
+    for (std::size_t k = 0; k < beside_.size(); ++k) {
+      const Partner& partner = counterparts_[k].of[i];
+      if (partner.there && partner.alone) continue;
+      return (partner.there ? "it is split or merged or does not end with "
+                            : "it does not exist with ") +
+             beside_[k].of.description;
+    }
+    const SubImpact& here = all_[i];
+    const auto small = [](const char* what, double length, double error, const char* unit) {
+      return fmt::format("{} {:.2g} {} with an error of {:.2g} {}", what, length, unit, error,
+                         unit);
+    };
+    const double touch = delta(2 * i);
+    if (!(touch < depth(i))) return small("it goes in by", um * depth(i), um * touch, "um");
+    for (const std::size_t first : {i - 1, i}) {
+      if (first >= all_.size() || first + 1 >= all_.size() || !all_[first].end) continue;
+      const char* what = first == i ? "after it the gap opens by" : "before it the gap opens by";
+      const double error = delta(2 * first + 1);
+      if (!(error < opening(first))) return small(what, um * opening(first), um * error, "um");
+    }
+    if (!here.end) return doubt_by_near_miss(NearMissKind::opening, i);
+    const double start_error = time_error(2 * i), end_error = time_error(2 * i + 1);
+    const double length = *here.end - here.start;
+    if (start_error + end_error > length) {
+      return small("it lasts", us * length, us * (start_error + end_error), "us");
+    }
+    if (i > 0 && all_[i - 1].end && start_error > here.start - *all_[i - 1].end) {
+      return small("the separation before it lasts", us * (here.start - *all_[i - 1].end),
+                   us * start_error, "us");
+    }
+    if (i + 1 < all_.size() && end_error > all_[i + 1].start - *here.end) {
+      return small("the separation after it lasts", us * (all_[i + 1].start - *here.end),
+                   us * end_error, "us");
+    }
+    return doubt_by_near_miss(NearMissKind::opening, i);
+  }
+
+  // Why the flight after a sub-impact may hold another one; empty if it does not.
+  std::string doubt_of_flight(std::size_t i) const {
+    if (!all_[i].end) return {};
+    for (std::size_t k = 0; k < beside_.size(); ++k) {
+      for (const SubImpact* extra : counterparts_[k].extra) {
+        if (extra->start < flight_end(i) && end_of(*extra, beside_[k].result) > *all_[i].end) {
+          return "there is another one with " + beside_[k].of.description;
+        }
+      }
+    }
+    return doubt_by_near_miss(NearMissKind::closing, i);
+  }
+
+  // The share of the runs that have it, with one run more that does not.
+  double probability(std::size_t i) const {
+    const auto n = std::ranges::count_if(counterparts_, [i](const Counterparts& other) {
+      return other.of[i].there && other.of[i].alone;
+    });
+    return (1.0 + static_cast<double>(n)) / (2.0 + static_cast<double>(beside_.size()));
+  }
+
+ private:
+  void set_events() {
+    events_.resize(2 * all_.size());
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      Event& start = events_[2 * i];
+      Event& end = events_[2 * i + 1];
+      start.time = all_[i].start;
+      start.rate = std::abs(all_[i].start_rate);
+      end.time = end_of(all_[i], run_);
+      end.rate = std::abs(all_[i].end_rate);
+      for (std::size_t k = 0; k < beside_.size(); ++k) {
+        const SubImpact* there = counterparts_[k].of[i].there;
+        if (!there) continue;
+        const auto include = [&](Event& event, double time) {
+          event.known = true;
+          event.error = std::max(event.error, beside_[k].of.gain * std::abs(event.time - time));
+        };
+        include(start, there->start);
+        if (all_[i].end && there->end) include(end, *there->end);
+      }
+    }
+  }
+
+  void set_deltas() {
+    for (std::size_t e = 0; e < events_.size(); ++e) {
+      std::vector<double> around;
+      const std::size_t end = std::min(e + half_window + 1, events_.size());
+      for (std::size_t k = std::max(e, half_window + 1) - half_window; k < end; ++k) {
+        if (events_[k].known) around.push_back(events_[k].error * events_[k].rate);
+      }
+      deltas_.push_back(median(std::move(around)));
+    }
+  }
+
+  // The error of the indentation from an event to the next, m.
+  double delta(std::size_t event) const {
+    const std::size_t next = std::min(event + 1, deltas_.size() - 1);
+    return existence_safety * std::max(deltas_[event], deltas_[next]);
+  }
+
+  // How far the indentation goes beyond the residual one, m.
+  double depth(std::size_t i) const {
+    return all_[i].max_indentation - (i > 0 ? all_[i - 1].residual_indentation : 0.0);
+  }
+
+  // How far the gap opens after a sub-impact, m: a parabola with the rates at both ends.
+  double opening(std::size_t i) const {
+    const double length = all_[i + 1].start - *all_[i].end;
+    return 0.125 * length * (events_[2 * i + 1].rate + events_[2 * i + 2].rate);
+  }
+
+  double flight_end(std::size_t i) const {
+    return i + 1 < all_.size() ? all_[i + 1].start : run_.outcome.time;
+  }
+
+  // Of the margin of a near miss, within a contact or flight of that length: what the margin
+  // differs by in the runs beside; the error of the indentation where one of them has no such near
+  // miss.
+  double margin_error(const NearMiss& here, double length, double delta) const {
+    double error = 0.0;
+    for (const RunBeside& other : beside_) {
+      const NearMiss* nearest = nullptr;
+      for (const NearMiss& there : other.result.near_misses) {
+        if (there.kind != here.kind) continue;
+        const double distance = std::abs(there.time - here.time);
+        if (!nearest || distance < std::abs(nearest->time - here.time)) nearest = &there;
+      }
+      if (nearest && std::abs(nearest->time - here.time) <= near_share * length) {
+        const double difference = std::abs(nearest->margin - here.margin);
+        error = std::max(error, margin_safety * other.of.gain * difference);
+      } else {
+        error = std::max(error, delta);
+      }
+    }
+    return error;
+  }
+
+  std::string doubt_by_near_miss(NearMissKind kind, std::size_t i) const {
+    const bool opens = kind == NearMissKind::opening;
+    const double start = opens ? all_[i].start : *all_[i].end;
+    const double end = opens ? end_of(all_[i], run_) : flight_end(i);
+    for (const NearMiss& here : run_.near_misses) {
+      if (here.kind != kind || here.time < start || here.time > end) continue;
+      const double error = margin_error(here, end - start, delta(opens ? 2 * i : 2 * i + 1));
+      if (here.margin > error) continue;
+      return fmt::format("at {:.6g} us the {}: {:.2g} um are left with an error of {:.2g} um",
+                         us * here.time, opens ? "contact nearly opens" : "gap nearly closes",
+                         um * here.margin, um * error);
+    }
+    return {};
+  }
+
+  const Case& input_;
+  const Result& run_;
+  const std::vector<SubImpact>& all_;
+  std::span<const RunBeside> beside_;
+  std::vector<Counterparts> counterparts_;  // one per run beside
+  std::vector<Event> events_;
+  std::vector<double> deltas_;  // m, of the indentation at each event
+};
+
+// --- parts ---------------------------------------------------------------------------------------
+
+void add_error(std::optional<double>& sum, double error) { sum = sum.value_or(0.0) + error; }
+
+// All errors of a sub-impact.
+constexpr std::optional<double> SubImpact::*errors[] = {&SubImpact::start_error,
+                                                        &SubImpact::end_error,
+                                                        &SubImpact::error_time,
+                                                        &SubImpact::error_mesh,
+                                                        &SubImpact::error_layers,
+                                                        &SubImpact::peak_force_error,
+                                                        &SubImpact::impulse_error,
+                                                        &SubImpact::max_indentation_error,
+                                                        &SubImpact::residual_indentation_error,
+                                                        &SubImpact::striker_velocity_error};
+
+std::optional<double>* part_of(SubImpact& s, const std::string& name) {
+  if (name == "time") return &s.error_time;
+  if (name == "mesh") return &s.error_mesh;
+  return name == "layers" ? &s.error_layers : nullptr;
+}
+
+void add_errors(const Judge& judge, std::size_t i, const std::string& part, SubImpact& s) {
+  const double start = judge.time_error(2 * i);
+  const double end = s.end ? judge.time_error(2 * i + 1) : 0.0;
+  add_error(s.start_error, start);
+  if (s.end) add_error(s.end_error, end);
+  if (auto* error = part_of(s, part)) add_error(*error, std::max(start, end));
+  add_error(s.peak_force_error, judge.value_error(i, &SubImpact::peak_force));
+  add_error(s.impulse_error, judge.value_error(i, &SubImpact::impulse));
+  add_error(s.max_indentation_error, judge.value_error(i, &SubImpact::max_indentation));
+  add_error(s.residual_indentation_error, judge.value_error(i, &SubImpact::residual_indentation));
+  add_error(s.striker_velocity_error, judge.value_error(i, &SubImpact::striker_velocity));
+}
+
+std::string descriptions_of(std::span<const RunBeside> beside) {
+  std::vector<std::string> all;
+  for (const RunBeside& run : beside) all.push_back(run.of.description);
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+// The first of the sub-impacts and flights that are not certain.
+void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const std::string& reason) {
+  if (part.first_unresolved) return;
+  part.first_unresolved = i;
+  part.reason = reason;
+}
+
+ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const RunBeside> beside,
+                               ErrorEstimate& estimate) {
+  const Judge judge(input, run, beside);
+  ErrorEstimate::Part part{beside.front().of.part, descriptions_of(beside), {}, {}, 0.0};
+  std::vector<std::string> doubts(run.sub_impacts.size());
+  for (std::size_t i = 0; i < doubts.size(); ++i) doubts[i] = judge.doubt_of(i);
+  for (std::size_t i = 0; i < doubts.size(); ++i) {
+    SubImpact& s = run.sub_impacts[i];
+    add_errors(judge, i, part.name, s);
+    if (!doubts[i].empty()) {
+      s.certain = false;
+      if (s.doubt.empty()) s.doubt = doubts[i];
+      s.probability = std::min(*s.probability, judge.probability(i));
+      set_first_unresolved(part, i, doubts[i]);
+    }
+    if (std::string flight = judge.doubt_of_flight(i); !flight.empty()) {
+      set_first_unresolved(part, i + 1, flight);
+      const auto known =
+          std::ranges::find(estimate.uncertain_flights, i, &ErrorEstimate::UncertainFlight::after);
+      if (known == estimate.uncertain_flights.end()) {
+        estimate.uncertain_flights.push_back({i, std::move(flight)});
+      }
+    }
+  }
+  return part;
+}
+
+// Times in the limit of fine meshes, where those of this mesh and two coarser ones converge at the
+// order of the mesh.
+void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside) {
+  if (beside.size() < 3 || !mesh_order(input)) return;
+  const double order = *mesh_order(input);
+  const Case& middle_case = beside[1].of.input;
+  const Case& coarse_case = beside[2].of.input;
+  const double h = 1.0 / mesh_count(input), middle_h = 1.0 / mesh_count(middle_case),
+               coarse_h = 1.0 / mesh_count(coarse_case);
+  const Counterparts in_middle = counterparts_in(run, beside[1].result);
+  const Counterparts in_coarse = counterparts_in(run, beside[2].result);
+  const double expected = ratio_of_differences(coarse_h, middle_h, h, order);
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+    SubImpact& here = run.sub_impacts[i];
+    const SubImpact* middle = in_middle.of[i].there;
+    const SubImpact* coarse = in_coarse.of[i].there;
+    if (!middle || !coarse) continue;
+    double error = here.error_time.value_or(0.0);
+    const auto limit = [&](double from_coarse, double from_middle, double time) {
+      const double found = (from_coarse - from_middle) / (from_middle - time);
+      std::optional<double> at_limit;
+      if (std::abs(found / expected - 1.0) <= order_uncertainty) {
+        at_limit = richardson_limit(from_middle, time, middle_h / h, order);
+        error = std::max(error, std::abs(*at_limit - time));
+      }
+      return at_limit;
+    };
+    if (i > 0) here.start_mesh_limit = limit(coarse->start, middle->start, here.start);
+    if (here.end && middle->end && coarse->end) {
+      here.end_mesh_limit = limit(*coarse->end, *middle->end, *here.end);
+    }
+    if (here.start_mesh_limit || here.end_mesh_limit) here.mesh_limit_error = error;
+  }
+}
+
+// Sub-impacts that the mesh does not show, whatever runs agree on.
+void doubt_unresolved(const Case& input, Result& run, ErrorEstimate& estimate) {
+  const std::string of_all = mesh_doubt(input, run.used);
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+    SubImpact& s = run.sub_impacts[i];
+    const std::string doubt = of_all.empty() ? unresolved_contact(input, run, i) : of_all;
+    if (doubt.empty()) continue;
+    s.certain = false;
+    s.doubt = doubt;
+    s.probability = std::min(*s.probability, 0.5);
+    for (ErrorEstimate::Part& part : estimate.parts) {
+      if (!part.name.starts_with("mesh") || part.first_unresolved.value_or(i + 1) <= i) continue;
+      part.first_unresolved = i;
+      part.reason = doubt;
+    }
+  }
+}
+
+void set_largest_errors(Result& run, ErrorEstimate& estimate) {
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+    SubImpact& s = run.sub_impacts[i];
+    if (!*s.certain) continue;
+    const auto include = [](double& largest, const std::optional<double>& error) {
+      largest = std::max(largest, error.value_or(0.0));
+    };
+    include(estimate.largest_error, s.start_error);
+    include(estimate.largest_error, s.end_error);
+    for (ErrorEstimate::Part& part : estimate.parts) {
+      const auto* error = part_of(s, part.name);
+      include(part.largest_error, error ? *error : s.start_error);
+      if (!error) include(part.largest_error, s.end_error);
+    }
+  }
+}
+
+void find_first_unresolved(const Result& run, ErrorEstimate& estimate) {
+  for (std::size_t i = 0; i < run.sub_impacts.size() && !estimate.first_unresolved; ++i) {
+    if (!*run.sub_impacts[i].certain) {
+      estimate.first_unresolved = i;
+      estimate.reason = run.sub_impacts[i].doubt;
+      return;
+    }
+    const auto flight =
+        std::ranges::find(estimate.uncertain_flights, i, &ErrorEstimate::UncertainFlight::after);
+    if (flight == estimate.uncertain_flights.end()) continue;
+    estimate.first_unresolved = i + 1;
+    estimate.reason = flight->reason;
+  }
+}
+
+}  // namespace
+
+void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
+  if (beside.empty()) return;
+  ErrorEstimate estimate;
+  estimate.refined_run = descriptions_of(beside);
+  for (SubImpact& s : run.sub_impacts) {
+    s.certain = true;
+    s.probability = 1.0;
+    for (const auto error : errors) (s.*error).reset();
+  }
+  for (auto first = beside.begin(); first != beside.end();) {
+    const auto last = std::find_if(first, beside.end(), [&](const RunBeside& other) {
+      return other.of.part != first->of.part;
+    });
+    estimate.parts.push_back(judge_part(input, run, {first, last}, estimate));
+    if (first->of.part == "mesh") set_mesh_limits(input, run, {first, last});
+    first = last;
+  }
+  for (SubImpact& s : run.sub_impacts) {
+    for (const auto error : errors) {
+      if (s.*error && !std::isfinite(*(s.*error))) (s.*error).reset();
+    }
+  }
+  if (of_mesh(beside)) doubt_unresolved(input, run, estimate);
+  find_first_unresolved(run, estimate);
+  set_largest_errors(run, estimate);
+  set_totals(input, run, beside, estimate);
+  run.error_estimate = std::move(estimate);
+}
+
+}  // namespace subimpact

@@ -1,0 +1,66 @@
+#include "subimpact/study/other_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/meshes.h"
+#include "case/problem.h"
+#include "simulate/methods.h"
+#include "subimpact/case/simulate.h"
+
+namespace subimpact {
+namespace {
+
+// The whole number nearest to x that is odd (or even), or just the nearest.
+int nearest(double x, bool any, bool odd) {
+  const int n = static_cast<int>(std::lround(x));
+  if (any || (n % 2 != 0) == odd) return n;
+  return x >= n ? n + 1 : n - 1;
+}
+
+// A mesh of the caller's own has no finer one.
+std::optional<MeshDescriptor::Refinement> refinement_of(const Case& input) {
+  if (input.parts.mesh) return std::nullopt;
+  return descriptor_of(input.model.mesh).refinement;
+}
+
+}  // namespace
+
+std::optional<int> mesh_order(const Case& input) {
+  const auto refinement = refinement_of(input);
+  return refinement ? std::optional(refinement->order(input)) : std::nullopt;
+}
+
+int mesh_count(const Case& input) {
+  const auto refinement = refinement_of(input);
+  return refinement ? input.model.*(refinement->count) : 1;
+}
+
+std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
+  const auto refinement = refinement_of(input);
+  if (!refinement) return {};
+  RefinedRun refined_run{input, {}};
+  Case& other = refined_run.input;
+  other.output.keep_no_rows();
+  int& count = other.model.*(refinement->count);
+  // An even number of elements has a node at mid-span, where most strikes are: equal elements,
+  // whose modes have a closed form.
+  const bool any = !uses_symmetry(input) && refinement->odd_in_half;
+  count = nearest(factor * mesh_count(input), any, refinement->odd_in_half);
+  if (count < refinement->fewest) return {};
+  refined_run.description = fmt::format("the same with {} {}", count, refinement->parts);
+  const bool fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+  if (fixed && input.solver.step) {
+    other.solver.step.reset();
+    const double largest = default_part_of_critical * resolve(other).settings().critical_step;
+    other.solver.step = std::min(*input.solver.step, largest);
+    if (*other.solver.step < *input.solver.step) {
+      refined_run.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
+    }
+  }
+  return refined_run;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,170 @@
+#include "study/totals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+
+namespace subimpact {
+namespace {
+
+constexpr double safety = 4.0;  // measured on random scenes (validation/judgement)
+
+struct Quantity {
+  const char* name;
+  std::optional<double> (*value)(const Case& input, const Result& run);
+  bool is_count = false;
+};
+
+double largest(const Result& run, EnvelopeRow::Range EnvelopeRow::*range) {
+  double most = 0.0;
+  for (const EnvelopeRow& row : run.envelope) {
+    const EnvelopeRow::Range& here = row.*range;
+    most = std::max({most, std::abs(here.smallest.value), std::abs(here.largest.value)});
+  }
+  return most;
+}
+
+// Of what shapes show; none without shapes.
+template <auto value>
+std::optional<double> with_shapes(const Case&, const Result& run) {
+  return run.envelope.empty() ? std::nullopt : std::optional<double>(value(run));
+}
+
+double permanent_set(const Result& run) {
+  double most = 0.0;
+  for (const EnvelopeRow& row : run.envelope) most = std::max(most, std::abs(row.permanent_set));
+  return most;
+}
+
+double hinge_rotation(const Result& run) {
+  double most = 0.0;
+  for (const PlasticZone& zone : run.plastic_zones) most = std::max(most, std::abs(zone.rotation));
+  return most;
+}
+
+double impulse(const Result& run) {
+  return std::accumulate(run.sub_impacts.begin(), run.sub_impacts.end(), 0.0,
+                         [](double sum, const SubImpact& s) { return sum + s.impulse; });
+}
+
+const Quantity quantities[] = {
+    {"sub_impacts",
+     [](const Case&, const Result& run) {
+       return std::optional(static_cast<double>(run.sub_impacts.size()));
+     },
+     true},
+    {"zones",
+     [](const Case&, const Result& run) {
+       return std::optional(run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone);
+     },
+     true},
+    {"striker_velocity_m_per_s",
+     [](const Case&, const Result& run) { return std::optional(run.striker_velocity); }},
+    {"beam_mean_velocity_m_per_s",
+     [](const Case&, const Result& run) { return std::optional(run.beam_mean_velocity); }},
+    {"restitution",
+     [](const Case& input, const Result& run) {
+       return std::optional((run.beam_mean_velocity - run.striker_velocity) /
+                            input.scene.striker.velocity);
+     }},
+    {"impulse_Ns", [](const Case&, const Result& run) { return std::optional(impulse(run)); }},
+    {"peak_force_N", [](const Case&, const Result& run) { return std::optional(run.max_force); }},
+    {"max_indentation_m",
+     [](const Case&, const Result& run) { return std::optional(run.max_indentation); }},
+    {"max_displacement_m",
+     with_shapes<[](const Result& run) { return largest(run, &EnvelopeRow::displacement); }>},
+    {"max_moment_Nm",
+     with_shapes<[](const Result& run) { return largest(run, &EnvelopeRow::moment); }>},
+    {"max_strain",
+     with_shapes<[](const Result& run) { return largest(run, &EnvelopeRow::strain); }>},
+    {"permanent_set_m", with_shapes<permanent_set>},
+    {"hinge_rotation_rad", with_shapes<hinge_rotation>},
+    {"striker_energy_share",
+     [](const Case& input, const Result& run) {
+       return std::optional(std::pow(run.striker_velocity / input.scene.striker.velocity, 2));
+     }},
+    {"dissipated_J",
+     [](const Case&, const Result& run) {
+       const Energies& end = run.final_energies;
+       return std::optional(end.bending_plastic + end.contact_plastic + end.beam_damping);
+     }},
+};
+
+// Sums the errors of the parts, each the largest over its runs. `value`: of a run; none where the
+// run has no such thing.
+Total total_of(const Result& run, std::span<const RunBeside> beside, bool is_count,
+               const std::function<std::optional<double>(const Result&)>& value) {
+  Total total{value(run).value_or(0.0), {}};
+  std::map<std::string, double> parts;
+  for (const RunBeside& other : beside) {
+    const std::optional<double> there = value(other.result);
+    if (!there || !other.result.outcome.completed()) return total;
+    double& error = parts[other.of.part];
+    const double difference = std::abs(total.value - *there);
+    error = std::max(error, is_count ? difference : safety * other.of.gain * difference);
+  }
+  total.error = 0.0;
+  for (const auto& [part, error] : parts) *total.error += error;
+  return total;
+}
+
+struct Zone {
+  double start = 0.0, end = 0.0, impulse = 0.0, n = 0.0;
+};
+
+std::vector<Zone> zones_of(const Result& run) {
+  std::vector<Zone> zones;
+  for (const SubImpact& s : run.sub_impacts) {
+    if (static_cast<std::size_t>(s.zone) > zones.size()) zones.push_back({s.start});
+    Zone& zone = zones.back();
+    zone.end = s.end.value_or(run.outcome.time);
+    zone.impulse += s.impulse;
+    zone.n += 1.0;
+  }
+  return zones;
+}
+
+// The zone of a run that overlaps another one most; none if none does.
+std::optional<Zone> counterpart(const Result& run, const Zone& here) {
+  std::optional<Zone> best;
+  const auto overlap = [&](const Zone& there) {
+    return std::min(there.end, here.end) - std::max(there.start, here.start);
+  };
+  for (const Zone& there : zones_of(run)) {
+    if (overlap(there) > (best ? overlap(*best) : 0.0)) best = there;
+  }
+  return best;
+}
+
+}  // namespace
+
+void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
+                ErrorEstimate& estimate) {
+  const auto n_uncertain =
+      std::ranges::count(run.sub_impacts, std::optional(false), &SubImpact::certain) +
+      std::ssize(estimate.uncertain_flights);
+  for (const Quantity& quantity : quantities) {
+    if (!quantity.value(input, run)) continue;
+    Total total = total_of(run, beside, quantity.is_count,
+                           [&](const Result& of) { return quantity.value(input, of); });
+    if (quantity.name == std::string_view("sub_impacts") && total.error) {
+      total.error = std::max(*total.error, static_cast<double>(n_uncertain));
+    }
+    estimate.totals.push_back({quantity.name, total});
+  }
+  for (const Zone& zone : zones_of(run)) {
+    const auto total = [&](double Zone::*member, bool is_count = false) {
+      return total_of(run, beside, is_count, [&](const Result& of) -> std::optional<double> {
+        if (&of == &run) return zone.*member;
+        const std::optional<Zone> there = counterpart(of, zone);
+        return there ? std::optional((*there).*member) : std::nullopt;
+      });
+    };
+    estimate.zones.push_back(
+        {total(&Zone::start), total(&Zone::end), total(&Zone::impulse), total(&Zone::n, true)});
+  }
+}
+
+}  // namespace subimpact
