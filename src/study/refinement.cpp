@@ -89,10 +89,4 @@ const char* Refinement::fixed_key() const {
   return nullptr;
 }
 
-bool Refinement::is_same_setting(const Case& a, const Case& b) {
-  return a.model.mesh == b.model.mesh && mesh_count(a) == mesh_count(b) &&
-         a.solver.method == b.solver.method && a.solver.step == b.solver.step &&
-         std::abs(a.solver.rtol / b.solver.rtol - 1.0) < 1e-3;
-}
-
 }  // namespace subimpact

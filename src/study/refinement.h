@@ -25,9 +25,6 @@ class Refinement {
   /// The key that keeps the case from being refined, if any.
   const char* fixed_key() const;
 
-  /// Whether two cases that differ in mesh and accuracy at most are the same run.
-  static bool is_same_setting(const Case& a, const Case& b);
-
  private:
   Case first_;
   OpenChoices open_;
