@@ -2,6 +2,7 @@
 
 /// Random numbers that are the same on every machine and with every standard library.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
