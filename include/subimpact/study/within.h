@@ -42,9 +42,9 @@ struct WithinOptions {
 double counted_work(const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
-/// (ResolvedSettings::contact_time), and this is the limit of the work: some two seconds on two
+/// (ResolvedSettings::contact_time), and this is the limit of the work: some three seconds on two
 /// cores.
-constexpr double default_work_limit = 2e9;
+constexpr double default_work_limit = 3e9;
 
 /// Where a beam bends elastically: elements (Hermite, or spectral where it shears) in natural
 /// modes, by the exponential method (fourth order in the mesh, next to no error in time). Where
