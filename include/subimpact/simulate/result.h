@@ -199,7 +199,7 @@ struct ZoneTotals {
   Total sub_impacts;  ///< their number
 };
 
-/// What runs beside a run show of it.
+/// What the runs beside a run show: which sub-impacts are certain, and errors.
 struct ErrorEstimate {
   std::string refined_run;  ///< the runs it was compared with, in words
   /// The first sub-impact (from 0) that is not certain, or that follows a flight which may hold
