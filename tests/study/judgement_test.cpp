@@ -1,0 +1,105 @@
+// Verdicts on sub-impacts of results made by hand.
+
+#include "subimpact/study/judgement.h"
+
+#include <gtest/gtest.h>
+
+#include "subimpact/study/match.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double um = 1e-6;
+constexpr double us = 1e-6;
+
+SubImpact contact(double start, std::optional<double> end) {
+  SubImpact s;
+  s.start = start;
+  s.end = end;
+  s.start_rate = 2.0;
+  s.end_rate = -2.0;
+  s.max_indentation = 100.0 * um;
+  s.zone = s.subzone = 1;
+  return s;
+}
+
+// Contacts of 100 us that begin 200 us after one another, up to 1 ms.
+Result contacts(int n, double later = 0.0) {
+  Result result;
+  result.outcome.time = 1e-3;
+  for (int i = 0; i < n; ++i) {
+    const double start = 200.0 * us * i + (i > 0 ? later : 0.0);
+    result.sub_impacts.push_back(contact(start, start + 100.0 * us));
+  }
+  return result;
+}
+
+Result judged(Result run, const Result& other) {
+  const RunBeside beside{{Case(), "time", "another run", 1.0}, other};
+  judge(Case(), run, {&beside, 1});
+  return run;
+}
+
+TEST(AJudgement, CallsCertainWhatAgreesAndStatesMoreThanTheDifference) {
+  const Result run = judged(contacts(3), contacts(3, 0.5 * us));
+  EXPECT_TRUE(run.all_certain());
+  EXPECT_EQ(run.sub_impacts[0].start_error, 0.0);
+  EXPECT_NEAR(*run.sub_impacts[1].start_error, 3.5 * 0.5 * us, 1e-12);
+}
+
+TEST(AJudgement, CallsCertainWhatFollowsAnUncertainSubImpact) {
+  Result other = contacts(4);
+  const SubImpact split = other.sub_impacts[1];
+  other.sub_impacts[1].end = split.start + 60.0 * us;
+  other.sub_impacts.insert(other.sub_impacts.begin() + 2,
+                           contact(split.start + 70.0 * us, *split.end));
+  const Result run = judged(contacts(4), other);
+  EXPECT_FALSE(*run.sub_impacts[1].certain);
+  EXPECT_LT(*run.sub_impacts[1].probability, 1.0);
+  EXPECT_TRUE(*run.sub_impacts[2].certain) << run.sub_impacts[2].doubt;
+  EXPECT_TRUE(*run.sub_impacts[3].certain) << run.sub_impacts[3].doubt;
+  EXPECT_EQ(run.error_estimate->first_unresolved, 1u);
+}
+
+TEST(AJudgement, DoubtsTheLastFlightWhereAnotherRunHasOneMore) {
+  const Result run = judged(contacts(2), contacts(3));
+  EXPECT_EQ(run.n_certain(), 2u);
+  EXPECT_FALSE(run.all_certain());
+  ASSERT_EQ(run.error_estimate->uncertain_flights.size(), 1u);
+  EXPECT_EQ(run.error_estimate->uncertain_flights[0].after, 1u);
+}
+
+TEST(AJudgement, DoubtsAContactThatOnlyOneOfTwoRunsEnds) {
+  Result other = contacts(2);
+  other.sub_impacts[1].end.reset();
+  EXPECT_FALSE(*judged(contacts(2), other).sub_impacts[1].certain);
+  EXPECT_FALSE(*judged(other, contacts(2)).sub_impacts[1].certain);
+  EXPECT_TRUE(*judged(other, other).sub_impacts[1].certain);
+}
+
+TEST(AJudgement, DoubtsANearMissWhoseMarginDiffersByMoreThanIsLeft) {
+  for (const NearMissKind kind : {NearMissKind::opening, NearMissKind::closing}) {
+    const double time = kind == NearMissKind::opening ? 250.0 * us : 350.0 * us;
+    Result run = contacts(3), other = contacts(3);
+    run.near_misses = {{time, 1.0 * um, kind}};
+    other.near_misses = {{time, 1.2 * um, kind}};  // stands for an error of 0.7 um
+    EXPECT_TRUE(judged(run, other).all_certain());
+    other.near_misses[0].margin = 1.4 * um;  // of 1.4 um
+    EXPECT_EQ(judged(run, other).error_estimate->first_unresolved,
+              kind == NearMissKind::opening ? 1u : 2u);
+  }
+}
+
+TEST(ANearMiss, PutsTheContactThatOpensOrTheOneAfterTheSeparationInDoubt) {
+  const Result run = contacts(2);
+  const auto of = [&](double time, NearMissKind kind) {
+    return first_in_doubt(run, {time, 1e-7, kind});
+  };
+  EXPECT_EQ(of(50 * us, NearMissKind::opening), 0u);
+  EXPECT_EQ(of(150 * us, NearMissKind::closing), 1u);
+  EXPECT_EQ(of(250 * us, NearMissKind::opening), 1u);
+  EXPECT_EQ(of(350 * us, NearMissKind::closing), 2u);
+}
+
+}  // namespace
+}  // namespace subimpact
