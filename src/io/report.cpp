@@ -21,6 +21,7 @@ namespace {
 
 constexpr double us = 1e6;  // per second
 constexpr double mm = 1e3;  // per metre
+constexpr double um = 1e6;
 
 std::string time_or_never(const std::optional<double>& time) {
   return time ? fmt::format("{:.4f} us", *time * us) : "never";
@@ -151,6 +152,34 @@ std::string final_velocities_text(const Case& input, const Result& result) {
       total_text(result, "striker_velocity_m_per_s", result.striker_velocity, 1.0, 6, "m/s"),
       total_text(result, "beam_mean_velocity_m_per_s", result.beam_mean_velocity, 1.0, 6, "m/s"),
       total_text(result, "restitution", restitution, 1.0, 6, ""));
+}
+
+std::string over_words(const Result& result) {
+  if (result.contact_over) {
+    return fmt::format("proven{}: striker and beam never touch again",
+                       result.error_estimate ? "" : " on this mesh");
+  }
+  if (result.sub_impacts.empty() || !result.sub_impacts.back().end) {
+    return "no: striker and beam are still in contact";
+  }
+  const std::optional<ClosestApproach>& closest = result.closest_approach;
+  if (!closest) return "not proven; the gap grows until the run ends";
+  const Total gap{closest->gap, closest->error};
+  return fmt::format("not proven; the gap falls to {} um at {:.4g} us", total_or_value(gap, um, 3),
+                     us * closest->time);
+}
+
+// What finer meshes change of a run on the mesh that the case fixes.
+std::string finer_meshes_words(const Result& result) {
+  const ErrorEstimate::FinerMeshes& finer = *result.error_estimate->finer_meshes;
+  std::string text = fmt::format(
+      "{} of {} are the same on {}; errors of times are those on this mesh, errors of totals "
+      "include the mesh",
+      finer.n_same, counted(result.sub_impacts.size(), "sub-impact"), finer.coarser);
+  if (!finer.change_of_first_end) return text;
+  const double change = *finer.change_of_first_end;
+  return fmt::format("the first contact ends some {} {}; {}", error_text(std::abs(change)),
+                     change < 0.0 ? "earlier" : "later", text);
 }
 
 // The entry of the envelope where a value is largest.
@@ -349,31 +378,32 @@ std::string run_summary(const Case& input, const Result& result) {
                               duration_text(result.outcome.time), duration_text(input.end_time)));
   if (result.wish) line("wish", wish_words(*result.wish, result));
   if (result.outcome.first_failure) line("checks", first_failure_text(result.outcome));
-  if (result.no_more_contact) {
-    line("no more contact", "proven: striker and beam never touch again");
-  }
-  line("error", error_words(input, result));
-  if (result.predictability) line("predictable", predictability_words(result));
-  line("model", fmt::format("{}; section {}; {}", result.used.mesh,
-                            to_text(*find_case_key("model.section")->get(input)),
-                            counted(result.used.n_unknowns, "unknown")));
-  if (!result.choice.empty()) line("chosen because", printable(result.choice));
-  line("masses", fmt::format("beam {}, striker {}", mass_text(input.scene.beam.mass()),
-                             mass_text(input.scene.striker.mass)));
   line("sub-impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
                                   counted(zones.size(), "zone"), certain_words(result)));
   text.append(zone_text(result));
-  line("first yield",
-       fmt::format("section {}, contact {}", time_or_never(result.first_section_yield),
-                   time_or_never(result.first_contact_yield)));
-  line("yielded sections",
-       fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
+  line("contact over", over_words(result));
   line("maxima", maxima_text(result));
   if (!result.envelope.empty() && result.used.section != "rigid") {
     line("bending", bending_text(result));
     if (!result.plastic_zones.empty()) line("permanent set", permanent_set_text(result));
   }
   line("final velocities", final_velocities_text(input, result));
+  line("error", error_words(input, result));
+  if (result.error_estimate && result.error_estimate->finer_meshes) {
+    line("finer meshes", finer_meshes_words(result));
+  }
+  if (result.predictability) line("predictable", predictability_words(result));
+  line("first yield",
+       fmt::format("section {}, contact {}", time_or_never(result.first_section_yield),
+                   time_or_never(result.first_contact_yield)));
+  line("yielded sections",
+       fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
+  line("model", fmt::format("{}; section {}; {}", result.used.mesh,
+                            to_text(*find_case_key("model.section")->get(input)),
+                            counted(result.used.n_unknowns, "unknown")));
+  if (!result.choice.empty()) line("chosen because", printable(result.choice));
+  line("masses", fmt::format("beam {}, striker {}", mass_text(input.scene.beam.mass()),
+                             mass_text(input.scene.striker.mass)));
   line("conservation",
        result.max_momentum_error
            ? fmt::format("energy to {:.1e}, momentum to {:.1e}, relative", result.max_energy_error,

@@ -245,6 +245,16 @@ const Record<ErrorEstimate::UncertainFlight>& flight_record() {
   return record;
 }
 
+const Record<ErrorEstimate::FinerMeshes>& finer_meshes_record() {
+  using Finer = ErrorEstimate::FinerMeshes;
+  static const Record<Finer> record = {
+      {"coarser", "the mesh that shows it", &Finer::coarser},
+      {"same_sub_impacts", "sub-impacts that it confirms", &Finer::n_same},
+      {"change_of_first_end_s", "what finer meshes change the end of the first sub-impact by",
+       &Finer::change_of_first_end}};
+  return record;
+}
+
 const Record<ErrorEstimate>& error_record() {
   static const Record<ErrorEstimate> record = {
       {"refined_run", "the runs compared with", &ErrorEstimate::refined_run},
@@ -255,7 +265,10 @@ const Record<ErrorEstimate>& error_record() {
       list_entry<ErrorEstimate>("parts", "sources of error, one by one", &ErrorEstimate::parts,
                                 error_part_record()),
       list_entry<ErrorEstimate>("uncertain_flights", "", &ErrorEstimate::uncertain_flights,
-                                flight_record())};
+                                flight_record()),
+      object_entry<ErrorEstimate>("finer_meshes",
+                                  "of a mesh that the case fixes: what finer ones would change",
+                                  &ErrorEstimate::finer_meshes, finer_meshes_record())};
   return record;
 }
 
@@ -349,6 +362,26 @@ std::optional<BeamAtRest> beam_at_rest(const DescribedRun& run) {
   const EnvelopeRow& largest = *std::ranges::max_element(
       result.envelope, {}, [](const EnvelopeRow& row) { return std::abs(row.permanent_set); });
   return BeamAtRest{largest.permanent_set, largest.position, result.plastic_zones};
+}
+
+RunEntry contact_over_entry() {
+  RunEntry entry("contact_over",
+                 "yes: proven that no contact follows, for this run and those beside it",
+                 [](const DescribedRun& run) {
+                   return run.result->contact_over ? "yes" : "may not be";
+                 });
+  entry.read = [](const Json& object, DescribedRun& run) {
+    run.result->contact_over = object.at("contact_over") == "yes";
+  };
+  return entry;
+}
+
+const Record<ClosestApproach>& approach_record() {
+  static const Record<ClosestApproach> record = {
+      {"time_s", "when", &ClosestApproach::time, Form::from_zero},
+      {"gap_m", "smallest gap", &ClosestApproach::gap, Form::above_zero},
+      {"error_m", "error of the gap", &ClosestApproach::error}};
+  return record;
 }
 
 RunEntry rest_entry() {
@@ -459,6 +492,10 @@ Record<DescribedRun> make_run_record() {
        result(&Result::first_contact_yield)},
       {"no_more_contact_s", "from when it is proven that no contact follows",
        result(&Result::no_more_contact)},
+      contact_over_entry(),
+      object_entry<DescribedRun>("closest_approach",
+                                 "after the last sub-impact; null: the gap does nothing but grow",
+                                 result(&Result::closest_approach), approach_record()),
       {"maxima.force_N", "largest contact force", result(&Result::max_force), Form::finite},
       {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation),
        Form::finite},

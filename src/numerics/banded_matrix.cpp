@@ -59,4 +59,18 @@ std::optional<BandedMatrix> BandedMatrix::cholesky_factor() const {
   return factor;
 }
 
+void BandedMatrix::solve_as_factor(std::span<double> x) const {
+  assert(x.size() == size_);
+  for (std::size_t j = 0; j < size_; ++j) {
+    x[j] /= at(j, j);
+    const std::size_t last = std::min(j + half_bandwidth_, size_ - 1);
+    for (std::size_t i = j + 1; i <= last; ++i) x[i] -= at(i, j) * x[j];
+  }
+  for (std::size_t j = size_; j-- > 0;) {
+    const std::size_t last = std::min(j + half_bandwidth_, size_ - 1);
+    for (std::size_t i = j + 1; i <= last; ++i) x[j] -= at(i, j) * x[i];
+    x[j] /= at(j, j);
+  }
+}
+
 }  // namespace subimpact

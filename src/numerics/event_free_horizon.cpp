@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "numerics/lanes.h"
@@ -57,6 +58,8 @@ double EventFreeHorizon::from(std::span<const double> z, std::span<const double>
     }
     std::ranges::fill(level.margins, -1.0);
   }
+  time_of_largest_ = 0.0;
+  largest_ = -std::numeric_limits<double>::infinity();
   Level& first = levels_.front();
   first.functions.clear();
   for (std::size_t i = 0; i < n_functions(); ++i) {
@@ -101,6 +104,7 @@ double EventFreeHorizon::event_free_time(std::size_t index, std::size_t n) {
       level.rates[k] = level.minus_omega_sine[k] * z + level.cosine[k] * rate;
     }
     bool all_pass = true;
+    const double begun = static_cast<double>(interval) * level.interval;
     for (const std::size_t i : level.functions) {
       const double before = std::exchange(level.values[i], sample(i));
       if (passes(level, i, before, level.values[i])) continue;
@@ -108,8 +112,11 @@ double EventFreeHorizon::event_free_time(std::size_t index, std::size_t n) {
       if (!finer) break;
       finer->functions.push_back(i);
     }
+    if (index == 0 && level.values.back() > largest_) {
+      largest_ = level.values.back();
+      time_of_largest_ = begun + level.interval;
+    }
     if (all_pass) continue;
-    const double begun = static_cast<double>(interval) * level.interval;
     const double passed = finer ? event_free_time(index + 1, factor) : 0.0;
     if (passed < level.interval) return begun + passed;
   }

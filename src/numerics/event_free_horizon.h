@@ -30,6 +30,11 @@ class EventFreeHorizon {
   double from(std::span<const double> z, std::span<const double> rates, std::span<const double> low,
               std::span<const double> high, double longest);
 
+  /// When, after the start of that time, the samples of the last function are largest (s), and what
+  /// lies between two samples.
+  double time_of_largest() const { return time_of_largest_; }
+  double sample_interval() const { return levels_.front().interval; }
+
  private:
   // The intervals of one length and the samples at their ends.
   struct Level {
@@ -53,6 +58,7 @@ class EventFreeHorizon {
   std::size_t n_uniform_;  // of them of frequency 0
   std::vector<double> amplitudes_;
   std::span<const double> low_, high_;  // of the present search
+  double time_of_largest_ = 0.0, largest_ = 0.0;
   std::vector<Level> levels_;
 };
 

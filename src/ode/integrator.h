@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "numerics/bracketed_root.h"
 #include "ode/second_order_ode.h"
@@ -93,6 +94,9 @@ class Integrator {
   /// Whether the integrator has proven that no event happened in the last step, however long:
   /// events need not be looked for in it.
   virtual bool is_event_free() const { return false; }
+  /// Two times (s) within such a step between which the last event function has its largest value;
+  /// nothing if that lies at an end of the step.
+  virtual std::optional<std::pair<double, double>> around_largest() const { return std::nullopt; }
 
   /// The integral of the square of each velocity from the start of the last step to t, where the
   /// method has it in closed form; returns false where the method has none.

@@ -90,11 +90,6 @@ void check_central_step(const Options& options, const ResolvedSettings& used, do
   }
 }
 
-bool has_modes(const Options& options, const StruckBeam& beam) {
-  return in_modes(options, beam.mesh(), beam.damping()) ||
-         options.stop == StopRule::no_more_contact;
-}
-
 }  // namespace
 
 std::optional<int> max_order_used(const Options& options) {
@@ -260,7 +255,7 @@ bool modes_are_left_out(const Options& options, const StruckBeam& beam) {
 }
 
 double decomposition_of(const Options& options, const StruckBeam& beam) {
-  if (!has_modes(options, beam)) return 0.0;
+  if (!in_modes(options, beam.mesh(), beam.damping())) return 0.0;
   const BeamMesh& mesh = beam.mesh();
   const auto n = static_cast<double>(mesh.n_unknowns());
   return mesh.has_closed_modes() ? work_per_closed_entry * n * n : work_per_dense_mode * n * n * n;
@@ -273,7 +268,7 @@ double memory_of(const Options& options, const StruckBeam& beam) {
   const bool flies = yields && in_modes(options, mesh, beam.damping());
   const double of_modes = mesh.has_closed_modes() ? matrices_of_modes : matrices_of_dense_modes;
   const double matrices =
-      (has_modes(options, beam) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
+      (in_modes(options, beam.mesh(), beam.damping()) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
   return memory_of_program + memory_per_unknown * n + sizeof(double) * matrices * n * n;
 }
 

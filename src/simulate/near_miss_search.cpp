@@ -1,6 +1,7 @@
 #include "simulate/near_miss_search.h"
 
 #include <optional>
+#include <tuple>
 
 #include "numerics/hermite.h"
 
@@ -34,11 +35,24 @@ struct GapStep {
 
 }  // namespace
 
-void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam, bool refine) {
-  if (step.ends().event_free) return;
+void NearMissSearch::look_into_flight(const ObservedStep& step, const StruckBeam& beam) {
+  const auto around = step.around_largest();
+  if (!around) return;
+  IndentationStep part{};
+  std::tie(part.t0, part.t1) = *around;
+  step.state_at(part.t0, state_);
+  part.lambda0 = beam.indentation(state_);
+  part.rate0 = beam.indentation_rate(state_);
+  step.state_at(part.t1, state_);
+  part.lambda1 = beam.indentation(state_);
+  part.rate1 = beam.indentation_rate(state_);
+  look_into(step, beam, part, true);
+}
+
+void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam,
+                               const IndentationStep& ends, bool refine) {
   const double residual = beam.contact().residual_indentation();
   const auto gap = [&](double lambda) { return sense_ * (lambda - residual); };
-  const IndentationStep& ends = step.indentation();
   GapStep part{ends.t0,           ends.t1,
                gap(ends.lambda0), sense_ * ends.rate0,
                gap(ends.lambda1), sense_ * ends.rate1};

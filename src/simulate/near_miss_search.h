@@ -26,9 +26,8 @@ namespace subimpact {
 /// leaves its margin uncertain, up to three states within the step.
 ///
 /// Of each contact or separation the nearest few are kept, in an array of fixed size. A step that
-/// is proven free of events (StepEnds::event_free) is not searched: it may span many periods, of
-/// which its ends show nothing. Its proof ends before an approach closer than the margin of its
-/// samples (EventFreeHorizon), so what comes close lies in the steps after it.
+/// is proven free of events (StepEnds::event_free) may span many periods, of which its ends show
+/// nothing: it is searched where the samples of its proof are nearest (EventFreeHorizon).
 class NearMissSearch {
  public:
   /// A contact (`opening`) or a separation (`closing`) begins.
@@ -44,8 +43,15 @@ class NearMissSearch {
   void follow(const ObservedStep& step, const StruckBeam& beam, bool refine) {
     const IndentationStep& ends = step.indentation();
     farthest_ = std::max(farthest_, sense_ * ends.lambda1);
-    if (may_turn(ends)) look_into(step, beam, refine);
+    if (step.ends().event_free) {
+      look_into_flight(step, beam);
+    } else if (may_turn(ends)) {
+      look_into(step, beam, ends, refine);
+    }
   }
+
+  /// The nearest of the present contact or separation.
+  const NearMiss* nearest() const { return n_ > 0 ? kept_.data() : nullptr; }
 
   /// Appends the near misses of the contact or separation that ends, in order of time: those whose
   /// margin is below half of the largest gap reached. `residual`: lambda_r at its end, m.
@@ -61,7 +67,9 @@ class NearMissSearch {
     const double h = ends.length();
     return h * std::abs(ends.rate0 + ends.rate1) > 3.0 * std::abs(ends.lambda1 - ends.lambda0);
   }
-  void look_into(const ObservedStep& step, const StruckBeam& beam, bool refine);
+  void look_into(const ObservedStep& step, const StruckBeam& beam, const IndentationStep& ends,
+                 bool refine);
+  void look_into_flight(const ObservedStep& step, const StruckBeam& beam);
   void keep(const NearMiss& near_miss);
 
   NearMissKind kind_ = NearMissKind::closing;

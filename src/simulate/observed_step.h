@@ -38,6 +38,10 @@ class ObservedStep {
       integrator_.state_at(t, y);
     }
   }
+  /// See Integrator::around_largest.
+  std::optional<std::pair<double, double>> around_largest() const {
+    return integrator_.around_largest();
+  }
   /// See Integrator::integrate_squared_velocities.
   bool integrate_squared_velocities(double t, std::span<double> result) const {
     return integrator_.integrate_squared_velocities(t, result);

@@ -315,7 +315,11 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
   }
   if (fields_) fields_->finish(time, y, accounts_, is_good);
   follow_deformation(y);
-  if (in_contact_) close_sub_impact(y, beam);
+  if (in_contact_) {
+    close_sub_impact(y, beam);
+  } else if (const NearMiss* nearest = near_misses_.nearest()) {
+    result_.closest_approach = {nearest->time, nearest->margin, {}};
+  }
   near_misses_.finish(beam.contact().residual_indentation(), result_.near_misses);
   for (const SubImpact& sub_impact : result_.sub_impacts) {
     result_.max_force = std::max(result_.max_force, sub_impact.peak_force);

@@ -67,13 +67,13 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, const Even
 }
 
 // Steps to the end, or to where the run is stopped.
-void run_to_end(EventLoop& loop, StruckBeam& beam, std::optional<NoMoreContact>& no_more_contact,
+void run_to_end(EventLoop& loop, StruckBeam& beam, NoMoreContact& no_more_contact, StopRule stop,
                 const Progress& progress, Result& result) {
   loop.start();
+  const auto is_over = [&] { return no_more_contact.is_proven(beam, loop.state()); };
   for (long n = 1; !loop.finished(); ++n) {
     loop.advance();
-    if (no_more_contact && n % proof_interval == 0 &&
-        no_more_contact->is_proven(beam, loop.state())) {
+    if (stop == StopRule::no_more_contact && n % proof_interval == 0 && is_over()) {
       result.no_more_contact = loop.time();
       result.outcome.message = "no further contact is possible";
       return;
@@ -83,6 +83,7 @@ void run_to_end(EventLoop& loop, StruckBeam& beam, std::optional<NoMoreContact>&
       return;
     }
   }
+  if (is_over()) result.no_more_contact = loop.time();
 }
 
 void fail(Outcome& outcome, const RunStopped& stop) {
@@ -162,15 +163,12 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   recorder.keep_fields(parts);
   if (observer != nullptr) recorder.show(*observer);
   EventLoop loop(beam, integrator, recorder, audit, loop_options(parts));
-  std::optional<NoMoreContact> no_more_contact;
-  if (parts.given.stop == StopRule::no_more_contact) {
-    no_more_contact.emplace(beam, parts.problem.beam);
-  }
+  NoMoreContact no_more_contact(beam, parts.problem.beam, used.first_period);
   result.work.setup_seconds = seconds_since(start);
 
   try {
     result.outcome.message = "completed";
-    run_to_end(loop, beam, no_more_contact, progress, result);
+    run_to_end(loop, beam, no_more_contact, parts.given.stop, progress, result);
   } catch (const RunStopped& stop) {
     fail(result.outcome, stop);
   } catch (const IntegrationFailure& failure) {
@@ -183,6 +181,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   judge_end(audit, loop, result.outcome);
   result.outcome.time =
       result.outcome.first_failure ? result.outcome.first_failure->to : loop.time();
+  result.contact_over = result.no_more_contact.has_value();
   recorder.finish(loop.time(), loop.state(), beam, !result.outcome.first_failure);
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);

@@ -67,6 +67,20 @@ std::optional<CaseBeside> on_coarser_mesh(const Case& input, double size) {
   }
 }
 
+// With the accuracy in time that goes with the mesh.
+std::optional<CaseBeside> coarser(const Case& input, double size) {
+  std::optional<CaseBeside> beside = on_coarser_mesh(input, size);
+  if (!beside) return std::nullopt;
+  SolverOptions& solver = beside->input.solver;
+  if (input.solver.step) {
+    solver.step = *input.solver.step / size;
+  } else if (!has_fixed_step(input)) {
+    solver.rtol =
+        std::min(std::pow(looser, std::log(size) / std::log(sizes[1])) * solver.rtol, loosest);
+  }
+  return beside;
+}
+
 // Takes no rows into memory.
 class NoRows final : public RowSink {
  public:
@@ -95,18 +109,21 @@ std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
 std::vector<CaseBeside> cases_beside(const Case& input) {
   std::vector<CaseBeside> all;
   for (const double size : sizes) {
-    std::optional<CaseBeside> beside = on_coarser_mesh(input, size);
-    if (!beside) continue;
-    SolverOptions& solver = beside->input.solver;
-    if (input.solver.step) {
-      solver.step = *input.solver.step / size;
-    } else if (!has_fixed_step(input)) {
-      solver.rtol =
-          std::min(std::pow(looser, std::log(size) / std::log(sizes[1])) * solver.rtol, loosest);
+    if (std::optional<CaseBeside> beside = coarser(input, size)) {
+      all.push_back(std::move(*beside));
     }
-    all.push_back(std::move(*beside));
   }
   return all.empty() ? cases_beside_in_time(input) : all;
+}
+
+std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
+  std::vector<CaseBeside> all = cases_beside_in_time(input);
+  if (std::optional<CaseBeside> mesh = coarser(input, sizes[1])) {
+    mesh->part = "mesh";
+    mesh->of_rows = false;
+    all.push_back(std::move(*mesh));
+  }
+  return all;
 }
 
 std::vector<CaseBeside> cases_beside_by_part(const Case& input) {

@@ -38,7 +38,7 @@ double end_of(const SubImpact& s, const Result& run) { return s.end.value_or(run
 // Whether runs show an error of the mesh.
 bool of_mesh(std::span<const RunBeside> beside) {
   return std::ranges::any_of(
-      beside, [](const RunBeside& other) { return other.of.part.starts_with("mesh"); });
+      beside, [](const RunBeside& other) { return other.of.of_rows && other.of.part.starts_with("mesh"); });
 }
 
 struct Partner {
@@ -188,6 +188,14 @@ class Judge {
     return doubt_by_near_miss(NearMissKind::closing, i);
   }
 
+  // Of the closest approach after the last sub-impact, m.
+  double approach_error() const {
+    const auto [time, gap, error] = *run_.closest_approach;
+    const std::size_t last = all_.size() - 1;
+    const double length = flight_end(last) - *all_[last].end;
+    return margin_error({time, gap, NearMissKind::closing}, length, delta(2 * last + 1));
+  }
+
   // The share of the runs that have it, with one run more that does not.
   double probability(std::size_t i) const {
     const auto n = std::ranges::count_if(counterparts_, [i](const Counterparts& other) {
@@ -257,18 +265,18 @@ class Judge {
   double margin_error(const NearMiss& here, double length, double delta) const {
     double error = 0.0;
     for (const RunBeside& other : beside_) {
-      const NearMiss* nearest = nullptr;
+      double distance = near_share * length, difference = delta / margin_safety;
+      const auto include = [&](double time, double margin) {
+        if (std::abs(time - here.time) > distance) return;
+        distance = std::abs(time - here.time);
+        difference = other.of.gain * std::abs(margin - here.margin);
+      };
       for (const NearMiss& there : other.result.near_misses) {
-        if (there.kind != here.kind) continue;
-        const double distance = std::abs(there.time - here.time);
-        if (!nearest || distance < std::abs(nearest->time - here.time)) nearest = &there;
+        if (there.kind == here.kind) include(there.time, there.margin);
       }
-      if (nearest && std::abs(nearest->time - here.time) <= near_share * length) {
-        const double difference = std::abs(nearest->margin - here.margin);
-        error = std::max(error, margin_safety * other.of.gain * difference);
-      } else {
-        error = std::max(error, delta);
-      }
+      const auto& last = other.result.closest_approach;
+      if (last && here.kind == NearMissKind::closing) include(last->time, last->gap);
+      error = std::max(error, margin_safety * difference);
     }
     return error;
   }
@@ -369,7 +377,19 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
       }
     }
   }
+  if (run.closest_approach) add_error(run.closest_approach->error, judge.approach_error());
   return part;
+}
+
+// Whether it is proven for this run and for those beside it that no contact follows.
+bool is_over(const Result& run, std::span<const RunBeside> beside, const ErrorEstimate& estimate) {
+  const auto is_last = [&](const ErrorEstimate::UncertainFlight& flight) {
+    return flight.after + 1 == run.sub_impacts.size();
+  };
+  return run.no_more_contact && std::ranges::none_of(estimate.uncertain_flights, is_last) &&
+         std::ranges::all_of(beside, [](const RunBeside& other) {
+           return other.result.no_more_contact.has_value();
+         });
 }
 
 // Times in the limit of fine meshes, where those of this mesh and two coarser ones converge at the
@@ -405,6 +425,29 @@ void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> 
     }
     if (here.start_mesh_limit || here.end_mesh_limit) here.mesh_limit_error = error;
   }
+}
+
+// What a mesh that rows do not carry shows.
+ErrorEstimate::FinerMeshes compare_on_coarser(const Case& input, const Result& run,
+                                              const RunBeside& coarser) {
+  Result here;
+  here.outcome = run.outcome;
+  here.sub_impacts = run.sub_impacts;
+  here.near_misses = run.near_misses;
+  here.used = run.used;
+  for (SubImpact& s : here.sub_impacts) {
+    s.certain = true;
+    s.probability = 1.0;
+  }
+  ErrorEstimate none;
+  judge_part(input, here, {&coarser, 1}, none);
+  const auto n_same = std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
+  ErrorEstimate::FinerMeshes found{coarser.of.description, static_cast<std::size_t>(n_same), {}};
+  const SubImpact* there = counterparts_in(run, coarser.result).of.at(0).there;
+  if (there && there->end && here.sub_impacts[0].end) {
+    found.change_of_first_end = coarser.of.gain * (*here.sub_impacts[0].end - *there->end);
+  }
+  return found;
 }
 
 // Sub-impacts that the mesh does not show, whatever runs agree on.
@@ -468,12 +511,17 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
     s.probability = 1.0;
     for (const auto error : errors) (s.*error).reset();
   }
+  if (run.closest_approach) run.closest_approach->error.reset();
   for (auto first = beside.begin(); first != beside.end();) {
     const auto last = std::find_if(first, beside.end(), [&](const RunBeside& other) {
       return other.of.part != first->of.part;
     });
-    estimate.parts.push_back(judge_part(input, run, {first, last}, estimate));
-    if (first->of.part == "mesh") set_mesh_limits(input, run, {first, last});
+    if (!first->of.of_rows) {
+      estimate.finer_meshes = compare_on_coarser(input, run, *first);
+    } else {
+      estimate.parts.push_back(judge_part(input, run, {first, last}, estimate));
+      if (first->of.part == "mesh") set_mesh_limits(input, run, {first, last});
+    }
     first = last;
   }
   for (SubImpact& s : run.sub_impacts) {
@@ -482,6 +530,7 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
     }
   }
   if (of_mesh(beside)) doubt_unresolved(input, run, estimate);
+  run.contact_over = is_over(run, beside, estimate);
   find_first_unresolved(run, estimate);
   set_largest_errors(run, estimate);
   set_totals(input, run, beside, estimate);

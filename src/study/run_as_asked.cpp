@@ -8,7 +8,7 @@ namespace subimpact {
 namespace {
 
 std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& request) {
-  if (!request.error_bars) return cases_beside(input);
+  if (!request.error_bars) return cases_beside_on_given_mesh(input);
   switch (*request.error_bars) {
     case ErrorBars::time:
       return cases_beside_in_time(input);

@@ -93,6 +93,13 @@ void FreeFlight::state_at(double t, State& y) {
   closed_form(t - t0_, y);
 }
 
+std::optional<std::pair<double, double>> FreeFlight::around_largest() const {
+  const double time = t0_ + horizon_.time_of_largest();
+  const double apart = horizon_.sample_interval();
+  if (!flying_ || time - apart < t0_ || time + apart > t1_) return std::nullopt;
+  return std::pair(time - apart, time + apart);
+}
+
 WorkCounts FreeFlight::work() const {
   WorkCounts counts = other_->work();
   counts.steps += flights_;

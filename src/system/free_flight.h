@@ -26,6 +26,7 @@ class FreeFlight final : public Integrator {
   void step() override;
   void state_at(double t, State& y) override;
   bool is_event_free() const override { return flying_; }
+  std::optional<std::pair<double, double>> around_largest() const override;
   WorkCounts work() const override;
 
  private:

@@ -38,17 +38,18 @@ namespace subimpact {
 /// beam's whole energy could cause.
 class NoMoreContact {
  public:
-  /// `beam` must outlive this. Needs the beam's natural modes, once.
-  NoMoreContact(const StruckBeam& beam, const Beam& material);
+  /// `beam` must outlive this. `first_period`: of its bending, roughly, s.
+  NoMoreContact(const StruckBeam& beam, const Beam& material, double first_period);
   /// Whether no contact can follow the state y, which is separated and committed.
   bool is_proven(const StruckBeam& beam, const State& y);
 
  private:
   std::size_t n_;
-  std::vector<std::vector<double>> rigid_;  // Mass phi of the modes of frequency zero
+  std::vector<std::vector<double>> rigid_;  // Mass phi of rigid motions
   std::vector<double> rigid_share_;         // S phi of them
   std::vector<double> bar_;                 // W kbar; empty where the sections cannot yield
   bool rigid_motion_decays_;                // by damping
+  bool can_prove_ = false;
   double compliance_ = 0.0;                 // C, m/N
   double plastic_compliance_ = 0.0;         // a, m/J
   Accounts accounts_;

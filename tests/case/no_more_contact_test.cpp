@@ -67,7 +67,7 @@ TEST(NoMoreContact, HoldsAgainstABeamBentTheWorstWay) {
     ResolvedRun run = resolve(input);
     StruckBeam& beam = run.parts().beam;
     beam.contact().set(ContactBranch::separated, {});
-    NoMoreContact proof(beam, input.scene.beam);
+    NoMoreContact proof(beam, input.scene.beam, run.parts().settings.first_period);
     // That shape, u = sum S phi/omega^2 phi, from the modes of the physical mesh.
     Case physical = input;
     physical.solver.method = Method::nystrom;

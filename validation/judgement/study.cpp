@@ -2,7 +2,7 @@
 // scenes.
 //
 //   subimpact_judgement [--seed S] [--scenes N] [--first K] [--budget seconds] [--shear]
-//   [--verbose]
+//   [--verbose] [--case]
 
 #include <fmt/format.h>
 
@@ -18,6 +18,7 @@
 #include "case/problem.h"
 #include "judgement/scenes.h"
 #include "study/parallel.h"
+#include "subimpact/io/case_file.h"
 #include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"
@@ -29,6 +30,12 @@ using judgement::DrawnScene;
 
 constexpr double us = 1e6;
 constexpr int chatter = 30;  // contacts
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
 
 struct Coverage {
   int n = 0, covered = 0;
@@ -47,16 +54,19 @@ struct Coverage {
   std::string text() const {
     std::vector<double> sorted = ratios;
     std::ranges::sort(sorted);
-    return fmt::format("{} of {} ({:.1f} %) | {:.1f}", covered, n, 100.0 * covered / std::max(n, 1),
-                       sorted.empty() ? 0.0 : sorted[sorted.size() / 2]);
+    const auto at = [&](double q) { return sorted.empty() ? 0.0 : 1.0 / sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size()))]; };
+    return fmt::format("{} of {} ({:.1f} %) | {:.1f} [x{:.2f} for 98, x{:.2f} for 95]", covered, n, 100.0 * covered / std::max(n, 1),
+                       median(ratios), at(0.02), at(0.05));
   }
 };
 
 struct Findings {
   int contacts = 0, certain = 0, judged = 0, wrong = 0;
   int certain_sets = 0, lacking_sets = 0;
+  int over = 0, said_over = 0, wrongly_over = 0;
   Coverage times, forces, impulses, velocities;
   std::map<std::string, Coverage> totals;
+  std::map<std::string, std::vector<double>> widths;  // stated errors over the values
   std::vector<double> shares;  // certain contacts, per scene without chatter
   std::string details;
 
@@ -67,11 +77,17 @@ struct Findings {
     wrong += other.wrong;
     certain_sets += other.certain_sets;
     lacking_sets += other.lacking_sets;
+    over += other.over;
+    said_over += other.said_over;
+    wrongly_over += other.wrongly_over;
     times.add(other.times);
     forces.add(other.forces);
     impulses.add(other.impulses);
     velocities.add(other.velocities);
     for (const auto& [name, coverage] : other.totals) totals[name].add(coverage);
+    for (const auto& [name, part] : other.widths) {
+      widths[name].insert(widths[name].end(), part.begin(), part.end());
+    }
     if (other.contacts > 0 && other.contacts <= chatter) {
       shares.push_back(static_cast<double>(other.certain) / other.contacts);
     }
@@ -160,6 +176,19 @@ void judge_sub_impact(const Truth& truth, const Result& run, std::size_t i, cons
       here.striker_velocity_error, "velocity");
 }
 
+// Whether contacts follow the end of a scene, up to three times as late, on a finer mesh.
+void judge_end(const DrawnScene& scene, const Result& run, Findings& outcome) {
+  Case longer = scene.finer[scene.finer.size() - 2];
+  longer.end_time *= 3.0;
+  const Result later = simulate(longer);
+  const std::vector<SubImpact>& all = later.sub_impacts;
+  const bool goes_on = all.empty() || all.back().end.value_or(HUGE_VAL) > scene.input.end_time;
+  outcome.over += !goes_on;
+  outcome.said_over += !goes_on && run.contact_over;
+  outcome.wrongly_over += goes_on && run.contact_over;
+  if (goes_on && run.contact_over) outcome.details += "\n    wrong: contact is not over";
+}
+
 Findings study(const DrawnScene& scene) {
   const Case& input = scene.input;
   const Result run = simulate_judged(input, cases_beside(input), 1);
@@ -176,8 +205,12 @@ Findings study(const DrawnScene& scene) {
     ++outcome.certain_sets;
     outcome.lacking_sets += truth.fine().sub_impacts.size() != run.sub_impacts.size();
   }
+  judge_end(scene, run, outcome);
   for (std::size_t k = 0; k < run.error_estimate->totals.size(); ++k) {
     const auto& [name, total] = run.error_estimate->totals[k];
+    if (total.error && total.value != 0.0) {
+      outcome.widths[name].push_back(*total.error / std::abs(total.value));
+    }
     const std::optional<double> limit = truth.total(k);
     if (limit && total.error) {
       outcome.totals[name].add(std::abs(total.value - *limit), *total.error);
@@ -187,24 +220,27 @@ Findings study(const DrawnScene& scene) {
 }
 
 void print(const Findings& all, int n_scenes) {
-  std::vector<double> shares = all.shares;
-  std::ranges::sort(shares);
   fmt::print("\n| what | figure |\n|---|---|\n");
   fmt::print("| scenes, contacts | {}, {} |\n", n_scenes, all.contacts);
   fmt::print("| called certain | {} |\n", all.certain);
   fmt::print("| share in the median scene of at most {} contacts | {:.0f} % |\n", chatter,
-             shares.empty() ? 0.0 : 100.0 * shares[shares.size() / 2]);
+             100.0 * median(all.shares));
   fmt::print("| of those on which finer meshes agree, exist one to one | {} of {} ({:.2f} %) |\n",
              all.judged - all.wrong, all.judged,
              100.0 * (all.judged - all.wrong) / std::max(all.judged, 1));
   fmt::print("| sets called certain, of these lacking or inventing one | {}, {} |\n",
              all.certain_sets, all.lacking_sets);
-  fmt::print("\n| errors of | covered | median stated/true |\n|---|---|---|\n");
+  fmt::print("| contact is over, called so, wrongly | {}, {}, {} |\n", all.over, all.said_over,
+             all.wrongly_over);
+  fmt::print("\n| errors of | covered | median stated/true | median stated/value |\n");
+  fmt::print("|---|---|---|---|\n");
   fmt::print(
-      "| times | {} |\n| peak forces | {} |\n| impulses | {} |\n| striker velocities | {} |\n",
+      "| times | {} | |\n| peak forces | {} | |\n| impulses | {} | |\n"
+      "| striker velocities | {} | |\n",
       all.times.text(), all.forces.text(), all.impulses.text(), all.velocities.text());
   for (const auto& [name, coverage] : all.totals) {
-    fmt::print("| total `{}` | {} |\n", name, coverage.text());
+    fmt::print("| total `{}` | {} | {:.2g} % |\n", name, coverage.text(),
+               100.0 * median(all.widths.at(name)));
   }
 }
 
@@ -214,7 +250,7 @@ int main(int argc, char** argv) {
   CLI::App app("What runs call certain beside what finer meshes have, on random scenes.");
   std::uint64_t seed = 16;
   int n_scenes = 300, first = 0;
-  bool verbose = false;
+  bool verbose = false, prints_case = false;
   judgement::Budget budget;
   judgement::Kind kind;
   app.add_option("--seed", seed, "of the scenes");
@@ -223,7 +259,12 @@ int main(int argc, char** argv) {
   app.add_flag("--shear", kind.shears, "all beams of Timoshenko's theory");
   app.add_flag("--verbose", verbose, "print what is not covered");
   app.add_option("--budget", budget.seconds, "seconds that the finest run of a scene may take");
+  app.add_flag("--case", prints_case, "print the case file of the first and run nothing");
   CLI11_PARSE(app, argc, argv);
+  if (prints_case) {
+    fmt::print("{}", case_file_text(judgement::draw(seed, first, budget, kind).input));
+    return 0;
+  }
   Findings all;
   std::mutex mutex;
   in_parallel(static_cast<std::size_t>(n_scenes), [&](std::size_t i) {

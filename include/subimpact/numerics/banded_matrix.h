@@ -33,6 +33,8 @@ class BandedMatrix {
   /// The lower triangular L of A = L L^T, read as at(i, j), i >= j; nothing if A is not positive
   /// definite.
   std::optional<BandedMatrix> cholesky_factor() const;
+  /// Overwrites b by the solution x of L L^T x = b, this matrix being such an L.
+  void solve_as_factor(std::span<double> x) const;
   /// x^T A x.
   double quadratic_form(std::span<const double> x) const;
 

@@ -199,6 +199,13 @@ struct ZoneTotals {
   Total sub_impacts;  ///< their number
 };
 
+/// Where the gap between the bodies is smallest before it grows for good, or until the run ends.
+struct ClosestApproach {
+  double time = 0.0;            ///< s
+  double gap = 0.0;             ///< m
+  std::optional<double> error;  ///< m, of the gap
+};
+
 /// What the runs beside a run show: which sub-impacts are certain, and errors.
 struct ErrorEstimate {
   std::string refined_run;  ///< the runs it was compared with, in words
@@ -224,6 +231,14 @@ struct ErrorEstimate {
     std::string reason;
   };
   std::vector<UncertainFlight> uncertain_flights;
+  /// On a mesh that the case fixes: errors of sub-impacts are then those in time, and this is what
+  /// finer meshes would change.
+  struct FinerMeshes {
+    std::string coarser;                      ///< the mesh that shows it, in words
+    std::size_t n_same = 0;                   ///< sub-impacts that it confirms
+    std::optional<double> change_of_first_end;  ///< s, of the first sub-impact, roughly
+  };
+  std::optional<FinerMeshes> finer_meshes;
   std::vector<NamedTotal> totals;
   std::vector<ZoneTotals> zones;
 };
@@ -269,8 +284,8 @@ struct Result {
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
   /// In their order in time: of every contact and separation the nearest few whose margin is below
-  /// half of the largest distance there. Those within a free flight that the exponential method
-  /// passes in one step are left out.
+  /// half of the largest distance there. Of a free flight that the exponential method passes
+  /// in one step, the nearest.
   std::vector<NearMiss> near_misses;
   std::vector<HistoryRow> history;          ///< empty if a RowSink took the rows
   std::vector<SectionRow> section_history;  ///< of output.sections, in that order at each time
@@ -283,9 +298,13 @@ struct Result {
   std::vector<PlasticZone> plastic_zones;
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
-  /// s: the time from which it is proven that no contact follows; searched with time.stop =
-  /// "no-more-contact".
+  /// s: a time from which it is proven that no contact follows: the end of the run, or sooner with
+  /// time.stop = "no-more-contact".
   std::optional<double> no_more_contact;
+  /// Whether that is proven for this run and for those beside it.
+  bool contact_over = false;
+  /// Of the flight after the last sub-impact; none if the gap does nothing but grow.
+  std::optional<ClosestApproach> closest_approach;
   std::size_t n_yielded_sections = 0;  ///< of the sections modelled
   double max_force = 0.0;              ///< N
   double max_indentation = 0.0;        ///< m

@@ -18,6 +18,8 @@ struct CaseBeside {
   /// A difference d between the two runs stands for an error gain d of the judged one: 1/(r^p - 1)
   /// for a mesh coarser by the factor r and of the order p, at most 1.
   double gain = 1.0;
+  /// Whether sub-impacts carry this part of the error; if not, only totals do.
+  bool of_rows = true;
 };
 
 struct RunBeside {
@@ -31,6 +33,10 @@ struct RunBeside {
 std::vector<CaseBeside> cases_beside(const Case& input);
 /// Those that show the error in time alone, on the mesh of the case.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
+
+/// Those for a mesh that is given: those in time, which rows carry, and a mesh coarser by 0.7, for
+/// the totals and what finer meshes would change.
+std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 
 /// Those that show each source of error by itself: "time", "mesh" (a third mesh, coarser by 0.5,
 /// shows whether times converge at its order) and, where the case has layers, "layers".
