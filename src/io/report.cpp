@@ -172,14 +172,14 @@ std::string over_words(const Result& result) {
 // What finer meshes change of a run on the mesh that the case fixes.
 std::string finer_meshes_words(const Result& result) {
   const ErrorEstimate::FinerMeshes& finer = *result.error_estimate->finer_meshes;
-  std::string text = fmt::format(
-      "{} of {} are the same on {}; errors of times are those on this mesh, errors of totals "
-      "include the mesh",
-      finer.n_same, counted(result.sub_impacts.size(), "sub-impact"), finer.coarser);
-  if (!finer.change_of_first_end) return text;
-  const double change = *finer.change_of_first_end;
-  return fmt::format("the first contact ends some {} {}; {}", error_text(std::abs(change)),
-                     change < 0.0 ? "earlier" : "later", text);
+  std::string text = fmt::format("{}: {}, {} of them as here", finer.mesh,
+                                 counted(finer.n_there, "sub-impact"), finer.n_same);
+  if (finer.change_of_first_end) {
+    const double change = *finer.change_of_first_end;
+    text += fmt::format("; on finer meshes the first contact ends some {} {}",
+                        error_text(std::abs(change)), change < 0.0 ? "earlier" : "later");
+  }
+  return text + "; errors of times are those on this mesh, errors of totals include it";
 }
 
 // The entry of the envelope where a value is largest.

@@ -248,7 +248,8 @@ const Record<ErrorEstimate::UncertainFlight>& flight_record() {
 const Record<ErrorEstimate::FinerMeshes>& finer_meshes_record() {
   using Finer = ErrorEstimate::FinerMeshes;
   static const Record<Finer> record = {
-      {"coarser", "the mesh that shows it", &Finer::coarser},
+      {"mesh", "that shows it", &Finer::mesh},
+      {"sub_impacts", "on that mesh", &Finer::n_there},
       {"same_sub_impacts", "sub-impacts that it confirms", &Finer::n_same},
       {"change_of_first_end_s", "what finer meshes change the end of the first sub-impact by",
        &Finer::change_of_first_end}};
@@ -368,7 +369,7 @@ RunEntry contact_over_entry() {
   RunEntry entry("contact_over",
                  "yes: proven that no contact follows, for this run and those beside it",
                  [](const DescribedRun& run) {
-                   return run.result->contact_over ? "yes" : "may not be";
+                   return std::string(run.result->contact_over ? "yes" : "may not be");
                  });
   entry.read = [](const Json& object, DescribedRun& run) {
     run.result->contact_over = object.at("contact_over") == "yes";

@@ -267,8 +267,8 @@ double memory_of(const Options& options, const StruckBeam& beam) {
   const bool yields = beam.sections().can_yield();
   const bool flies = yields && in_modes(options, mesh, beam.damping());
   const double of_modes = mesh.has_closed_modes() ? matrices_of_modes : matrices_of_dense_modes;
-  const double matrices =
-      (in_modes(options, beam.mesh(), beam.damping()) ? of_modes : 0.0) + (flies ? matrices_of_flight : 0.0);
+  const double matrices = (in_modes(options, beam.mesh(), beam.damping()) ? of_modes : 0.0) +
+                          (flies ? matrices_of_flight : 0.0);
   return memory_of_program + memory_per_unknown * n + sizeof(double) * matrices * n * n;
 }
 

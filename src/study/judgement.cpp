@@ -22,23 +22,27 @@ constexpr double um = 1e6;  // per metre
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 // Measured on random scenes (validation/judgement).
-constexpr double time_safety = 3.5;
-constexpr double value_safety = 7.0;
+constexpr double time_safety = 3.2;
+constexpr double value_safety = 6.0;
 constexpr double margin_safety = 3.5;
-constexpr double existence_safety = 2.0;
+constexpr double existence_safety = 1.2;
 constexpr double end_safety = 4.0;  // of what free ends leave
+constexpr double depth_safety = 0.35;
+constexpr double steepest = 1.5;  // slope of a contact law over that of the secant, at most
 // Events on either side from which the error of the indentation at an event is taken.
 constexpr std::size_t half_window = 3;
 // Near misses correspond if they are closer than this share of the contact or the flight.
 constexpr double near_share = 0.25;
+constexpr double alike = 0.025;             // velocities at the end, over that of the strike
 constexpr double order_uncertainty = 0.35;  // of the ratio of differences for an order
 
 double end_of(const SubImpact& s, const Result& run) { return s.end.value_or(run.outcome.time); }
 
 // Whether runs show an error of the mesh.
 bool of_mesh(std::span<const RunBeside> beside) {
-  return std::ranges::any_of(
-      beside, [](const RunBeside& other) { return other.of.of_rows && other.of.part.starts_with("mesh"); });
+  return std::ranges::any_of(beside, [](const RunBeside& other) {
+    return other.of.of_rows && other.of.part.starts_with("mesh");
+  });
 }
 
 struct Partner {
@@ -125,7 +129,8 @@ class Judge {
     return std::max(time_safety * std::max(here.error, least), end_safety * of_ends);
   }
 
-  double value_error(std::size_t i, double SubImpact::*value) const {
+  // `least`: the smallest error to be stated.
+  double value_error(std::size_t i, double SubImpact::*value, double least = 0.0) const {
     std::optional<double> error;
     for (std::size_t k = 0; k < beside_.size(); ++k) {
       const SubImpact* there = counterparts_[k].of[i].there;
@@ -133,7 +138,13 @@ class Judge {
       const double here = beside_[k].of.gain * std::abs(all_[i].*value - there->*value);
       error = std::max(error.value_or(0.0), here);
     }
-    return error ? value_safety * *error : unknown;
+    return error ? std::max(value_safety * *error, least) : unknown;
+  }
+
+  // What the error of the indentation leaves of the largest one, m, and of the force, N.
+  double least_indentation_error(std::size_t i) const { return depth_safety * delta(2 * i); }
+  double least_force_error(std::size_t i) const {
+    return least_indentation_error(i) * steepest * all_[i].peak_force / depth(i);
   }
 
   // Why a sub-impact is not certain; empty if it is.
@@ -333,9 +344,11 @@ void add_errors(const Judge& judge, std::size_t i, const std::string& part, SubI
   add_error(s.start_error, start);
   if (s.end) add_error(s.end_error, end);
   if (auto* error = part_of(s, part)) add_error(*error, std::max(start, end));
-  add_error(s.peak_force_error, judge.value_error(i, &SubImpact::peak_force));
+  add_error(s.peak_force_error,
+            judge.value_error(i, &SubImpact::peak_force, judge.least_force_error(i)));
   add_error(s.impulse_error, judge.value_error(i, &SubImpact::impulse));
-  add_error(s.max_indentation_error, judge.value_error(i, &SubImpact::max_indentation));
+  add_error(s.max_indentation_error,
+            judge.value_error(i, &SubImpact::max_indentation, judge.least_indentation_error(i)));
   add_error(s.residual_indentation_error, judge.value_error(i, &SubImpact::residual_indentation));
   add_error(s.striker_velocity_error, judge.value_error(i, &SubImpact::striker_velocity));
 }
@@ -381,14 +394,13 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
   return part;
 }
 
-// Whether it is proven for this run and for those beside it that no contact follows.
-bool is_over(const Result& run, std::span<const RunBeside> beside, const ErrorEstimate& estimate) {
-  const auto is_last = [&](const ErrorEstimate::UncertainFlight& flight) {
-    return flight.after + 1 == run.sub_impacts.size();
-  };
-  return run.no_more_contact && std::ranges::none_of(estimate.uncertain_flights, is_last) &&
-         std::ranges::all_of(beside, [](const RunBeside& other) {
-           return other.result.no_more_contact.has_value();
+// Whether it is proven for this run and for those beside it that no contact follows, and they end
+// alike.
+bool is_over(const Case& input, const Result& run, std::span<const RunBeside> beside) {
+  const double tolerated = alike * input.scene.striker.velocity;
+  return run.no_more_contact && std::ranges::all_of(beside, [&](const RunBeside& other) {
+           const double difference = other.result.striker_velocity - run.striker_velocity;
+           return other.result.no_more_contact && std::abs(difference) < tolerated;
          });
 }
 
@@ -427,9 +439,9 @@ void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> 
   }
 }
 
-// What a mesh that rows do not carry shows.
-ErrorEstimate::FinerMeshes compare_on_coarser(const Case& input, const Result& run,
-                                              const RunBeside& coarser) {
+// What another mesh shows of a run whose rows do not carry the error of the mesh.
+ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
+                                        const RunBeside& other) {
   Result here;
   here.outcome = run.outcome;
   here.sub_impacts = run.sub_impacts;
@@ -440,12 +452,16 @@ ErrorEstimate::FinerMeshes compare_on_coarser(const Case& input, const Result& r
     s.probability = 1.0;
   }
   ErrorEstimate none;
-  judge_part(input, here, {&coarser, 1}, none);
-  const auto n_same = std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
-  ErrorEstimate::FinerMeshes found{coarser.of.description, static_cast<std::size_t>(n_same), {}};
-  const SubImpact* there = counterparts_in(run, coarser.result).of.at(0).there;
-  if (there && there->end && here.sub_impacts[0].end) {
-    found.change_of_first_end = coarser.of.gain * (*here.sub_impacts[0].end - *there->end);
+  judge_part(input, here, {&other, 1}, none);
+  const auto n_same =
+      std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
+  ErrorEstimate::FinerMeshes found{
+      other.of.description, other.result.sub_impacts.size(), static_cast<std::size_t>(n_same), {}};
+  const std::vector<SubImpact>& there = other.result.sub_impacts;
+  if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
+    const double change = *there[0].end - *here.sub_impacts[0].end;
+    const bool is_finer = mesh_count(other.of.input) > mesh_count(input);
+    found.change_of_first_end = is_finer ? change : -other.of.gain * change;
   }
   return found;
 }
@@ -517,7 +533,7 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
       return other.of.part != first->of.part;
     });
     if (!first->of.of_rows) {
-      estimate.finer_meshes = compare_on_coarser(input, run, *first);
+      estimate.finer_meshes = finer_meshes(input, run, *first);
     } else {
       estimate.parts.push_back(judge_part(input, run, {first, last}, estimate));
       if (first->of.part == "mesh") set_mesh_limits(input, run, {first, last});
@@ -530,7 +546,7 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
     }
   }
   if (of_mesh(beside)) doubt_unresolved(input, run, estimate);
-  run.contact_over = is_over(run, beside, estimate);
+  run.contact_over = is_over(input, run, beside);
   find_first_unresolved(run, estimate);
   set_largest_errors(run, estimate);
   set_totals(input, run, beside, estimate);

@@ -9,12 +9,18 @@
 namespace subimpact {
 namespace {
 
-constexpr double safety = 4.0;  // measured on random scenes (validation/judgement)
+// Measured on random scenes (validation/judgement).
+constexpr double usual_safety = 5.0;
+constexpr double safety_of_dissipated = 7.0;
+constexpr double of_count = 0.0;  // the difference itself
 
 struct Quantity {
   const char* name;
   std::optional<double> (*value)(const Case& input, const Result& run);
-  bool is_count = false;
+  double safety = usual_safety;
+  // Of the largest over the sub-impacts, whose error is at least that of the one that has it.
+  double SubImpact::*of_sub_impact = nullptr;
+  std::optional<double> SubImpact::*its_error = nullptr;
 };
 
 double largest(const Result& run, EnvelopeRow::Range EnvelopeRow::*range) {
@@ -54,12 +60,12 @@ const Quantity quantities[] = {
      [](const Case&, const Result& run) {
        return std::optional(static_cast<double>(run.sub_impacts.size()));
      },
-     true},
+     of_count},
     {"zones",
      [](const Case&, const Result& run) {
        return std::optional(run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone);
      },
-     true},
+     of_count},
     {"striker_velocity_m_per_s",
      [](const Case&, const Result& run) { return std::optional(run.striker_velocity); }},
     {"beam_mean_velocity_m_per_s",
@@ -70,9 +76,11 @@ const Quantity quantities[] = {
                             input.scene.striker.velocity);
      }},
     {"impulse_Ns", [](const Case&, const Result& run) { return std::optional(impulse(run)); }},
-    {"peak_force_N", [](const Case&, const Result& run) { return std::optional(run.max_force); }},
+    {"peak_force_N", [](const Case&, const Result& run) { return std::optional(run.max_force); },
+     usual_safety, &SubImpact::peak_force, &SubImpact::peak_force_error},
     {"max_indentation_m",
-     [](const Case&, const Result& run) { return std::optional(run.max_indentation); }},
+     [](const Case&, const Result& run) { return std::optional(run.max_indentation); },
+     usual_safety, &SubImpact::max_indentation, &SubImpact::max_indentation_error},
     {"max_displacement_m",
      with_shapes<[](const Result& run) { return largest(run, &EnvelopeRow::displacement); }>},
     {"max_moment_Nm",
@@ -89,12 +97,13 @@ const Quantity quantities[] = {
      [](const Case&, const Result& run) {
        const Energies& end = run.final_energies;
        return std::optional(end.bending_plastic + end.contact_plastic + end.beam_damping);
-     }},
+     },
+     safety_of_dissipated},
 };
 
 // Sums the errors of the parts, each the largest over its runs. `value`: of a run; none where the
 // run has no such thing.
-Total total_of(const Result& run, std::span<const RunBeside> beside, bool is_count,
+Total total_of(const Result& run, std::span<const RunBeside> beside, double safety,
                const std::function<std::optional<double>(const Result&)>& value) {
   Total total{value(run).value_or(0.0), {}};
   std::map<std::string, double> parts;
@@ -103,7 +112,7 @@ Total total_of(const Result& run, std::span<const RunBeside> beside, bool is_cou
     if (!there || !other.result.outcome.completed()) return total;
     double& error = parts[other.of.part];
     const double difference = std::abs(total.value - *there);
-    error = std::max(error, is_count ? difference : safety * other.of.gain * difference);
+    error = std::max(error, safety == of_count ? difference : safety * other.of.gain * difference);
   }
   total.error = 0.0;
   for (const auto& [part, error] : parts) *total.error += error;
@@ -147,23 +156,28 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
       std::ssize(estimate.uncertain_flights);
   for (const Quantity& quantity : quantities) {
     if (!quantity.value(input, run)) continue;
-    Total total = total_of(run, beside, quantity.is_count,
+    Total total = total_of(run, beside, quantity.safety,
                            [&](const Result& of) { return quantity.value(input, of); });
     if (quantity.name == std::string_view("sub_impacts") && total.error) {
       total.error = std::max(*total.error, static_cast<double>(n_uncertain));
     }
+    if (quantity.its_error && total.error && !run.sub_impacts.empty()) {
+      const SubImpact& largest =
+          *std::ranges::max_element(run.sub_impacts, {}, quantity.of_sub_impact);
+      total.error = std::max(*total.error, (largest.*quantity.its_error).value_or(0.0));
+    }
     estimate.totals.push_back({quantity.name, total});
   }
   for (const Zone& zone : zones_of(run)) {
-    const auto total = [&](double Zone::*member, bool is_count = false) {
-      return total_of(run, beside, is_count, [&](const Result& of) -> std::optional<double> {
+    const auto total = [&](double Zone::*member, double safety = usual_safety) {
+      return total_of(run, beside, safety, [&](const Result& of) -> std::optional<double> {
         if (&of == &run) return zone.*member;
         const std::optional<Zone> there = counterpart(of, zone);
         return there ? std::optional((*there).*member) : std::nullopt;
       });
     };
     estimate.zones.push_back(
-        {total(&Zone::start), total(&Zone::end), total(&Zone::impulse), total(&Zone::n, true)});
+        {total(&Zone::start), total(&Zone::end), total(&Zone::impulse), total(&Zone::n, of_count)});
   }
 }
 

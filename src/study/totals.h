@@ -7,8 +7,10 @@
 namespace subimpact {
 
 /// Sets the totals of an error estimate: numbers of the run as a whole, each with the largest of
-/// 4 gain |difference| over the runs beside it, summed over the parts. Counts have the largest
-/// difference itself, and at least the number of sub-impacts and flights that are not certain.
+/// 5 gain |difference| over the runs beside it, summed over the parts (dissipated energy: 7). The
+/// largest force and indentation have at least the error of the sub-impact that has them. Counts
+/// have the largest difference itself, and at least the number of sub-impacts and flights that are
+/// not certain.
 void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
                 ErrorEstimate& estimate);
 

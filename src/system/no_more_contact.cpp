@@ -2,150 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
+#include "model/slow_motion.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {
 
 namespace {
 
-// Added to the mass for factorisation, in units of the first frequency squared: the stiffness of a
-// beam that may move rigidly is singular.
-constexpr double shift = 0.1;
-// Each iteration takes nine tenths of an error off, or more.
-constexpr int n_iterations = 16;
-// What these and rounding leave of the bound.
+// Modes whose motion is followed; what they leave is bounded by its energy.
+constexpr std::size_t n_followed = 12;
+// What rounding leaves of the bounds.
 constexpr double rounding = 1e-5;
-
-using Vector = std::vector<double>;
-
-// Motions without elastic forces, normalised by the mass, and the shape u.
-struct Statics {
-  std::vector<Vector> rigid;
-  Vector reaction;
-};
-
-Statics statics_in_modes(const BeamMesh& mesh, double stiffness) {
-  const NaturalModes modes = mesh.natural_modes(stiffness);
-  Statics found{{}, Vector(modes.size(), 0.0)};
-  for (std::size_t k = 0; k < modes.size(); ++k) {
-    const std::span<const double> phi = modes.shape(k);
-    const double frequency = modes.frequencies[k];
-    if (frequency == 0.0) {
-      found.rigid.emplace_back(phi.begin(), phi.end());
-      continue;
-    }
-    const double amount = mesh.struck_point()(phi) / (frequency * frequency);
-    for (std::size_t i = 0; i < phi.size(); ++i) found.reaction[i] += amount * phi[i];
-  }
-  return found;
-}
-
-// The same by a banded factorisation of K + s Mass.
-class BandedStatics {
- public:
-  BandedStatics(const BeamMesh& mesh, double stiffness, double first_frequency)
-      : mesh_(mesh),
-        n_(mesh.n_unknowns()),
-        shift_(shift * first_frequency * first_frequency),
-        stiffness_(n_, std::max(mesh.stiffness_bandwidth(), mesh.mass().half_bandwidth())),
-        work_(n_) {
-    mesh.add_stiffness(Vector(mesh.n_sections(), stiffness), stiffness_);
-    BandedMatrix shifted = stiffness_;
-    const std::size_t width = mesh.mass().half_bandwidth();
-    for (std::size_t j = 0; j < n_; ++j) {
-      for (std::size_t i = j; i <= std::min(j + width, n_ - 1); ++i) {
-        shifted.at(i, j) += shift_ * mesh.mass().at(i, j);
-      }
-    }
-    factor_ = shifted.cholesky_factor();
-  }
-
-  // Nothing if the stiffness has negative values.
-  std::optional<Statics> find() {
-    if (!factor_) return std::nullopt;
-    Statics found;
-    while (found.rigid.size() < 2 && add_rigid_motion(found.rigid)) {
-    }
-    Vector load(n_, 0.0);
-    mesh_.struck_point().add_to(load, 1.0);
-    balance(found.rigid, load);
-    found.reaction = Vector(n_, 0.0);
-    for (int i = 0; i < n_iterations; ++i) {
-      stiffness_.multiply(found.reaction, work_);
-      for (std::size_t k = 0; k < n_; ++k) work_[k] = load[k] - work_[k];
-      balance(found.rigid, work_);
-      factor_->solve_as_factor(work_);
-      for (std::size_t k = 0; k < n_; ++k) found.reaction[k] += work_[k];
-    }
-    return found;
-  }
-
- private:
-  // By inverse iteration from any vector, free of the motions found before.
-  bool add_rigid_motion(std::vector<Vector>& rigid) {
-    Vector v(n_);
-    for (std::size_t k = 0; k < n_; ++k) v[k] = std::cos(static_cast<double>(k * k));
-    double growth = 0.0;
-    for (int i = 0; i < n_iterations; ++i) {
-      mesh_.mass().multiply(v, work_);
-      balance(rigid, work_);
-      factor_->solve_as_factor(work_);
-      growth = std::sqrt(mesh_.mass().quadratic_form(work_) / mesh_.mass().quadratic_form(v));
-      const double norm = std::sqrt(mesh_.mass().quadratic_form(work_));
-      for (std::size_t k = 0; k < n_; ++k) v[k] = work_[k] / norm;
-    }
-    if (growth * shift_ < 0.5) return false;
-    rigid.push_back(std::move(v));
-    return true;
-  }
-  // Takes from forces what moves the beam rigidly.
-  void balance(const std::vector<Vector>& rigid, Vector& forces) const {
-    Vector inertia(n_);
-    for (const Vector& phi : rigid) {
-      const double share = dot(phi.data(), forces.data(), n_);
-      mesh_.mass().multiply(phi, inertia);
-      for (std::size_t k = 0; k < n_; ++k) forces[k] -= share * inertia[k];
-    }
-  }
-
-  const BeamMesh& mesh_;
-  std::size_t n_;
-  double shift_;
-  BandedMatrix stiffness_;
-  std::optional<BandedMatrix> factor_;
-  Vector work_;
-};
-
-std::optional<Statics> statics_of(const BeamMesh& mesh, double stiffness, double first_period) {
-  if (!mesh.modal_stiffness().empty() || mesh.n_sections() == 0) {
-    return statics_in_modes(mesh, stiffness);
-  }
-  return BandedStatics(mesh, stiffness, 2.0 * M_PI / first_period).find();
-}
 
 }  // namespace
 
 NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, double first_period)
     : n_(beam.mesh().n_unknowns()),
+      is_damped_(beam.depends_on_velocity()),
       rigid_motion_decays_(beam.damping().mass > 0.0),
       accounts_(beam),
       curvatures_(beam.mesh().n_sections()),
       moments_(beam.mesh().n_sections()) {
   const BeamMesh& mesh = beam.mesh();
   const SectionField& sections = beam.sections();
-  const std::optional<Statics> statics = statics_of(mesh, sections.stiffness(), first_period);
-  can_prove_ = statics.has_value();
+  const auto motion = slow_motion(mesh, sections.stiffness(), first_period, n_followed);
+  can_prove_ = motion.has_value();
   if (!can_prove_) return;
-  for (const Vector& phi : statics->rigid) {
-    rigid_.emplace_back(n_);
-    mesh.mass().multiply(phi, rigid_.back());
-    rigid_share_.push_back(mesh.struck_point()(phi));
+  compliance_ = compliance_of_rest_ = mesh.struck_point()(motion->response);
+  std::vector<double> frequencies{0.0}, shares{1.0};
+  for (std::size_t k = 0; k < motion->size(); ++k) {
+    const double omega = motion->frequencies[k];
+    const double share = mesh.struck_point()(motion->shapes[k]);
+    modes_.push_back({omega, share, std::vector<double>(n_)});
+    mesh.mass().multiply(motion->shapes[k], modes_.back().inertia);
+    if (omega == 0.0) continue;
+    frequencies.push_back(omega);
+    shares.push_back(-share);
+    compliance_of_rest_ -= share * share / (omega * omega);
   }
-  compliance_ = mesh.struck_point()(statics->reaction);
-  if (!sections.can_yield()) return;
-  mesh.curvatures(statics->reaction, curvatures_);
+  compliance_of_rest_ = std::max(compliance_of_rest_, 0.0) + rounding * compliance_;
+  if (!sections.can_yield()) {
+    if (frequencies.size() > 1) horizon_.emplace(std::move(frequencies), std::move(shares));
+    return;
+  }
+  mesh.curvatures(motion->response, curvatures_);
   double largest = 0.0;
   for (std::size_t i = 0; i < curvatures_.size(); ++i) {
     largest = std::max(largest, std::abs(curvatures_[i]));
@@ -160,18 +62,26 @@ bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
   const std::span<const double> w{y.data(), n_};
   const std::span<const double> v{y.data() + n_ + 1, n_};
   const Energies energies = accounts_.energies(y);
+  // The striker against the rigid motion; the modes that follow.
+  std::vector<double> z{y[n_]}, rates{y.back()};
   double energy = energies.beam_kinetic + energies.bending_elastic;
-  double rigid = 0.0;
-  double rigid_rate = 0.0;
-  for (std::size_t k = 0; k < rigid_.size(); ++k) {
-    const double rate = dot(rigid_[k].data(), v.data(), n_);
-    rigid += rigid_share_[k] * dot(rigid_[k].data(), w.data(), n_);
-    rigid_rate += rigid_share_[k] * rate;
-    energy -= 0.5 * rate * rate;
+  double energy_of_modes = 0.0;
+  for (const Mode& mode : modes_) {
+    const double amount = dot(mode.inertia.data(), w.data(), n_);
+    const double rate = dot(mode.inertia.data(), v.data(), n_);
+    if (mode.frequency == 0.0) {
+      z[0] -= mode.share * amount;
+      rates[0] -= mode.share * rate;
+      energy -= 0.5 * rate * rate;
+    } else {
+      z.push_back(amount);
+      rates.push_back(rate);
+      energy_of_modes += 0.5 * (rate * rate + std::pow(mode.frequency * amount, 2));
+    }
   }
-  energy = std::max(energy, 0.0);
-  if (!(y.back() <= rigid_rate)) return false;
+  if (!(rates[0] <= 0.0)) return false;
   if (rigid_motion_decays_ && y.back() > 0.0) return false;
+  energy = std::max(energy, 0.0);
 
   double plastic = 0.0;
   if (!bar_.empty()) {
@@ -185,7 +95,26 @@ bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
   const double a = plastic_compliance_;
   const double bound = 2.0 * a * a * energy > compliance_ ? a * energy + compliance_ / (2.0 * a)
                                                           : std::sqrt(2.0 * compliance_ * energy);
-  return y[n_] - rigid - plastic + (1.0 + rounding) * bound < beam.contact().residual_indentation();
+  const double residual = beam.contact().residual_indentation();
+  if (z[0] - plastic + (1.0 + rounding) * bound < residual) return true;
+  if (is_damped_ || !horizon_ || !(rates[0] < 0.0)) return false;
+  const double of_rest =
+      std::sqrt(2.0 * compliance_of_rest_ * std::max(energy - energy_of_modes, rounding * energy));
+  return stays_below(residual - of_rest, z, rates);
+}
+
+bool NoMoreContact::stays_below(double limit, std::span<const double> z,
+                                std::span<const double> rates) {
+  double farthest = 0.0;  // that the modes reach
+  std::size_t k = 1;
+  for (const Mode& mode : modes_) {
+    if (mode.frequency == 0.0) continue;
+    farthest += std::abs(mode.share) * std::hypot(z[k], rates[k] / mode.frequency);
+    ++k;
+  }
+  const double needed = std::max(0.0, z[0] + farthest - limit) / -rates[0];
+  const double lowest = -std::numeric_limits<double>::infinity();
+  return horizon_->from(z, rates, {&lowest, 1}, {&limit, 1}, needed) >= needed;
 }
 
 }  // namespace subimpact

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "numerics/event_free_horizon.h"
 #include "system/accounts.h"
 
 namespace subimpact {
@@ -34,8 +37,11 @@ namespace subimpact {
 /// bracket is below the residual indentation, they never meet. Rigorous for the discrete beam,
 /// whatever its section law and ends. Damping of the beam takes energy, as plastic work does, and
 /// leaves the rigid motion alone, but for damping by mass: R' then falls to zero, and v_m <= 0 is
-/// needed too. The proof fails until the gap exceeds the deflection that the
-/// beam's whole energy could cause.
+/// needed too.
+///
+/// A beam that is elastic and undamped is followed beyond that: its lowest modes move freely
+/// (EventFreeHorizon), and the rest of d stays below sqrt(2 C' E'), with the compliance and the
+/// energy of the other modes. It is followed until the gap exceeds all that d can be.
 class NoMoreContact {
  public:
   /// `beam` must outlive this. `first_period`: of its bending, roughly, s.
@@ -44,14 +50,24 @@ class NoMoreContact {
   bool is_proven(const StruckBeam& beam, const State& y);
 
  private:
+  struct Mode {
+    double frequency;             // rad/s; 0: rigid
+    double share;                 // S phi
+    std::vector<double> inertia;  // Mass phi
+  };
+  // Whether z0 + rate0 t - sum share z_k(t) stays below a limit (m) for all t.
+  bool stays_below(double limit, std::span<const double> z, std::span<const double> rates);
+
   std::size_t n_;
-  std::vector<std::vector<double>> rigid_;  // Mass phi of rigid motions
-  std::vector<double> rigid_share_;         // S phi of them
-  std::vector<double> bar_;                 // W kbar; empty where the sections cannot yield
-  bool rigid_motion_decays_;                // by damping
+  std::vector<Mode> modes_;  // the lowest
+  std::vector<double> bar_;  // W kbar; empty where the sections cannot yield
   bool can_prove_ = false;
-  double compliance_ = 0.0;                 // C, m/N
-  double plastic_compliance_ = 0.0;         // a, m/J
+  bool is_damped_;
+  bool rigid_motion_decays_;                 // by damping
+  double compliance_ = 0.0;                  // C, m/N
+  double compliance_of_rest_ = 0.0;          // C', m/N, but for the lowest modes
+  double plastic_compliance_ = 0.0;          // a, m/J
+  std::optional<EventFreeHorizon> horizon_;  // of elastic beams
   Accounts accounts_;
   std::vector<double> curvatures_, moments_;
 };

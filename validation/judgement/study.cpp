@@ -185,6 +185,7 @@ void judge_end(const DrawnScene& scene, const Result& run, Findings& outcome) {
   const bool goes_on = all.empty() || all.back().end.value_or(HUGE_VAL) > scene.input.end_time;
   outcome.over += !goes_on;
   outcome.said_over += !goes_on && run.contact_over;
+  if (!goes_on) outcome.details += fmt::format("\n    OVER {} {} vm {:.3g} R {:.3g} own {} gapfalls {}", run.contact_over, scene.input.model.section == SectionKind::elastic ? "elastic" : "yield", run.striker_velocity, run.beam_mean_velocity, run.no_more_contact.has_value(), run.closest_approach.has_value());
   outcome.wrongly_over += goes_on && run.contact_over;
   if (goes_on && run.contact_over) outcome.details += "\n    wrong: contact is not over";
 }
@@ -206,6 +207,8 @@ Findings study(const DrawnScene& scene) {
     outcome.lacking_sets += truth.fine().sub_impacts.size() != run.sub_impacts.size();
   }
   judge_end(scene, run, outcome);
+  if (run.sub_impacts.size() <= 30) for (const auto& s : run.sub_impacts) if (!*s.certain) outcome.details += "\n    DOUBT " + s.doubt;
+  outcome.details += fmt::format("\n    SHARE {}/{}", outcome.certain, outcome.contacts);
   for (std::size_t k = 0; k < run.error_estimate->totals.size(); ++k) {
     const auto& [name, total] = run.error_estimate->totals[k];
     if (total.error && total.value != 0.0) {

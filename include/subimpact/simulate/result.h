@@ -234,9 +234,10 @@ struct ErrorEstimate {
   /// On a mesh that the case fixes: errors of sub-impacts are then those in time, and this is what
   /// finer meshes would change.
   struct FinerMeshes {
-    std::string coarser;                      ///< the mesh that shows it, in words
-    std::size_t n_same = 0;                   ///< sub-impacts that it confirms
-    std::optional<double> change_of_first_end;  ///< s, of the first sub-impact, roughly
+    std::string mesh;                           ///< that shows it, in words
+    std::size_t n_there = 0;                    ///< sub-impacts on that mesh
+    std::size_t n_same = 0;                     ///< sub-impacts that it confirms
+    std::optional<double> change_of_first_end;  ///< s, of the end of the first sub-impact
   };
   std::optional<FinerMeshes> finer_meshes;
   std::vector<NamedTotal> totals;

@@ -34,8 +34,9 @@ std::vector<CaseBeside> cases_beside(const Case& input);
 /// Those that show the error in time alone, on the mesh of the case.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
 
-/// Those for a mesh that is given: those in time, which rows carry, and a mesh coarser by 0.7, for
-/// the totals and what finer meshes would change.
+/// Those for a mesh that is given: those in time, which rows carry, and another mesh for the totals
+/// and what finer meshes would change: twice as many cells by central differences, or 0.7 times as
+/// many parts where the method is that already or the mesh another one.
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 
 /// Those that show each source of error by itself: "time", "mesh" (a third mesh, coarser by 0.5,
