@@ -172,8 +172,8 @@ std::string over_words(const Result& result) {
 // What finer meshes change of a run on the mesh that the case fixes.
 std::string finer_meshes_words(const Result& result) {
   const ErrorEstimate::FinerMeshes& finer = *result.error_estimate->finer_meshes;
-  std::string text = fmt::format("{}: {}, {} of them as here", finer.mesh,
-                                 counted(finer.n_there, "sub-impact"), finer.n_same);
+  std::string text = fmt::format("{} there are {}, and {} of those here are alike", finer.mesh,
+                                 finer.n_there, finer.n_same);
   if (finer.change_of_first_end) {
     const double change = *finer.change_of_first_end;
     text += fmt::format("; on finer meshes the first contact ends some {} {}",

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "paper_case.h"
+#include "paper_scene.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
@@ -38,8 +38,10 @@ Result contacts(int n, double later = 0.0) {
 }
 
 Result judged(Result run, const Result& other) {
-  const RunBeside beside{{Case(), "time", "another run", 1.0}, other};
-  judge(Case(), run, {&beside, 1});
+  Case input;
+  input.scene.striker.velocity = 1.0;
+  const RunBeside beside{{input, "time", "another run", 1.0}, other};
+  judge(input, run, {&beside, 1});
   return run;
 }
 
@@ -99,7 +101,7 @@ TEST(AJudgement, CallsContactOverOnlyIfEveryRunProvesItAndEndsAlike) {
   EXPECT_TRUE(judged(proven, proven).contact_over);
   EXPECT_FALSE(judged(proven, contacts(2)).contact_over);
   Result faster = proven;
-  faster.striker_velocity += 0.1 * Case().scene.striker.velocity;
+  faster.striker_velocity += 0.1;
   EXPECT_FALSE(judged(proven, faster).contact_over);
 }
 
@@ -134,7 +136,11 @@ TEST(AJudgement, OfAGivenMeshLeavesTheMeshToTheTotalsAndSaysWhatItChanges) {
 }
 
 TEST(AJudgement, OfThePapersCellsNamesTheOpeningThatFinerMeshesHave) {
-  const Case input = paper_case(SectionKind::exact, 0.4e-3);
+  Case input;
+  input.scene = paper_scene();
+  input.end_time = 0.4e-3;
+  input.model.section = SectionKind::exact;
+  input.solver.method = Method::nystrom;
   const Result run = simulate_judged(input, cases_beside_on_given_mesh(input), 1);
   ASSERT_TRUE(run.error_estimate && run.error_estimate->finer_meshes);
   EXPECT_NEAR(1e6 * *run.sub_impacts[0].end, 217.0, 0.5);
@@ -144,11 +150,13 @@ TEST(AJudgement, OfThePapersCellsNamesTheOpeningThatFinerMeshesHave) {
 // Coarser meshes are refused for a strike so close to an end.
 TEST(CasesBeside, AreFinerWhereTheStrikeIsTooNearAnEndForCoarserMeshes) {
   Case input;
+  input.scene = paper_scene();
   input.model.mesh = MeshKind::hermite;
   input.model.elements = 50;
   input.model.section = SectionKind::elastic;
   input.solver.method = Method::exponential;
   input.scene.striker.position = 0.0108;
+  input.end_time = 1e-3;
   const std::vector<CaseBeside> all = cases_beside(input);
   ASSERT_EQ(all.size(), 2u);
   for (const CaseBeside& beside : all) {
