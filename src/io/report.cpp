@@ -154,34 +154,6 @@ std::string final_velocities_text(const Case& input, const Result& result) {
       total_text(result, "restitution", restitution, 1.0, 6, ""));
 }
 
-std::string over_words(const Result& result) {
-  if (result.contact_over) {
-    return fmt::format("proven{}: striker and beam never touch again",
-                       result.error_estimate ? "" : " on this mesh");
-  }
-  if (result.sub_impacts.empty() || !result.sub_impacts.back().end) {
-    return "no: striker and beam are still in contact";
-  }
-  const std::optional<ClosestApproach>& closest = result.closest_approach;
-  if (!closest) return "not proven; the gap grows until the run ends";
-  const Total gap{closest->gap, closest->error};
-  return fmt::format("not proven; the gap falls to {} um at {:.4g} us", total_or_value(gap, um, 3),
-                     us * closest->time);
-}
-
-// What finer meshes change of a run on the mesh that the case fixes.
-std::string finer_meshes_words(const Result& result) {
-  const ErrorEstimate::FinerMeshes& finer = *result.error_estimate->finer_meshes;
-  std::string text = fmt::format("{} there are {}, and {} of those here are alike", finer.mesh,
-                                 finer.n_there, finer.n_same);
-  if (finer.change_of_first_end) {
-    const double change = *finer.change_of_first_end;
-    text += fmt::format("; on finer meshes the first contact ends some {} {}",
-                        error_text(std::abs(change)), change < 0.0 ? "earlier" : "later");
-  }
-  return text + "; errors of times are those on this mesh, errors of totals include it";
-}
-
 // The entry of the envelope where a value is largest.
 template <class Value>
 const EnvelopeRow& where_largest(const Result& result, Value value) {
@@ -221,6 +193,32 @@ std::string permanent_set_text(const Result& result) {
 }
 
 }  // namespace
+
+std::string contact_over_words(const Result& result) {
+  if (result.contact_over) {
+    return fmt::format("proven{}: striker and beam never touch again",
+                       result.error_estimate ? "" : " on this mesh");
+  }
+  if (result.sub_impacts.empty() || !result.sub_impacts.back().end) {
+    return "no: striker and beam are still in contact";
+  }
+  const std::optional<ClosestApproach>& closest = result.closest_approach;
+  if (!closest) return "not proven; the gap grows until the run ends";
+  const Total gap{closest->gap, closest->error};
+  return fmt::format("not proven; the gap falls to {} um at {:.4g} us", total_or_value(gap, um, 3),
+                     us * closest->time);
+}
+
+std::string finer_meshes_words(const ErrorEstimate::FinerMeshes& finer) {
+  std::string text = fmt::format("{} there are {}, and {} of those here are alike", finer.mesh,
+                                 finer.n_there, finer.n_same);
+  if (finer.change_of_first_end) {
+    const double change = *finer.change_of_first_end;
+    text += fmt::format("; on finer meshes the first contact ends some {} {}",
+                        error_text(std::abs(change)), change < 0.0 ? "earlier" : "later");
+  }
+  return text + "; errors of times are those on this mesh, errors of totals include it";
+}
 
 std::string duration_text(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.4g} us", seconds * 1e6);
@@ -381,7 +379,7 @@ std::string run_summary(const Case& input, const Result& result) {
   line("sub-impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
                                   counted(zones.size(), "zone"), certain_words(result)));
   text.append(zone_text(result));
-  line("contact over", over_words(result));
+  line("contact over", contact_over_words(result));
   line("maxima", maxima_text(result));
   if (!result.envelope.empty() && result.used.section != "rigid") {
     line("bending", bending_text(result));
@@ -390,7 +388,7 @@ std::string run_summary(const Case& input, const Result& result) {
   line("final velocities", final_velocities_text(input, result));
   line("error", error_words(input, result));
   if (result.error_estimate && result.error_estimate->finer_meshes) {
-    line("finer meshes", finer_meshes_words(result));
+    line("finer meshes", finer_meshes_words(*result.error_estimate->finer_meshes));
   }
   if (result.predictability) line("predictable", predictability_words(result));
   line("first yield",

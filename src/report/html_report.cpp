@@ -51,6 +51,10 @@ Json headlines(const Result& result) {
   } else {
     line(false, "event times, count and order of sub-impacts: no error bars were computed.");
   }
+  line(result.contact_over, "the end of contact: " + contact_over_words(result) + ".");
+  if (result.error_estimate && result.error_estimate->finer_meshes) {
+    line(false, finer_meshes_words(*result.error_estimate->finer_meshes) + ".");
+  }
   if (result.outcome.completed()) {
     line(true, fmt::format("energy is conserved to {:.1e} of its initial value, and every event "
                            "and impulse passed its check.",

@@ -45,6 +45,12 @@ std::string predictability_words(const Result& result);
 /// predicted.
 std::string scatter_table(const Result& result);
 
+/// Whether striker and beam are proven never to touch again; if not, their closest approach.
+std::string contact_over_words(const Result& result);
+
+/// What finer meshes change of a run on the mesh that its case fixes.
+std::string finer_meshes_words(const ErrorEstimate::FinerMeshes& finer);
+
 /// A dozen lines: how the run ended, what happened, what it cost.
 std::string run_summary(const Case& input, const Result& result);
 
