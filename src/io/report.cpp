@@ -210,14 +210,15 @@ std::string contact_over_words(const Result& result) {
 }
 
 std::string finer_meshes_words(const ErrorEstimate::FinerMeshes& finer) {
-  std::string text = fmt::format("{} there are {}, and {} of those here are alike", finer.mesh,
+  std::string text = fmt::format("on {} there are {}, and {} of those here are alike", finer.mesh,
                                  finer.n_there, finer.n_same);
   if (finer.change_of_first_end) {
     const double change = *finer.change_of_first_end;
     text += fmt::format("; on finer meshes the first contact ends some {} {}",
                         error_text(std::abs(change)), change < 0.0 ? "earlier" : "later");
   }
-  return text + "; errors of times are those on this mesh, errors of totals include it";
+  text += "; errors of times are those on this mesh, errors of totals include it";
+  return finer.doubt.empty() ? text : text + "; " + finer.doubt;
 }
 
 std::string duration_text(double seconds) {
@@ -249,8 +250,9 @@ std::string error_words(const Case& input, const Result& result) {
 std::string certain_words(const Result& result) {
   const std::optional<std::size_t> n = result.n_certain();
   if (!n) return {};
-  if (result.all_certain()) return ", all certain";
-  return fmt::format(", {} certain{}", *n,
+  const char* of_mesh = result.error_estimate->finer_meshes ? " on this mesh" : "";
+  if (result.all_certain()) return fmt::format(", all certain{}", of_mesh);
+  return fmt::format(", {} certain{}{}", *n, of_mesh,
                      *n == result.sub_impacts.size() ? ", which may not be all" : "");
 }
 

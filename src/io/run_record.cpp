@@ -252,7 +252,8 @@ const Record<ErrorEstimate::FinerMeshes>& finer_meshes_record() {
       {"sub_impacts", "on that mesh", &Finer::n_there},
       {"same_sub_impacts", "sub-impacts that it confirms", &Finer::n_same},
       {"change_of_first_end_s", "what finer meshes change the end of the first sub-impact by",
-       &Finer::change_of_first_end}};
+       &Finer::change_of_first_end},
+      {"doubt", "why the mesh is too coarse", &Finer::doubt, Form::empty_is_null}};
   return record;
 }
 

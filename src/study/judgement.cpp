@@ -455,8 +455,11 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
   judge_part(input, here, {&other, 1}, none);
   const auto n_same =
       std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
-  ErrorEstimate::FinerMeshes found{
-      other.of.description, other.result.sub_impacts.size(), static_cast<std::size_t>(n_same), {}};
+  ErrorEstimate::FinerMeshes found{other.of.description,
+                                   other.result.sub_impacts.size(),
+                                   static_cast<std::size_t>(n_same),
+                                   {},
+                                   mesh_doubt(input, run.used)};
   const std::vector<SubImpact>& there = other.result.sub_impacts;
   if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
     const double change = *there[0].end - *here.sub_impacts[0].end;

@@ -50,7 +50,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   const bool any = !uses_symmetry(input) && refinement->odd_in_half;
   count = nearest(factor * mesh_count(input), any, refinement->odd_in_half);
   if (count < refinement->fewest) return {};
-  refined_run.description = fmt::format("with {} {}", count, refinement->parts);
+  refined_run.description = fmt::format("{} {}", count, refinement->parts);
   const bool fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
   if (fixed && input.solver.step) {
     other.solver.step.reset();

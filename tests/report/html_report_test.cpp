@@ -240,14 +240,14 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   ErrorEstimate estimate;
   estimate.first_unresolved = 1;
   estimate.reason = "they <part>";
-  estimate.parts = {{"time", "with rtol = 1e-7", {}, "", 2e-9},
-                    {"mesh", "with 43 cells", 1, "they <part>", 3e-7}};
+  estimate.parts = {{"time", "rtol = 1e-7", {}, "", 2e-9},
+                    {"mesh", "43 cells", 1, "they <part>", 3e-7}};
   run.result.error_estimate = estimate;
   const std::string page = page_of(run);
   EXPECT_EQ(xml_problem(page), "");
   for (const char* piece :
-       {"<td>with rtol = 1e-7</td><td>0.002 µs</td><td>for all sub-impacts</td>",
-        "<td>with 43 cells</td><td>0.3 µs</td><td>of certain ones; sub-impact 2: they "
+       {"<td>rtol = 1e-7</td><td>0.002 µs</td><td>for all sub-impacts</td>",
+        "<td>43 cells</td><td>0.3 µs</td><td>of certain ones; sub-impact 2: they "
         "&lt;part&gt;</td>",
         "Not certain:</b> sub-impact 2: they &lt;part&gt;."}) {
     expect_in(page, piece);

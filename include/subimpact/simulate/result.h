@@ -238,6 +238,7 @@ struct ErrorEstimate {
     std::size_t n_there = 0;                    ///< sub-impacts on that mesh
     std::size_t n_same = 0;                     ///< sub-impacts that it confirms
     std::optional<double> change_of_first_end;  ///< s, of the end of the first sub-impact
+    std::string doubt;  ///< why the mesh shows nothing of the beam, if it does not
   };
   std::optional<FinerMeshes> finer_meshes;
   std::vector<NamedTotal> totals;
