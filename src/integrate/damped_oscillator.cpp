@@ -36,13 +36,30 @@ double by_quadrature(double omega, double delta, double q, double v,
   const double radians = std::max(omega, 2.0 * delta) * t;
   const double n = std::min(least_panels + std::ceil(panels_per_radian * radians), most_panels);
   const double h = t / n;
+  const auto after = [&](double x) { return DampedOscillator(omega, delta, x * h); };
+  const auto& points = gauss<5>.points;
+  const std::array within = {after(points[0]), after(points[1]), after(points[2]),
+                             after(points[3]), after(points[4]), after(1.0)};
+  std::array<double, n_powers> f;  // from the start of a panel
+  std::ranges::copy(force, f.begin());
   double sum = 0.0;
   for (double panel = 0.0; panel < n; panel += 1.0) {
-    for (std::size_t i = 0; i < 5; ++i) {
-      const DampedOscillator at(omega, delta, h * (panel + gauss<5>.points[i]));
-      double rate = at.slope * v - omega * omega * at.response * q + force[0] * at.response;
-      for (std::size_t m = 1; m < n_powers; ++m) rate += force[m] * at.forced[m - 1];
-      sum += gauss<5>.weights[i] * rate * rate;
+    double rate = 0.0;
+    for (std::size_t i = 0; i < within.size(); ++i) {
+      const DampedOscillator& at = within[i];
+      rate = at.slope * v - omega * omega * at.response * q + f[0] * at.response;
+      for (std::size_t m = 1; m < n_powers; ++m) rate += f[m] * at.forced[m - 1];
+      if (i < points.size()) sum += gauss<5>.weights[i] * rate * rate;
+    }
+    q = within.back().position * q + within.back().response * v;
+    for (std::size_t m = 0; m < n_powers; ++m) q += f[m] * within.back().forced[m];
+    v = rate;
+    for (std::size_t m = 0; m < n_powers; ++m) {
+      double power = 1.0;
+      for (std::size_t k = m + 1; k < n_powers; ++k) {
+        power *= h / static_cast<double>(k - m);
+        f[m] += power * f[k];
+      }
     }
   }
   return h * sum;
