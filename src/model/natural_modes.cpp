@@ -102,8 +102,7 @@ double correct_shapes(const BeamMesh& mesh, double bending_stiffness, Eigen::Mat
   products.triangularView<Eigen::Lower>() = shapes.transpose() * inertia_of(mesh, shapes);
   const Eigen::VectorXd eigenvalues = energies.diagonal().cwiseQuotient(products.diagonal());
   const Eigen::VectorXd frequencies = eigenvalues.cwiseMax(0.0).cwiseSqrt();
-  const double rigid =
-      std::pow(rigid_below({frequencies.data(), static_cast<std::size_t>(n)}), 2);
+  const double rigid = std::pow(rigid_below({frequencies.data(), static_cast<std::size_t>(n)}), 2);
   Eigen::MatrixXd correction(n, n);
   double largest = 0.0;
   for (Eigen::Index j = 0; j < n; ++j) {
