@@ -106,7 +106,11 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
     }
     all.push_back(std::move(*beside));
   }
-  return all.empty() ? cases_beside_in_time(input) : all;
+  if (!all.empty()) return all;
+  all = cases_beside_in_time(input);
+  // Where no coarser mesh takes the strike, what the mesh does not show is doubted all the same.
+  if (mesh_order(input)) all.front().part = "mesh and time";
+  return all;
 }
 
 std::vector<CaseBeside> cases_beside_by_part(const Case& input) {
