@@ -20,10 +20,11 @@ namespace subimpact {
 int parts_that_resolve(const Case& input, double contact_time, double most_cells = 1e9);
 /// The most that the program chooses without having run the case.
 constexpr double most_cells_at_first = 2000.0;
+/// The most that a strike near an end, or a light striker, makes it choose.
 int most_parts_at_first(const Case& input);
 
 /// Parts of a mesh that takes the strike, as coarser ones beside it do: as many as the case has, or
-/// as mesh_doubt asks for towards the nearest end.
+/// as leave no mesh_doubt, on the mesh and on coarser ones beside it, towards the nearest end.
 int parts_that_take_strike(const Case& input);
 /// Parts of the first mesh that is worth a run: parts_that_resolve its contacts, and that leave no
 /// mesh_doubt; `used` is of `input`.
