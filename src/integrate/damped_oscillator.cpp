@@ -36,16 +36,72 @@ double by_quadrature(double omega, double delta, double q, double v,
   const double radians = std::max(omega, 2.0 * delta) * t;
   const double n = std::min(least_panels + std::ceil(panels_per_radian * radians), most_panels);
   const double h = t / n;
+  const auto after = [&](double x) { return DampedOscillator(omega, delta, x * h); };
+  const auto& points = gauss<5>.points;
+  const std::array within = {after(points[0]), after(points[1]), after(points[2]),
+                             after(points[3]), after(points[4]), after(1.0)};
+  std::array<double, n_powers> f;  // from the start of a panel
+  std::ranges::copy(force, f.begin());
   double sum = 0.0;
   for (double panel = 0.0; panel < n; panel += 1.0) {
-    for (std::size_t i = 0; i < 5; ++i) {
-      const DampedOscillator at(omega, delta, h * (panel + gauss<5>.points[i]));
-      double rate = at.slope * v - omega * omega * at.response * q + force[0] * at.response;
-      for (std::size_t m = 1; m < n_powers; ++m) rate += force[m] * at.forced[m - 1];
-      sum += gauss<5>.weights[i] * rate * rate;
+    double rate = 0.0;
+    for (std::size_t i = 0; i < within.size(); ++i) {
+      const DampedOscillator& at = within[i];
+      rate = at.slope * v - omega * omega * at.response * q + f[0] * at.response;
+      for (std::size_t m = 1; m < n_powers; ++m) rate += f[m] * at.forced[m - 1];
+      if (i < points.size()) sum += gauss<5>.weights[i] * rate * rate;
+    }
+    q = within.back().position * q + within.back().response * v;
+    for (std::size_t m = 0; m < n_powers; ++m) q += f[m] * within.back().forced[m];
+    v = rate;
+    for (std::size_t m = 0; m < n_powers; ++m) {
+      double power = 1.0;
+      for (std::size_t k = m + 1; k < n_powers; ++k) {
+        power *= h / static_cast<double>(k - m);
+        f[m] += power * f[k];
+      }
     }
   }
   return h * sum;
+}
+
+// An overdamped oscillator decays at two rates, fast + slow = 2 delta and fast slow = omega^2. From
+// this product of the one and t on, and up to that of the other, the terms below are few.
+constexpr double least_fast_decay = 4.0;
+constexpr double most_slow_decay = 0.25;
+constexpr std::size_t n_slow_terms = 13;
+
+// w = q' + slow q and z = q' + fast q obey w' = f - fast w and z' = f - slow z, and
+//
+//     q' = (fast w - slow z)/(fast - slow) = A e^(-fast tau) + sum_k s_k tau^k/k!
+//
+// with the polynomial of w, w_k = (f_k - w_(k+1))/fast, and the series of z, z_(k+1) = f_k - slow
+// z_k. All integrals are taken over x = tau/t.
+double by_two_rates(double fast, double slow, double q, double v,
+                    std::span<const double, n_powers> force, double t) {
+  constexpr std::size_t n = n_slow_terms;
+  std::array<double, n + 1> w{};
+  for (std::size_t k = n_powers; k-- > 0;) w[k] = (force[k] - w[k + 1]) / fast;
+  std::array<double, n> smooth{};  // s_k t^k/k!
+  double z = v + fast * q;
+  double power = 1.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    smooth[k] = power * (fast * w[k] - slow * z) / (fast - slow);
+    z = (k < n_powers ? force[k] : 0.0) - slow * z;
+    power *= t / static_cast<double>(k + 1);
+  }
+  const double transient = fast * (v + slow * q - w[0]) / (fast - slow);
+  const double decay = fast * t;
+  double sum = -transient * transient * std::expm1(-2.0 * decay) / (2.0 * decay);
+  double moment = -std::expm1(-decay) / decay;  // of e^(-fast tau) and x^k
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k > 0) moment = (static_cast<double>(k) * moment - std::exp(-decay)) / decay;
+    sum += 2.0 * transient * smooth[k] * moment;
+    for (std::size_t i = 0; i < n; ++i) {
+      sum += smooth[k] * smooth[i] / static_cast<double>(i + k + 1);
+    }
+  }
+  return t * sum;
 }
 
 // Integral of e^(r tau) tau^m from 0 to t, m = 0..2; |r t| is not small.
@@ -145,6 +201,11 @@ DampedOscillator DampedOscillator::continued(double omega, double t) const {
 double integral_of_squared_velocity(double omega, double delta, double q, double v,
                                     std::span<const double, n_powers> force, double t) {
   const Complex root = std::sqrt(Complex(delta * delta - omega * omega));
+  const double fast = delta + root.real();
+  const double slow = omega * omega / fast;
+  if (root.real() > 0.0 && fast * t >= least_fast_decay && slow * t <= most_slow_decay) {
+    return by_two_rates(fast, slow, q, v, force, t);
+  }
   if (omega * t < small_angle || std::abs(root) < near_double_root * omega) {
     return by_quadrature(omega, delta, q, v, force, t);
   }

@@ -21,6 +21,8 @@ constexpr double solved = 1e-13;
 constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
 // A cubic off by up to d is off by up to 3.1 d in its slope (of s in [0, 1]); rounded up.
 constexpr double slope_error_per_error = 4.0;
+// Decay rate over frequency from which the two parts of an overdamped motion are taken apart.
+constexpr double apart = 2.0;
 // The estimate falls by about 2^5 when a step is halved; the step is doubled below half of that.
 constexpr double part_for_doubling = 1.0 / 64.0;
 
@@ -87,6 +89,14 @@ double Exponential::fourth_derivative_bound() const {
     const double amplitude_w = std::sqrt(wq * wq + y0_[n_ + i] * y0_[n_ + i]);  // A omega
     if (decay.empty()) {
       sum += std::abs(c[i]) * amplitude_w * w * w * w;
+    } else if (decay[i] > apart * w) {
+      // The two parts, e^(-slow t) and e^(-fast t), each with its own fourth derivative.
+      const double root = std::sqrt((decay[i] - w) * (decay[i] + w));
+      const double fast = decay[i] + root;
+      const double slow = w * w / fast;
+      const double of_slow = std::abs(y0_[n_ + i] + fast * y0_[i]) * std::pow(slow, 4);
+      const double of_fast = std::abs(y0_[n_ + i] + slow * y0_[i]) * std::pow(fast, 4);
+      sum += std::abs(c[i]) * (of_slow + of_fast) / (2.0 * root);
     } else {
       const double rate = decay[i] + std::hypot(w, decay[i]);
       sum += std::abs(c[i]) * amplitude_w * rate * rate * rate;
@@ -120,7 +130,8 @@ bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) 
 }
 
 void Exponential::free_step() {
-  if (bound_ < 0.0) bound_ = fourth_derivative_bound();
+  const bool falls = !oscillators_.decay_rates().empty();
+  if (bound_ < 0.0 || falls) bound_ = fourth_derivative_bound();
   const double lambda0 = lambda1_;
   const double rate0 = rate1_;
   if (!options_.fixed_step) level_ = std::max(level_ - 1, first_level_);

@@ -23,7 +23,8 @@ namespace subimpact {
 /// bound, |lambda''''| <= sum |c_i| A_i omega_i^4 with the constant amplitudes A_i, so that the
 /// cubic is off by at most h^4/384 times that. With damping A_i omega_i falls, and (q', omega q)
 /// changes at most at the rate delta + sqrt(omega^2 + delta^2) of its size, which stands for the
-/// other three factors.
+/// other three factors; far beyond critical damping the two exponentials are bounded one by one.
+/// The bound then falls from step to step.
 ///
 /// state_at gives the flow under the step's force: exact but for the cubic. So the order is eight
 /// at the ends of steps and six within them, and for event times: a cubic misses the force by

@@ -22,6 +22,7 @@ namespace {
 constexpr double us = 1e6;  // per second
 constexpr double mm = 1e3;  // per metre
 constexpr double um = 1e6;
+constexpr double share_of_contact = 0.1;  // of the shortest ones, an error that serves them
 
 std::string time_or_never(const std::optional<double>& time) {
   return time ? fmt::format("{:.4f} us", *time * us) : "never";
@@ -95,7 +96,11 @@ std::string setting_against(const std::string& part, const Case& input, const Re
   if (part == "time") return result.used.step ? "a shorter solver.step" : "a smaller solver.rtol";
   if (part != "mesh" || input.parts.mesh) return {};
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
-  return refinement ? fmt::format("a larger {}", refinement->key) : std::string();
+  if (!refinement || result.wish) return {};  // a wish names what stands in its way
+  const std::string within = fmt::format(
+      "--within {}us", with_digits(share_of_contact * us * result.used.contact_time, 1));
+  if (!result.choice.empty()) return within;
+  return fmt::format("{}, with {} left to the program", within, refinement->key);
 }
 
 // Which setting to try where no sub-impact is decided: that of the first part to blame.

@@ -66,16 +66,19 @@ std::string scattered(const std::optional<double>& time, const std::optional<dou
   return fmt::format("{} +- {}", with_decimals(us * *time, rounding->decimals), rounding->error);
 }
 
+// Another number, in its own unit.
+std::string with_scatter(double value, const std::optional<double>& scatter) {
+  const auto rounding = rounding_of(scatter.value_or(HUGE_VAL), most_decimals_of_scatter + 2);
+  if (!rounding) return with_digits(value, 2) + " ?";
+  return fmt::format("{} +- {}", with_decimals(value, rounding->decimals), rounding->error);
+}
+
 std::string zone_line(const Predictability::Zone& zone, const ZoneSummary& summary) {
   std::string text = fmt::format("{:>6} {:>22} {:>22}", fmt::format("zone {}", summary.zone),
                                  scattered(summary.start, zone.start_scatter),
                                  scattered(summary.end, zone.end_scatter));
-  if (zone.impulse_scatter) {
-    const auto rounding = rounding_of(*zone.impulse_scatter, most_decimals_of_scatter + 2);
-    text += fmt::format("  impulse {} +- {} N s",
-                        with_decimals(summary.impulse, rounding->decimals), rounding->error);
-  }
-  return text + "\n";
+  return text +
+         fmt::format("  impulse {} N s\n", with_scatter(summary.impulse, zone.impulse_scatter));
 }
 
 }  // namespace
@@ -151,7 +154,9 @@ std::string scatter_table(const Result& result) {
   const Predictability& found = *result.predictability;
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "standard deviations by the scatter of the case\n{:>6} {:>22} {:>22}\n",
+  fmt::format_to(out,
+                 "standard deviations by the scatter of the case (?: not known, or more than is "
+                 "possible: derivatives do not hold that far)\n{:>6} {:>22} {:>22}\n",
                  "no.", "start, us", "end, us");
   for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
     if (found.first_unpredictable == i) {
@@ -165,12 +170,8 @@ std::string scatter_table(const Result& result) {
   for (std::size_t z = 0; z < std::min(zones.size(), found.zones.size()); ++z) {
     text.append(zone_line(found.zones[z], zones[z]));
   }
-  if (found.striker_velocity_scatter) {
-    const double scatter = *found.striker_velocity_scatter;
-    const auto rounding = rounding_of(scatter, most_decimals_of_scatter + 2);
-    fmt::format_to(out, "striker, at the end: {} +- {} m/s\n",
-                   with_decimals(result.striker_velocity, rounding->decimals), rounding->error);
-  }
+  fmt::format_to(out, "striker, at the end: {} m/s\n",
+                 with_scatter(result.striker_velocity, found.striker_velocity_scatter));
   return fmt::to_string(text);
 }
 

@@ -42,8 +42,19 @@ void free_of_translation(NaturalModes& modes, const BeamMesh& mesh) {
   normalise(modes, mesh.mass());
 }
 
-// Below this share of the highest frequency a mode counts as rigid.
+// A mode counts as rigid below this share of the highest frequency, if it is also below that of the
+// third lowest: a beam has at most two rigid modes, and of one that has none the lowest frequency,
+// which on fine meshes is a small share of the highest, is a 25th of the third or more.
 constexpr double rigid_share = 1e-7;
+constexpr double rigid_share_of_third = 0.02;
+
+double rigid_below(std::span<const double> frequencies) {
+  std::vector<double> sorted(frequencies.begin(), frequencies.end());
+  std::ranges::sort(sorted);
+  const double third = sorted[std::min<std::size_t>(2, sorted.size() - 1)];
+  return std::min(rigid_share * sorted.back(), rigid_share_of_third * third);
+}
+
 // Eigenvalues closer than this are a cluster, within which any shapes do.
 constexpr double cluster_share = 1e-6;
 // A correction leaves an error as large as its square.
@@ -90,7 +101,8 @@ double correct_shapes(const BeamMesh& mesh, double bending_stiffness, Eigen::Mat
   Eigen::MatrixXd products(n, n);
   products.triangularView<Eigen::Lower>() = shapes.transpose() * inertia_of(mesh, shapes);
   const Eigen::VectorXd eigenvalues = energies.diagonal().cwiseQuotient(products.diagonal());
-  const double rigid = rigid_share * rigid_share * eigenvalues.maxCoeff();
+  const Eigen::VectorXd frequencies = eigenvalues.cwiseMax(0.0).cwiseSqrt();
+  const double rigid = std::pow(rigid_below({frequencies.data(), static_cast<std::size_t>(n)}), 2);
   Eigen::MatrixXd correction(n, n);
   double largest = 0.0;
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -179,7 +191,7 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
     }
     modes.frequencies[k] = std::sqrt(twice_energy);
   }
-  const double rigid = rigid_share * *std::ranges::max_element(modes.frequencies);
+  const double rigid = rigid_below(modes.frequencies);
   for (double& frequency : modes.frequencies) {
     if (frequency <= rigid) frequency = 0.0;
   }

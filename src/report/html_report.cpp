@@ -171,7 +171,8 @@ void add_conservation(Json& page, const Result& result) {
   if (result.history.empty()) return;
   const HistoryRow& last = result.history.back();
   const double energies[] = {last.striker_energy,  last.beam_kinetic_energy, last.bending_elastic,
-                             last.bending_plastic, last.contact_elastic,     last.contact_plastic};
+                             last.bending_plastic, last.contact_elastic,     last.contact_plastic,
+                             last.beam_damping};
   page["last_row"] = {
       {"time", in_print(duration_text(last.time))},
       {"energies", list_of(energies, [](double x) { return fmt::format("{:.5g}", x); })}};

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "case/case_choices.h"
 #include "case/meshes.h"
 #include "io/study_columns.h"
@@ -14,14 +16,36 @@ namespace {
 
 constexpr double us = 1e6;  // per second
 
+// Whether a case has a key of its mesh that another mesh does not take: its count of parts, which
+// may be given even where it has the default, or another one that differs from the default.
+bool must_be_taken_back(const CaseKey& key, const Case& asked, const Case& advised) {
+  const char* name = key.name.c_str();
+  if (!mesh_uses(asked, name) || mesh_uses(advised, name)) return false;
+  const auto& refinement = descriptor_of(asked.model.mesh).refinement;
+  return (refinement && key.name == refinement->key) || key.get(asked) != key.get(Case());
+}
+
+// Whether a key has no effect with the mesh of a case, but with another mesh.
+bool is_of_other_mesh(const CaseKey& key, const Case& input) {
+  return !mesh_uses(input, key.name.c_str()) &&
+         std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
+           return std::ranges::find(mesh.keys, key.name) != mesh.keys.end();
+         });
+}
+
 // The options that make of the case that was asked about the run that is advised.
 std::string settings_text(const Case& asked, const PlanPoint& advised) {
   std::string text = "--method " + advised.method;
   for (const CaseKey& key : case_keys()) {
     const std::string table = key.table();
     if (table == "output" || table == "accuracy" || key.name == "solver.method") continue;
-    const std::optional<KeyValue> value = key.get(advised.input);
-    if (value == key.get(asked)) continue;
+    std::optional<KeyValue> value = key.get(advised.input);
+    if (is_of_other_mesh(key, advised.input)) {
+      if (!must_be_taken_back(key, asked, advised.input)) continue;
+      value.reset();
+    } else if (value == key.get(asked)) {
+      continue;
+    }
     const auto* word = value ? std::get_if<std::string>(&*value) : nullptr;
     text += fmt::format(" --set {}={}", key.name,
                         word    ? *word

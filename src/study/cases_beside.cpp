@@ -130,7 +130,11 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
   };
   std::ranges::for_each(sizes, include);
   if (all.size() < std::size(sizes)) std::ranges::for_each(finer_sizes, include);
-  return all.empty() ? cases_beside_in_time(input) : all;
+  if (!all.empty()) return all;
+  all = cases_beside_in_time(input);
+  // Where no other mesh takes the strike, what the mesh does not show is doubted all the same.
+  if (mesh_order(input)) all.front().part = "mesh and time";
+  return all;
 }
 
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {

@@ -18,6 +18,14 @@ bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
   });
 }
 
+// Why elements, and mostly natural modes, suit a beam of which no section yields.
+std::string elastic_reason(const Case& chosen) {
+  if (chosen.solver.method != Method::exponential) return "the beam bends elastically";
+  return may_yield(chosen) ? "no section yields, so that free flight is exact in natural modes; "
+                             "contact, in which one might, is integrated by nystrom"
+                           : "the beam bends elastically, so that natural modes are exact in time";
+}
+
 }  // namespace
 
 OpenChoices open_choices(const GivenKeys& given) {
@@ -63,7 +71,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
   chosen.reason = fixed ? "the case fixes mesh and method"
                   : yields
                       ? "sections yield, so that kinks, not the order of a method, bound the error"
-                      : "the beam bends elastically, so that natural modes are exact in time";
+                      : elastic_reason(chosen.input);
   return chosen;
 }
 

@@ -36,9 +36,58 @@ double wave_constant(const Beam& beam) {
   return std::sqrt(beam.bending_stiffness() / beam.mass_per_length());
 }
 
-// Of the striker, in what the shortest contacts move at once.
-constexpr double largest_mass_share = 0.17;  // a sixth of the sum is a fifth of the striker
+constexpr double largest_mass_ratio = 0.2;  // of a part of the mesh to the striker
 constexpr double fewest_cells_to_end = 6.0;
+constexpr double coarsest_beside = 0.7;  // over the parts of the first mesh
+// Of elements, whose modes next to a node at the strike have no closed form: 800 take a second.
+constexpr double most_cells_in_modes = 800.0;
+
+bool strikes_end(const Case& input) {
+  return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
+}
+
+// Of the strike, as a share of the length.
+double distance_to_end(const Case& input) {
+  return std::min(input.scene.striker.position, 1.0 - input.scene.striker.position);
+}
+
+double cells_over_length(const Case& input) {
+  return refinement_at_strike(input) * cells_of_a_part(input) * mesh_count(input);
+}
+
+// The mass, kg, that the beam itself opposes to a blow: with rotary inertia and without shear an
+// impulse at once moves the stretch e^(-|x|/r) about it, less or more by what the nearest end
+// reflects.
+double mass_met_without_mesh(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  if (beam.shears() || beam.rotary_inertia() == 0.0) return 0.0;
+  const double r = beam.radius_of_gyration();
+  const double reflected = std::exp(-2.0 * distance_to_end(input) * beam.length / r);
+  const bool is_free = beam.ends[input.scene.striker.position < 0.5 ? 0 : 1] == EndSupport::free;
+  return 2.0 * beam.mass_per_length() * r / (is_free ? 1.0 + reflected : 1.0 - reflected);
+}
+
+// What the mesh adds to it, kg.
+double mass_of_mesh(const Case& input, const ResolvedSettings& used) {
+  const double share = used.contact_mass_share;
+  const double met = input.scene.striker.mass * share / (1.0 - share);
+  return std::max(met - mass_met_without_mesh(input), 0.0);
+}
+
+double parts_towards_end(const Case& input) {
+  if (strikes_end(input)) return 0.0;
+  const double parts = fewest_cells_to_end / (refinement_at_strike(input) * cells_of_a_part(input));
+  return std::max(parts, 1.0) / (coarsest_beside * distance_to_end(input));
+}
+
+// Cells of the length dx add rho A (sqrt(dx^2 + 4 r^2) - 2 r); elements of either kind nearly so,
+// for which there is a margin.
+double parts_beside_striker(const Case& input, const ResolvedSettings& used) {
+  const double without_mesh = mass_met_without_mesh(input);
+  const auto size = [&](double mass) { return std::sqrt(mass * (mass + 2.0 * without_mesh)); };
+  return 1.05 * mesh_count(input) * size(mass_of_mesh(input, used)) /
+         size(largest_mass_ratio * input.scene.striker.mass);
+}
 
 // Of the strike, m; infinite without a free end.
 double distance_to_free_end(const Scene& scene) {
@@ -51,7 +100,18 @@ double distance_to_free_end(const Scene& scene) {
   return nearest;
 }
 
+// At least `parts`, though a symmetric mesh may have one fewer than it is asked for.
+int chosen_parts(const Case& input, double parts) {
+  return static_cast<int>(std::min(std::ceil(parts) + 1.0, 1.0 * most_parts_at_first(input)));
+}
+
 }  // namespace
+
+int most_parts_at_first(const Case& input) {
+  const double cells =
+      input.model.mesh == MeshKind::cells ? most_cells_at_first : most_cells_in_modes;
+  return static_cast<int>(cells / cells_of_a_part(input));
+}
 
 int parts_that_resolve(const Case& input, double contact_time, double most_cells) {
   const Beam& beam = input.scene.beam;
@@ -63,8 +123,7 @@ int parts_that_resolve(const Case& input, double contact_time, double most_cells
 double shortest_contact_shown(const Case& input) {
   if (!mesh_order(input)) return 0.0;
   const Beam& beam = input.scene.beam;
-  const double cells = refinement_at_strike(input) * cells_of_a_part(input) * mesh_count(input);
-  return std::pow(beam.length / cells, 2) / wave_constant(beam);
+  return std::pow(beam.length / cells_over_length(input), 2) / wave_constant(beam);
 }
 
 std::string unresolved_contact(const Case& input, const Result& result, std::size_t i) {
@@ -91,16 +150,25 @@ std::string unresolved_contact(const Case& input, const Result& result, std::siz
       us * std::min(contact, separation), us * shortest);
 }
 
+int parts_that_take_strike(const Case& input) {
+  return std::max(mesh_count(input), chosen_parts(input, parts_towards_end(input)));
+}
+
+int parts_at_first(const Case& input, const ResolvedSettings& used) {
+  const double parts = std::max(parts_towards_end(input), parts_beside_striker(input, used));
+  return std::max(parts_that_resolve(input, used.contact_time, most_cells_at_first),
+                  chosen_parts(input, parts));
+}
+
 std::string mesh_doubt(const Case& input, const ResolvedSettings& used) {
   if (!mesh_order(input)) return {};
-  if (used.contact_mass_share > largest_mass_share) {
+  const double mass_ratio = mass_of_mesh(input, used) / input.scene.striker.mass;
+  if (mass_ratio > largest_mass_ratio) {
     return fmt::format("the part of the mesh under the striker is {:.2g} times as heavy as it",
-                       used.contact_mass_share / (1.0 - used.contact_mass_share));
+                       mass_ratio);
   }
-  const double cells = refinement_at_strike(input) * cells_of_a_part(input) * mesh_count(input);
-  const double at = input.scene.striker.position;
-  const double to_end = std::min(at, 1.0 - at) * cells;
-  if (at == 0.0 || at == 1.0 || to_end >= fewest_cells_to_end) return {};
+  const double to_end = distance_to_end(input) * cells_over_length(input);
+  if (strikes_end(input) || to_end >= fewest_cells_to_end) return {};
   return fmt::format("the strike is {:.2g} cells of the mesh from an end", to_end);
 }
 

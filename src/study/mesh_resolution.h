@@ -20,6 +20,15 @@ namespace subimpact {
 int parts_that_resolve(const Case& input, double contact_time, double most_cells = 1e9);
 /// The most that the program chooses without having run the case.
 constexpr double most_cells_at_first = 2000.0;
+/// The most that a strike near an end, or a light striker, makes it choose.
+int most_parts_at_first(const Case& input);
+
+/// Parts of a mesh that takes the strike, as coarser ones beside it do: as many as the case has, or
+/// as leave no mesh_doubt, on the mesh and on coarser ones beside it, towards the nearest end.
+int parts_that_take_strike(const Case& input);
+/// Parts of the first mesh that is worth a run: parts_that_resolve its contacts, and that leave no
+/// mesh_doubt; `used` is of `input`.
+int parts_at_first(const Case& input, const ResolvedSettings& used);
 
 /// The shortest contact or separation that the mesh of a case can show, s: the waves of a shorter
 /// one have fewer than 3.5 cells. On such a mesh the striker meets the mass of a node rather than
@@ -32,8 +41,10 @@ double shortest_contact_shown(const Case& input);
 /// two runs may both have missed its end.
 std::string unresolved_contact(const Case& input, const Result& result, std::size_t i);
 
-/// Why the mesh shows no sub-impact rightly, empty if it may: what the striker moves at once is as
-/// heavy as a fifth of the striker, or the strike is a few cells from an end.
+/// Why the mesh shows no sub-impact rightly, empty if it may: what it adds to the mass that the
+/// striker moves at once is as heavy as a fifth of the striker, or the strike is less than six
+/// cells from an end. A beam with rotary inertia and without shear opposes a mass of its own to a
+/// blow, 2 rho A r away from its ends.
 std::string mesh_doubt(const Case& input, const ResolvedSettings& used);
 
 /// The first-order part of the error that cells with free ends leave in an event time: s, for an

@@ -59,6 +59,12 @@ class Deviations {
   const Scatter& scatter_;
 };
 
+// Numbers of a range have a standard deviation of at most half of it. Where derivatives give more,
+// they do not hold over the scatter.
+std::optional<double> within_range(const std::optional<double>& deviation, double range) {
+  return deviation && *deviation <= 0.5 * range ? deviation : std::nullopt;
+}
+
 // "its start scatters by 12 us, more than half of its duration, 20 us"; empty if it does not.
 std::string excess(const char* what, const std::optional<double>& deviation, double share,
                    const char* of, double length) {
@@ -160,7 +166,7 @@ std::optional<double> impulse_deviation(const Deviations& deviation, std::size_t
     const double by_mass = study.keys[k] == "striker.mass" ? v_before - v_after : 0.0;
     impulse[k] = {mass * (impulse[k]->value + by_mass), mass * impulse[k]->error};
   }
-  return deviation.of(impulse);
+  return within_range(deviation.of(impulse), 2.0 * mass * v0);
 }
 
 std::vector<Predictability::Zone> zones_of(const Deviations& deviation) {
@@ -169,8 +175,9 @@ std::vector<Predictability::Zone> zones_of(const Deviations& deviation) {
   for (std::size_t first = 0; first < all.size();) {
     std::size_t last = first;
     while (last + 1 < all.size() && all[last + 1].zone == all[first].zone) ++last;
-    zones.push_back({deviation.of(EventQuantity::start, first),
-                     deviation.of(EventQuantity::end, last),
+    const double end_time = deviation.study().input.end_time;
+    zones.push_back({within_range(deviation.of(EventQuantity::start, first), end_time),
+                     within_range(deviation.of(EventQuantity::end, last), end_time),
                      impulse_deviation(deviation, first, last)});
     first = last + 1;
   }
@@ -199,8 +206,11 @@ void set_predictability(Result& result, const Sensitivity& study, const Scatter&
   for (const MatchedPair& pair : pairs) {
     if (!pair.first || !pair.second) continue;
     SubImpact& here = all[*pair.first];
-    here.start_scatter = deviation.of(EventQuantity::start, *pair.second);
-    if (here.end) here.end_scatter = deviation.of(EventQuantity::end, *pair.second);
+    const auto scatter_of = [&](EventQuantity quantity) {
+      return within_range(deviation.of(quantity, *pair.second), study.input.end_time);
+    };
+    here.start_scatter = scatter_of(EventQuantity::start);
+    if (here.end) here.end_scatter = scatter_of(EventQuantity::end);
   }
   Predictability found;
   if (const std::optional<Limit> limit = limit_of(deviation)) {
@@ -222,8 +232,9 @@ void set_predictability(Result& result, const Sensitivity& study, const Scatter&
   if (!found.first_unpredictable) found.horizon = result.outcome.time;
   found.zones = zones_of(deviation);
   if (!study.base.sub_impacts.empty()) {
-    found.striker_velocity_scatter =
-        deviation.of(EventQuantity::striker_velocity, study.base.sub_impacts.size() - 1);
+    found.striker_velocity_scatter = within_range(
+        deviation.of(EventQuantity::striker_velocity, study.base.sub_impacts.size() - 1),
+        2.0 * study.input.scene.striker.velocity);
   }
   result.predictability = std::move(found);
 }

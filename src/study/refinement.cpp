@@ -39,10 +39,11 @@ double step_by_default(Case input) {
 
 Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(input), open_(open) {
   order_ = mesh_order(input).value_or(1);
-  if (open_.size && mesh_order(input)) {
-    const double contact_time = resolve(input).settings().contact_time;
-    first_ = with_count(input, parts_that_resolve(input, contact_time, most_cells_at_first));
-  }
+  const bool chooses = open_.size && mesh_order(input);
+  if (chooses) first_ = with_count(input, parts_that_take_strike(input));
+  const ResolvedSettings used = resolve(first_).settings();
+  contact_time_ = used.contact_time;
+  if (chooses) choose_count(used);
   if (!open_.tolerance) return;
   if (!is_fixed_step(input)) {
     const bool modes = input.solver.method == Method::exponential;
@@ -53,6 +54,17 @@ Refinement::Refinement(const Case& input, const OpenChoices& open) : first_(inpu
   if (step < least_step_ratio * step_by_default(with_count(first_, 2.0 * mesh_count(first_)))) {
     first_step_ = step;
   }
+}
+
+// A striker between two cells meets up to twice the mass of one that meets a cell's middle, which
+// may be one or the other on the mesh of `used`.
+void Refinement::choose_count(const ResolvedSettings& used) {
+  const int waves = parts_that_resolve(first_, used.contact_time, most_cells_at_first);
+  const int parts = parts_at_first(first_, used);
+  const int twice = std::min(2 * parts, most_parts_at_first(first_));
+  first_ = with_count(first_, parts);
+  if (parts == waves || mesh_doubt(first_, resolve(first_).settings()).empty()) return;
+  first_ = with_count(first_, twice);
 }
 
 std::optional<Case> Refinement::finer(const Case& from, double ratio) const {

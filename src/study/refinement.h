@@ -13,8 +13,10 @@ class Refinement {
  public:
   Refinement(const Case& input, const OpenChoices& open);
 
-  /// The coarsest case worth a run (parts_that_resolve).
+  /// The coarsest case worth a run (parts_at_first).
   const Case& first() const { return first_; }
+  /// ResolvedSettings::contact_time, s, of a mesh that takes the strike.
+  double contact_time() const { return contact_time_; }
   /// Nothing if the mesh would be finer than allowed, or no finer than `from`.
   std::optional<Case> finer(const Case& from, double ratio) const;
   /// The same of any ratio.
@@ -26,8 +28,11 @@ class Refinement {
   const char* fixed_key() const;
 
  private:
+  void choose_count(const ResolvedSettings& used);
+
   Case first_;
   OpenChoices open_;
+  double contact_time_ = 0.0;
   double order_ = 1.0;
   std::optional<double> first_step_;  // s, where the contact limits the step
 };

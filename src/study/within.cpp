@@ -29,8 +29,8 @@ constexpr double evaluations_per_step_in_modes = 3.0;
 constexpr double work_with_others = 2.1;
 constexpr double usual_growth = 2.5;  // of the work with the mesh
 
-double default_tolerance(const Case& input) {
-  return default_share_of_contact * resolve(input).settings().contact_time;
+double default_tolerance(const Refinement& refinement) {
+  return default_share_of_contact * refinement.contact_time();
 }
 
 double largest_time_error(const SubImpact& s) {
@@ -50,7 +50,7 @@ class Search {
       : input_(input), open_(open), options_(options) {
     choose(may_yield(input));
     const std::optional<double>& tolerance = input.accuracy.event_times;
-    tolerance_ = tolerance.value_or(default_tolerance(model_.input));
+    tolerance_ = tolerance.value_or(default_tolerance(*refinement_));
     work_limit_ = tolerance ? input.accuracy.work_limit : default_work_limit;
   }
 
@@ -287,7 +287,7 @@ ChosenModel first_choice(const Case& input, const OpenChoices& open) {
   chosen.reason += fmt::format(
       "; refined until every event time is within {:.3g} us{} of the limit of fine meshes, or the "
       "counted work reaches {:.1e}",
-      1e6 * tolerance.value_or(default_tolerance(chosen.input)), tolerance ? "" : " (the default)",
+      1e6 * tolerance.value_or(default_tolerance(refinement)), tolerance ? "" : " (the default)",
       tolerance ? input.accuracy.work_limit : default_work_limit);
   if (may_yield(input) && open.mesh && open.method) {
     chosen.reason += "; elements in natural modes instead if no section yields";

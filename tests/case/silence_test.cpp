@@ -302,6 +302,16 @@ TEST(CentralDifferences, WarnOfContactsThatLastAFewStepsOnly) {
   EXPECT_EQ(warnings_of_steps(simulate(input)), 0);
 }
 
+TEST(CentralDifferences, DoNotWarnOfAContactThatTheEndOfTheRunCutsOff) {
+  Case input = paper_case(SectionKind::exact, 1e-6);
+  input.solver.method = Method::central_difference;
+  input.solver.step = 0.2e-6;
+  const Result result = simulate(input);
+  ASSERT_EQ(result.sub_impacts.size(), 1u);
+  EXPECT_FALSE(result.sub_impacts.front().end);
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+}
+
 TEST(CentralDifferences, KeepHistoryInOrderAndImpulsesEqualToTheChangeOfVelocityInFlight) {
   Case input = paper_case(SectionKind::layers, 2e-3);
   input.solver.method = Method::central_difference;

@@ -86,5 +86,23 @@ TEST(ADampedOscillator, HasTheIntegralOfItsSquaredVelocity) {
   }
 }
 
+// A mode far beyond critical damping, as stiffness damping makes the highest ones: from the balance
+// of energy, 4 delta times the integral is the loss of v^2 + omega^2 q^2.
+TEST(AnOscillatorFarBeyondCriticalDamping, LosesTheEnergyThatItsSquaredVelocitySays) {
+  const Powers none{};
+  for (const auto& [omega, delta] : {std::pair(3.8e6, 7e8), {3.8e6, 7e9}, {2e5, 2e6}, {7.0, 7e4}}) {
+    for (const double t : {0.3, 3.0, 40.0, 4000.0}) {
+      const double time = t / delta;
+      const double q = 2e-9, v = 0.3 * delta * q;
+      const DampedOscillator at(omega, delta, time);
+      const double q1 = at.position * q + at.response * v;
+      const double v1 = -omega * omega * at.response * q + at.slope * v;
+      const double loss = v * v - v1 * v1 + omega * omega * (q - q1) * (q + q1);
+      const double here = integral_of_squared_velocity(omega, delta, q, v, none, time);
+      EXPECT_NEAR(4.0 * delta * here, loss, 1e-11 * loss) << omega << ' ' << delta << ' ' << t;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace subimpact

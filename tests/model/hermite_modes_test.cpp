@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "model/flexural_frequencies.h"
 #include "model/hermite_mesh.h"
 #include "model/hermite_modes.h"
 #include "paper_scene.h"
@@ -224,6 +225,18 @@ INSTANTIATE_TEST_SUITE_P(Half, ModesOfElements,
                                                           BeamTheory::euler_bernoulli),
                                           testing::Values(4, 6, 40, 216, 600)),
                          NamedAsPrinted{});
+
+// A frequency far below the highest is not that of a rigid mode: hinges add ten times higher ones.
+TEST(ACantileverOfManyElementsAndHinges, VibratesInItsLowestMode) {
+  Beam beam = paper_beam();
+  beam.theory = BeamTheory::euler_bernoulli;
+  beam.ends = {clamped, free_end};
+  const HermiteMesh mesh(beam, 0.44, 560, 2, Extent::whole, {{}, true});
+  const NaturalModes modes = mesh.natural_modes(beam.bending_stiffness());
+  EXPECT_LT(modes.frequencies.front(), 1e-7 * modes.frequencies.back());
+  EXPECT_NEAR(modes.frequencies.front(), flexural_frequencies(beam, 1).front(),
+              1e-6 * flexural_frequencies(beam, 1).front());
+}
 
 }  // namespace
 }  // namespace subimpact

@@ -160,6 +160,21 @@ TEST(HtmlReport, HoldsCaseSummaryTableFiguresMethodErrorBarsAndConservation) {
   EXPECT_EQ(n_rows, run.result.sub_impacts.size());
 }
 
+TEST(HtmlReport, ListsEnergiesThatAddUpToTheInitialOneWhereTheBeamIsDamped) {
+  const FinishedRun run = small_run({parse_override("beam.damping.mass=2000")});
+  const std::string page = page_of(run);
+  const std::string heading = "<small>of the beam</small></th></tr></thead><tbody><tr>";
+  std::size_t at = page.find(heading);
+  ASSERT_NE(at, std::string::npos);
+  const std::string row = page.substr(at, page.find("</tr>", at + heading.size()) - at);
+  double sum = 0.0;
+  const std::string cell = "<td>";
+  at = row.find(cell) + 1;  // past that of the heading
+  while ((at = row.find(cell, at)) != std::string::npos) sum += std::stod(row.substr(at++ + 4));
+  EXPECT_NEAR(sum, run.result.used.initial_energy, 1e-4 * run.result.used.initial_energy);
+  EXPECT_GT(run.result.beam_damping_loss, 0.01 * run.result.used.initial_energy);
+}
+
 TEST(HtmlReport, HoldsTheLibraryOfChartsOrStatesHowToGetIt) {
   const TemporaryDirectory directory;
   std::ofstream(directory.path / "dygraph.min.js")

@@ -302,8 +302,12 @@ TEST(ErrorWords, NameTheSubImpactBeforeAFlightThatMayHoldAnother) {
 
 TEST(ErrorWords, OfNothingCertainNameTheSettingToTry) {
   Result result = sample_result_with_errors(0);
+  result.used.contact_time = 7e-6;
   EXPECT_EQ(error_words(paper_case(), result),
-            "no sub-impact is certain; sub-impact 1: they part; try a larger model.segments");
+            "no sub-impact is certain; sub-impact 1: they part; try --within 0.7us, with "
+            "model.segments left to the program");
+  result.choice = "sections yield";  // the program's, with less work than a wish may cost
+  EXPECT_TRUE(error_words(paper_case(), result).ends_with("they part; try --within 0.7us"));
   result.error_estimate->parts.front().name = "time";
   expect_in(error_words(paper_case(), result), "; try a smaller solver.rtol");
   result.used.step = 1e-7;
@@ -439,10 +443,29 @@ TEST(PlanTable, EndsWithItsHorizonAndNamesTheAdmittedMesh) {
   plan.points = {point};
   plan.cheapest = 0;
   const std::string table = plan_table(plan);
-  EXPECT_NE(table.find("--method exponential --set model.mesh=hermite --set model.elements=96"),
-            std::string::npos)
-      << table;
+  expect_in(table,
+            "--method exponential --set model.mesh=hermite --set model.segments=default --set "
+            "model.elements=96");
   EXPECT_TRUE(table.ends_with("\njudged up to 285.000 us (the case's end)\n")) << table;
+}
+
+TEST(PlanTable, TakesBackTheKeysOfTheMeshThatTheCaseFixes) {
+  Plan plan;
+  plan.asked.model.mesh = MeshKind::hermite;
+  plan.asked.model.elements = 60;
+  PlanPoint point;
+  point.method = "erk";
+  point.input.model.segments = 528;
+  point.input.model.elements = 100;
+  point.within = point.admitted = true;
+  plan.points = {point};
+  plan.cheapest = 0;
+  const std::string table = plan_table(plan);
+  expect_in(table, "--set model.segments=528");
+  expect_in(table, "--set model.elements=default");
+  plan.asked = Case();
+  plan.asked.model.elements = 200;
+  EXPECT_EQ(plan_table(plan).find("model.elements"), std::string::npos);
 }
 
 std::string explanation_of(const Case& input) {
@@ -498,7 +521,7 @@ TEST(RunSummary, DoesNotCallAllCertainWhereThereMayBeAnother) {
 TEST(RunSummary, NamesTheKeyOfAFinerMeshWhereNothingIsCertain) {
   Result result = sample_result_with_errors(0);
   result.error_estimate->parts.clear();
-  expect_in(run_summary(paper_case(), result), "try a larger model.segments");
+  expect_in(run_summary(paper_case(), result), "model.segments left to the program");
 }
 
 TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {

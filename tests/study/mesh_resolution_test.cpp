@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
+
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement.h"
 #include "subimpact/study/other_mesh.h"
+#include "subimpact/study/within.h"
 
 namespace subimpact {
 namespace {
@@ -67,6 +71,60 @@ TEST(TheShortestContactThatAMeshShows, FallsWithTheSquareOfItsParts) {
   EXPECT_NEAR(shortest_contact_shown(strip_of_elements(202)), of_cells / 16.0, rounding);
   EXPECT_NEAR(shortest_contact_shown(strip_of_elements(202, 2.0)), of_cells / 64.0, rounding);
   EXPECT_EQ(shortest_contact_shown(strip({.mesh = MeshKind::rigid})), 0.0);
+}
+
+// The case, with mesh and method left to the program.
+Case struck_at(double position, double striker_mass, double yield_stress, BeamTheory theory) {
+  Case input = strip({});
+  input.solver = {};
+  input.scene.beam.length = 1.0;
+  input.scene.beam.thickness = 0.02;
+  input.scene.beam.theory = theory;
+  input.scene.beam.poisson = 0.3;
+  input.scene.beam.yield_stress = yield_stress;
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::free};
+  input.scene.striker.position = position;
+  input.scene.striker.mass = striker_mass;
+  return input;
+}
+
+TEST(TheFirstMeshOfAChoice, TakesEveryStrikeAndShowsIt) {
+  for (const double yield_stress : {355e6, std::numeric_limits<double>::infinity()}) {
+    for (const BeamTheory theory :
+         {BeamTheory::euler_bernoulli, BeamTheory::rayleigh, BeamTheory::timoshenko}) {
+      for (const auto& [position, mass] : {std::pair(0.992, 0.5), {0.03, 0.5}, {0.4, 0.04}}) {
+        const Case input = struck_at(position, mass, yield_stress, theory);
+        const Case first = first_choice(input, {}).input;
+        EXPECT_EQ(mesh_doubt(first, resolve(first).settings()), "")
+            << position << ", " << resolve(first).settings().mesh;
+        for (const CaseBeside& beside : cases_beside(first)) {
+          EXPECT_LT(mesh_count(beside.input), mesh_count(first));
+        }
+      }
+    }
+  }
+}
+
+// The mass that rotary inertia makes a blow move at once is the beam's own, whatever the mesh.
+TEST(AFineMeshOfABeamWithRotaryInertia, IsNotDoubtedForTheMassThatTheBeamOpposesToTheStriker) {
+  Case input = struck_at(0.3, 0.07, 355e6, BeamTheory::rayleigh);
+  input.model.segments = 2001;
+  const ResolvedSettings used = resolve(input).settings();
+  EXPECT_GT(used.contact_mass_share, 0.2);
+  EXPECT_EQ(mesh_doubt(input, used), "");
+  input.scene.beam.theory = BeamTheory::euler_bernoulli;
+  EXPECT_LT(resolve(input).settings().contact_mass_share, 0.1);
+  input.model.segments = 41;
+  EXPECT_NE(mesh_doubt(input, resolve(input).settings()), "");
+}
+
+TEST(AStrikeThatNoCoarserMeshTakes, IsNotCertainThoughRunsAtOtherTolerancesAgree) {
+  Case input = struck_at(0.02, 0.5, 355e6, BeamTheory::rayleigh);
+  input.model.segments = 26;
+  const Result result = simulate_judged(input, cases_beside(input), 2);
+  EXPECT_EQ(result.n_certain(), std::size_t{0});
+  const std::string& reason = result.error_estimate->reason;
+  EXPECT_NE(reason.find("of the mesh"), std::string::npos) << reason;
 }
 
 TEST(SubImpacts, AreNotAllCertainWhereTheRunComparedWithHasMore) {

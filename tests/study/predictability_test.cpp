@@ -72,6 +72,31 @@ TEST(Predictability, OfAZonesImpulseIsThatOfTheStrikersVelocity) {
               1e-15);
 }
 
+// Grazing contacts have derivatives that would scatter the striker's velocity beyond what its
+// energy allows.
+TEST(Predictability, KnowsNoDeviationThatIsMoreThanPossible) {
+  Sensitivity study = study_of(small_strike(2e-3));
+  for (SensitivityRow& row : study.rows) {
+    for (auto& derivative : row.by_key) {
+      if (derivative) derivative->value *= 100.0;
+    }
+  }
+  const Scatter scatter = {{"striker.velocity", 0.5}, {"beam.thickness", 0.5}};
+  const Striker& striker = study.input.scene.striker;
+  const std::size_t last = study.base.sub_impacts.size() - 1;
+  const SensitivityRow* row = study.find(EventQuantity::striker_velocity, last);
+  ASSERT_NE(row, nullptr);
+  EXPECT_GT(deviation_of(row->by_key, study.keys, scatter).value(), striker.velocity);
+  const Result result = predicted(study, scatter);
+  EXPECT_FALSE(result.predictability->striker_velocity_scatter);
+  for (const Predictability::Zone& zone : result.predictability->zones) {
+    EXPECT_LE(zone.impulse_scatter.value_or(0.0), striker.mass * striker.velocity);
+  }
+  for (const SubImpact& s : result.sub_impacts) {
+    EXPECT_LE(s.end_scatter.value_or(0.0), 1e-3);
+  }
+}
+
 TEST(Predictability, IsNotLookedForWithoutScatterThatHasAnEffect) {
   Case input = small_strike(1e-4);
   Result result = simulate(input);

@@ -71,6 +71,14 @@ TEST(AChoice, IsModesWhereTheBeamIsElasticAndCentralDifferencesWhereItYields) {
   EXPECT_EQ(yielding.input.solver.method, Method::central_difference);
 }
 
+TEST(AChoice, SaysThatContactIsIntegratedWhereSectionsMightYield) {
+  const auto names_nystrom = [](const ChosenModel& chosen) {
+    return chosen.reason.find("nystrom") != std::string::npos;
+  };
+  EXPECT_TRUE(names_nystrom(choose_model(paper_case(1e-3), {}, false)));
+  EXPECT_FALSE(names_nystrom(choose_model(elastic_case(1e-3), {}, false)));
+}
+
 TEST(AChoice, LeavesWhatTheCaseFixes) {
   Case input = elastic_case(1e-3);
   input.solver.method = Method::erk;
