@@ -10,7 +10,7 @@
 #include "io/study_columns.h"
 #include "overseer.h"
 #include "subimpact/io/output_directory.h"
-#include "subimpact/io/sensitivity.h"
+#include "subimpact/io/results.h"
 #include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
 #include "tables.h"

@@ -110,8 +110,7 @@ std::vector<std::string> keys_called(const std::string& leaf) {
   return names;
 }
 
-// For a key that is not known in `table`: the slip meant, else the table in which the name is
-// known.
+// For a key that `table` does not know: the slip meant, else the table in which the name is known.
 std::string suggestion(const std::string& table, const std::string& leaf) {
   const std::string near = nearest_name(leaf, leaves_of(table));
   if (!near.empty()) return fmt::format("; did you mean \"{}\"?", full_key_name(table, near));

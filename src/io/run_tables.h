@@ -25,7 +25,6 @@ struct RunTable {
 template <class Row>
 const RunTable<Row>& run_table();
 
-/// Calls `use` with every table.
 template <class Use>
 void for_each_run_table(Use use) {
   use(run_table<SubImpact>());
@@ -37,7 +36,6 @@ void for_each_run_table(Use use) {
   use(run_table<EnvelopeRow>());
 }
 
-/// The contents of a file.
 template <class Row>
 std::string csv_of(const Result& result) {
   const RunTable<Row>& table = run_table<Row>();

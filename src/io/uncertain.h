@@ -14,8 +14,7 @@ struct Rounding {
 };
 
 /// The rounding that an error allows, with at most `most_decimals`: a smaller error is stated as
-/// one unit of the last of them. None for an error that means nothing: not finite, negative, or
-/// 1e15 and above.
+/// one unit of the last of them. None for an error that is not finite, negative, or 1e15 and above.
 std::optional<Rounding> rounding_of(double error, int most_decimals);
 
 /// A number with so many decimals; negative: rounded to tens, hundreds, ...

@@ -130,8 +130,7 @@ void SectionLaw::commit(SectionHistory& history, double curvature) const {
     history.direction = -history.direction;
     history.work_of_branch = 0.0;
   }
-  // Along the branches to x; a branch that passes the previous reversal point closes a loop, which
-  // is forgotten.
+  // Along the branches to x. One that passes the previous reversal point closes a loop: forgotten.
   std::vector<Point>& reversals = history.reversals;
   for (;;) {
     const SectionBranch branch = innermost_branch(history);

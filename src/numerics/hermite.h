@@ -46,8 +46,7 @@ class HermiteCubic {
     return std::nullopt;
   }
 
-  /// Where, between equal senses at both ends, the slope is farthest in the other sense; nothing if
-  /// it never is.
+  /// Where, between equal senses at both ends, the slope is farthest in the other sense, if ever.
   std::optional<double> reversed_at() const {
     const double last = c1_ + 2.0 * c2_ + 3.0 * c3_;
     const double s = -c2_ / (3.0 * c3_);
@@ -79,8 +78,7 @@ class HermiteCubic {
   double c0_, c1_, c2_, c3_;
 };
 
-/// Septic through a value and its first three rates at both ends of a step, as a function of s in
-/// [0, 1].
+/// Septic through a value and its first three rates at both ends of a step; s in [0, 1].
 class HermiteSeptic {
  public:
   struct End {

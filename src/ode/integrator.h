@@ -13,8 +13,7 @@
 namespace subimpact {
 
 /// Functions of the state whose events an integrator finds by itself (Integrator::root). An event
-/// happens where a value rises through zero; a value that falls through zero, or is exactly zero,
-/// is none.
+/// happens where a value rises through zero; falling through zero, or exactly zero, is none.
 class EventFunctions {
  public:
   virtual ~EventFunctions() = default;

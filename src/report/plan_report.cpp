@@ -2,8 +2,9 @@
 
 #include "case/case_choices.h"
 #include "case/meshes.h"
+#include "io/sealed_files.h"
 #include "io/study_columns.h"
-#include "io/write_file.h"
+#include "numerics/units.h"
 #include "report/gnuplot.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
@@ -11,8 +12,6 @@
 
 namespace subimpact {
 namespace {
-
-constexpr double us = 1e6;  // per second
 
 // The options that make of the case that was asked about the run that is advised.
 std::string settings_text(const Case& asked, const PlanPoint& advised) {

@@ -36,8 +36,7 @@ class EventLocator {
 
   /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, by moving the pointer to a
   /// state stored in this object until the next call. Returns the event at the end, if there is
-  /// one. `indentation`: of the whole step. `correction`: that of the step as it then is, not yet
-  /// added to y1.
+  /// one. `indentation`: of the whole step. `correction`: of the step as it then is, not yet added.
   std::optional<EventFunction> find_end(const StepEnds& whole, const IndentationStep& indentation,
                                         double& t1, const State*& y1,
                                         SectionCorrection& correction);

@@ -7,7 +7,6 @@
 
 #include "integrate/options.h"
 #include "ode/integrator.h"
-#include "subimpact/simulate/method_tables.h"
 #include "subimpact/simulate/options.h"
 #include "system/struck_beam.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "case/shifted_case.h"
+#include "numerics/units.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
@@ -15,8 +16,6 @@ namespace {
 constexpr double share_of_length = 0.5;   // of a duration or separation, in events beside it
 constexpr double share_of_change = 0.25;  // of a duration or separation, in itself
 constexpr double deviations = 2.0;        // within which a graze is possible
-constexpr double us = 1e6;                // per second
-constexpr double um = 1e6;                // per metre
 
 using ByKey = std::vector<std::optional<Derivative>>;
 
@@ -52,7 +51,6 @@ class Deviations {
     return a != nullptr && b != nullptr ? of(difference(*a, *b)) : std::nullopt;
   }
   const Sensitivity& study() const { return study_; }
-  const Scatter& scatter() const { return scatter_; }
 
  private:
   const Sensitivity& study_;

@@ -48,8 +48,7 @@ struct InterpolatedEvent {
   double time;  ///< s
 };
 
-/// The events of a step that ends on the branch `after`, another one than that in force, in their
-/// order in time.
+/// The events of a step that ends on another branch, `after`, than that in force, in order of time.
 std::vector<InterpolatedEvent> interpolate_events(const ContactState& contact,
                                                   const IndentationStep& step, ContactBranch after);
 

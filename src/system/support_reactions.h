@@ -23,8 +23,7 @@ namespace subimpact {
 ///
 ///     p.w'' = -sum W_j (B g)_j M_j - (K_s g).w - (C g).w' + F S.g,   Mass g = p.
 ///
-/// With the moments of the equations of motion the sum R_0 + R_l closes their balance of momentum
-/// to rounding.
+/// With the moments of the equations of motion R_0 + R_l closes their momentum to rounding.
 class SupportReactions {
  public:
   /// `struck_at`: x_s, m. `beam` must outlive this.
