@@ -56,8 +56,7 @@ std::string spelt_alike(std::string_view name) {
   return text;
 }
 
-// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other
-// (optimal string alignment).
+// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   // Distances of the first i letters of `a`, and of i - 1 and i - 2, from the first j of `b`.
   std::vector<std::size_t> now(b.size() + 1), before(b.size() + 1), two_before(b.size() + 1);

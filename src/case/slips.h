@@ -14,8 +14,7 @@ std::string_view leading_decimal_comma(std::string_view text);
 /// The end of a message about a text that is such a number: how to write it; empty for other texts.
 std::string decimal_comma_hint(std::string_view text);
 
-/// What a choice of a key is called here, for a name it has elsewhere ("fixed": "clamped"); empty
-/// for a name that is not known.
+/// What a choice of a key is called here, for its name elsewhere ("fixed": "clamped"); else empty.
 std::string own_name(std::string_view key, std::string_view name);
 
 /// Whether case files have a table of that name, or tables within it.

@@ -81,8 +81,7 @@ class SealedFiles {
   std::optional<Manifest> manifest_;
 };
 
-/// What `read(files)` returns for the files of one writer, though another one may replace them
-/// meanwhile. Throws ResultsError.
+/// What `read(files)` returns for files that others may replace meanwhile. Throws ResultsError.
 template <class Read>
 auto read_sealed(const std::filesystem::path& directory, Read read) {
   constexpr int most_attempts = 20;

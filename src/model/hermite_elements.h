@@ -20,8 +20,7 @@ struct ElementRule {
   std::size_t size() const { return points.size(); }
 };
 
-/// Gauss points: 2 to 4; two integrate the elastic stiffness exactly. Throws std::invalid_argument
-/// for any other number.
+/// Gauss points, 2 to 4 (two integrate the elastic stiffness exactly); else std::invalid_argument.
 ElementRule gauss_rule(std::size_t n);
 
 /// The share of its length that each element beside a hinge gives to the hinge.
@@ -105,7 +104,7 @@ struct HermiteNodes {
 
   /// `position` is the struck point as a fraction of the length, `n_elements` counts those of the
   /// whole beam, of which a `half` has one half. Throws std::invalid_argument for fewer than 4
-  /// elements, a strike on a support, a half of an odd number, with unlike ends or struck elsewhere.
+  /// elements, a strike on a support, a half of an odd number, of unlike ends, struck off mid-span.
   HermiteNodes(const Beam& beam, double position, std::size_t n_elements, bool half,
                const Options& options);
 

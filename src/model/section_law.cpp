@@ -10,8 +10,7 @@ namespace {
 
 using Point = SectionHistory::Point;
 
-// The i-th reversal point in force: those stored and, when the motion turns back from the edge, the
-// edge itself on top.
+// The i-th reversal point in force: those stored and, where the motion turns back, the edge on top.
 const Point& point_in_force(const SectionHistory& history, std::size_t i) {
   return i < history.reversals.size() ? history.reversals[i] : history.edge;
 }

@@ -30,8 +30,7 @@ class HermiteCubic {
     return s > 0.0 && s < 1.0 ? std::min(ends, slope(s)) : ends;
   }
 
-  /// Where the slope changes from positive to negative in [0, 1], given that it is positive at 0
-  /// and negative at 1.
+  /// Where the slope changes its sign in [0, 1], given that it is positive at 0 and negative at 1.
   double peak() const {
     const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
     return std::clamp(c1_ / (root - c2_), 0.0, 1.0);

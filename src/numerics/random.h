@@ -4,8 +4,7 @@
 
 namespace subimpact {
 
-/// Steele, Lea and Flood 2014, SplitMix64: random numbers that are the same on every machine and
-/// with every standard library.
+/// SplitMix64 (Steele, Lea and Flood 2014): random numbers that are the same on every machine.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}

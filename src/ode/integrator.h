@@ -26,8 +26,7 @@ class EventFunctions {
   virtual void evaluate(std::span<const double> y, std::span<EventValue> values) const = 0;
 };
 
-/// Thrown by an integrator that cannot continue. `what()` is the whole message; its parts are
-/// stored for reports.
+/// Thrown by an integrator that cannot continue; the parts of `what()` are stored for reports.
 class IntegrationFailure : public std::runtime_error {
  public:
   IntegrationFailure(double time, const std::string& function, const std::string& flag,
@@ -42,8 +41,7 @@ class IntegrationFailure : public std::runtime_error {
   std::string flag;      ///< name of the error
 };
 
-/// One step as the integrator took it, or a part of one: times (s) and states of both ends, which
-/// must outlive this.
+/// One step as the integrator took it, or a part of one: times (s) and states that outlive this.
 struct StepEnds {
   double t0, t1;
   const State& y0;

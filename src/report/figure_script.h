@@ -39,8 +39,7 @@ struct AxisRange {
 
 using NumberRows = std::vector<std::vector<double>>;
 
-/// A figure of a run: its script (figures/<name>.gp), and the tables and variables that the script
-/// reads, in SI units.
+/// A figure of a run: its script (figures/<name>.gp) with the tables and variables (SI) it reads.
 class FigureScript {
  public:
   FigureScript(std::string name, std::string caption, FigureSize size);

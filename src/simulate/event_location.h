@@ -10,8 +10,7 @@
 
 namespace subimpact {
 
-/// Bound of the rounding error of an event function at a state y, time t (s), at which it vanishes:
-/// m, or m/s for contact_unloads.
+/// Bound of the rounding of an event function (m; of contact_unloads m/s) that vanishes at t (s).
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at);
 

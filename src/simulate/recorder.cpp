@@ -41,8 +41,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 // Rows and shapes nearer than this, relative to the time, are of one instant.
 constexpr double same_instant = 1e-12;
 
-// The sections nearest to the given positions; in a half model their mirror images stand for those
-// of the other half.
+// The sections nearest to the given positions, or in a half model to their mirror images.
 std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
                                      const BeamMesh& mesh) {
   std::vector<std::size_t> sections;

@@ -132,8 +132,7 @@ std::optional<Limit> limit_of(const Deviations& deviation) {
   return limit;
 }
 
-// The momentum that the striker loses over the sub-impacts from `first` to `last`: its mass times
-// the velocities before and after.
+// The momentum that the striker loses from `first` to `last`: mass times change of velocity.
 std::optional<double> impulse_deviation(const Deviations& deviation, std::size_t first,
                                         std::size_t last) {
   const Sensitivity& study = deviation.study();

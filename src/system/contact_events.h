@@ -30,8 +30,7 @@ struct Crossing {
 struct CrossingSearch {
   /// Event functions that are left out, because their events in this step have been treated.
   const std::vector<EventFunction>& without;
-  /// Whether a branch left and regained within one step is looked for; off only to show which
-  /// events are then missed.
+  /// Whether a branch left and regained within one step is looked for; off only for studies.
   bool double_roots = true;
   /// m: an excursion smaller than this is below the rounding of the displacements.
   double rounding = 0.0;
