@@ -19,9 +19,9 @@ struct Named {
   const char* note;
 };
 
-/// Those of an enumeration.
+/// Those of an enumeration; one without is refused by the compiler.
 template <class Enum>
-inline constexpr Named<Enum> choices[] = {{}};
+inline constexpr bool choices = false;
 
 template <>
 inline constexpr Named<BeamTheory> choices<BeamTheory>[] = {
