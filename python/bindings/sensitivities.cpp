@@ -10,6 +10,7 @@
 #include "io/study_columns.h"
 #include "overseer.h"
 #include "subimpact/io/output_directory.h"
+#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
