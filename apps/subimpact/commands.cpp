@@ -14,7 +14,7 @@
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
 #include "subimpact/report/figures.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {
@@ -23,12 +23,6 @@ namespace {
 // An empty value would count as none.
 std::string not_empty(const std::string& text) {
   return text.empty() ? "is empty; give a value, or leave the option out" : std::string();
-}
-
-std::vector<std::string> names_of_choices(const char* key) {
-  std::vector<std::string> names;
-  for (const Choice& choice : find_case_key(key)->choices) names.push_back(choice.name);
-  return names;
 }
 
 std::vector<std::string> table_names(const std::string& method) {
@@ -175,7 +169,7 @@ bool write_after_printing(OutputDirectory& directory,
 void check_method_names(const std::vector<std::string>& methods) {
   for (const std::string& option : methods) {
     const auto [method, table, events] = parse_method_name(option);
-    check_name(option, "method", method, names_of_choices("solver.method"), {},
+    check_name(option, "method", method, find_case_key("solver.method")->choice_names(), {},
                own_name("solver.method", method));
     const std::vector<std::string> tables = table_names(method);
     if (table && tables.empty()) {
@@ -184,7 +178,8 @@ void check_method_names(const std::vector<std::string>& methods) {
     }
     if (table) check_name(option, "table", *table, tables, method);
     if (events) {
-      check_name(option, "treatment of events", *events, names_of_choices("solver.events"));
+      check_name(option, "treatment of events", *events,
+                 find_case_key("solver.events")->choice_names());
     }
   }
 }

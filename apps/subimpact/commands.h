@@ -45,7 +45,6 @@ void print_error(fmt::format_string<Args...> format, Args&&... args) {
   print_to(stderr, fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// The options of every command that reads a case.
 struct CaseOptions {
   std::string file;
   std::string method;
@@ -60,7 +59,6 @@ struct CaseOptions {
   std::string directory_with(const std::string& ending) const;
 };
 
-/// The option --out.
 CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
                                   const std::string& meaning);
 
@@ -86,10 +84,8 @@ bool write_after_printing(OutputDirectory& directory,
                           const std::function<void(const std::filesystem::path&)>& write);
 
 Jobs n_processors();
-/// The option --jobs of commands that run several simulations.
 void add_jobs_option(CLI::App& command, Jobs& jobs);
 
-/// Options of commands that make several runs of a case.
 struct StudyOptions {
   CaseOptions input;
   std::vector<std::string> methods;

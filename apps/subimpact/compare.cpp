@@ -1,9 +1,5 @@
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "commands.h"
 #include "subimpact/io/report.h"

@@ -1,5 +1,4 @@
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>
 #include <unistd.h>
@@ -7,21 +6,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <iostream>
 #include <new>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "commands.h"
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
-#include "subimpact/io/versions.h"
 #include "subimpact/report/figures.h"
 
 namespace {

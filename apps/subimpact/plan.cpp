@@ -1,6 +1,3 @@
-#include <functional>
-#include <optional>
-#include <string>
 
 #include "commands.h"
 #include "subimpact/report/studies.h"

@@ -1,15 +1,9 @@
 // Commands that draw finished runs and write them up.
 
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <filesystem>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include "commands.h"
-#include "subimpact/io/read_sweep.h"
+#include "subimpact/io/read_results.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"
@@ -107,7 +101,6 @@ int compare_runs(const FinishedRunOptions& options) {
   return finish(directory, "comparison.html");
 }
 
-// The directory of a sweep.
 int report_sweep(const FinishedRunOptions& options) {
   const std::string& sweep = options.runs.front();
   const SweptRuns runs = read_sweep(sweep);

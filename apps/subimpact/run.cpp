@@ -1,13 +1,5 @@
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "commands.h"
 #include "subimpact/io/report.h"

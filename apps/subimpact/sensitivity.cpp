@@ -1,14 +1,10 @@
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "commands.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
-#include "subimpact/io/sensitivity.h"
+#include "subimpact/io/results.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::app {

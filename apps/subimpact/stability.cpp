@@ -1,9 +1,6 @@
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <functional>
-#include <optional>
 
 #include "commands.h"
 #include "subimpact/report/studies.h"

@@ -1,7 +1,4 @@
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <cstdio>
 
 #include "case/counted.h"
 #include "commands.h"

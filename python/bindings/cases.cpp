@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "bindings.h"
-#include "subimpact/case/cost.h"
 #include "subimpact/case/doubtful_units.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/judgement.h"

@@ -1,7 +1,7 @@
 #include <exception>
 
 #include "bindings.h"
-#include "subimpact/io/versions.h"
+#include "subimpact/io/results.h"
 
 namespace subimpact::python {
 namespace {

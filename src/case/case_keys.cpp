@@ -11,7 +11,7 @@
 
 #include "case/case_choices.h"
 #include "case/shifted_case.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact {
 namespace {

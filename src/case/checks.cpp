@@ -235,16 +235,13 @@ void check_scatter(const Case& input) {
 
 const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law) {
   for (const ContactConstants& way : law.ways) {
-    const bool complete = std::all_of(way.keys.begin(), way.keys.end(),
-                                      [&](const char* key) { return is_known(input, key); });
-    if (complete) return way;
+    if (std::ranges::all_of(way.keys, [&](auto* key) { return is_known(input, key); })) return way;
   }
   return law.ways.back();
 }
 
 bool uses_key(const ContactConstants& way, const char* key) {
-  return std::any_of(way.keys.begin(), way.keys.end(),
-                     [&](const char* used) { return std::string_view(used) == key; });
+  return std::ranges::find(way.keys, std::string_view(key)) != way.keys.end();
 }
 
 void check(const Case& input) {

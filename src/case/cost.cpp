@@ -1,4 +1,4 @@
-#include "subimpact/case/cost.h"
+#include "subimpact/case/simulate.h"
 
 #include <algorithm>
 #include <chrono>
@@ -6,7 +6,7 @@
 
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact {
 namespace {

@@ -7,8 +7,7 @@
 
 namespace subimpact {
 
-/// The form of a noun after a number: "zone" after 1, else "zones". For nouns whose plural adds an
-/// s.
+/// The form of a noun after a number, whose plural adds an s: "zone" after 1, else "zones".
 template <class Count>
 std::string noun_after(Count n, std::string_view noun) {
   return fmt::format("{}{}", noun, n == 1 ? "" : "s");

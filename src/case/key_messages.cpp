@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "case/slips.h"
 #include "subimpact/case/case_keys.h"
@@ -14,12 +13,6 @@ namespace subimpact {
 namespace {
 
 std::string quoted(const std::string& text) { return '"' + text + '"'; }
-
-std::vector<std::string> choice_names(const CaseKey& key) {
-  std::vector<std::string> names;
-  for (const Choice& choice : key.choices) names.push_back(choice.name);
-  return names;
-}
 
 std::string quoted_list(std::vector<std::string> names) {
   for (std::string& name : names) name = quoted(name);
@@ -34,8 +27,7 @@ std::string typed(const KeyValue& value) {
 }
 
 bool is_choice(const CaseKey& key, const std::string& name) {
-  return std::any_of(key.choices.begin(), key.choices.end(),
-                     [&](const Choice& choice) { return choice.name == name; });
+  return std::ranges::find(key.choices, name, &Choice::name) != key.choices.end();
 }
 
 std::optional<std::string> number_problem(const CaseKey& key, double number,
@@ -49,7 +41,7 @@ std::optional<std::string> number_problem(const CaseKey& key, double number,
 std::string choice_meant(const CaseKey& key, const std::string& name) {
   if (is_choice(key, name)) return name;
   const std::string own = own_name(key.name, name);
-  return own.empty() ? nearest_name(name, choice_names(key)) : own;
+  return own.empty() ? nearest_name(name, key.choice_names()) : own;
 }
 
 std::optional<std::string> choice_problem(const CaseKey& key, const std::string& name) {
@@ -114,6 +106,12 @@ std::string CaseKey::leaf() const {
   return dot == std::string::npos ? name : name.substr(dot + 1);
 }
 
+std::vector<std::string> CaseKey::choice_names() const {
+  std::vector<std::string> names;
+  for (const Choice& choice : choices) names.push_back(choice.name);
+  return names;
+}
+
 std::string to_text(const KeyValue& value) {
   struct Writer {
     std::string operator()(bool x) const { return x ? "true" : "false"; }
@@ -143,9 +141,9 @@ std::string allowed_values(const CaseKey& key) {
     case KeyType::text:
       return "a text in quotes";
     case KeyType::choice:
-      return (key.choices.size() == 1 ? "" : "one of ") + quoted_list(choice_names(key));
+      return (key.choices.size() == 1 ? "" : "one of ") + quoted_list(key.choice_names());
     case KeyType::pair:
-      return "a list of two out of " + quoted_list(choice_names(key));
+      return "a list of two out of " + quoted_list(key.choice_names());
     case KeyType::numbers:
       return "a list of numbers" + (range.empty() ? "" : ", each " + key.range) + unit;
   }
@@ -157,43 +155,29 @@ std::string refusal(const CaseKey& key, const std::string& found) {
 }
 
 std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& value) {
-  switch (key.type) {
-    case KeyType::text:
-      if (std::holds_alternative<std::string>(value)) return std::nullopt;
-      break;
-    case KeyType::flag:
-      if (std::holds_alternative<bool>(value)) return std::nullopt;
-      break;
-    case KeyType::number:
-      if (const auto* number = std::get_if<double>(&value)) {
-        return number_problem(key, *number, value);
-      }
-      [[fallthrough]];
-    case KeyType::count:
-      if (const auto* count = std::get_if<std::int64_t>(&value)) {
-        return number_problem(key, static_cast<double>(*count), value);
-      }
-      break;
-    case KeyType::choice:
-      if (const auto* name = std::get_if<std::string>(&value)) return choice_problem(key, *name);
-      break;
-    case KeyType::pair:
-      if (const auto* names = std::get_if<std::vector<std::string>>(&value)) {
-        return pair_problem(key, *names, value);
-      }
-      break;
-    case KeyType::numbers:
-      if (const auto* texts = std::get_if<std::vector<std::string>>(&value);
-          texts != nullptr && texts->empty()) {
-        return std::nullopt;
-      }
-      if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
-        for (const double number : *numbers) {
-          if (const auto problem = number_problem(key, number, value)) return problem;
-        }
-        return std::nullopt;
-      }
-      break;
+  const KeyType type = key.type;
+  if (type == KeyType::text && std::holds_alternative<std::string>(value)) return std::nullopt;
+  if (type == KeyType::flag && std::holds_alternative<bool>(value)) return std::nullopt;
+  if (const auto* number = std::get_if<double>(&value); number && type == KeyType::number) {
+    return number_problem(key, *number, value);
+  }
+  const bool is_number = type == KeyType::number || type == KeyType::count;
+  if (const auto* count = std::get_if<std::int64_t>(&value); count && is_number) {
+    return number_problem(key, static_cast<double>(*count), value);
+  }
+  if (const auto* name = std::get_if<std::string>(&value); name && type == KeyType::choice) {
+    return choice_problem(key, *name);
+  }
+  if (const auto* names = std::get_if<std::vector<std::string>>(&value)) {
+    if (type == KeyType::pair) return pair_problem(key, *names, value);
+    if (type == KeyType::numbers && names->empty()) return std::nullopt;
+  }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value);
+      numbers && type == KeyType::numbers) {
+    for (const double number : *numbers) {
+      if (const auto problem = number_problem(key, number, value)) return problem;
+    }
+    return std::nullopt;
   }
   return refusal(key, typed(value)) + spelling_hint(key, value);
 }

@@ -1,5 +1,3 @@
-#include "subimpact/case/keys_without_effect.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

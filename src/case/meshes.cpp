@@ -21,7 +21,6 @@ namespace {
 
 using Mesh = std::shared_ptr<const BeamMesh>;
 
-// How elements shorten towards the strike.
 ElementGrading grading_of(const Case& input) {
   return {input.model.strike_refinement, input.model.refined_length * input.scene.beam.length};
 }
@@ -87,8 +86,7 @@ void check_cells(const Case& input) {
   }
 }
 
-// There is a node at the strike, and an element much shorter than the others would determine the
-// time step.
+// There is a node at the strike; an element much shorter than others would determine the time step.
 void check_elements(const Case& input) {
   const int elements = input.model.elements;
   const double at = input.scene.striker.position;
@@ -254,7 +252,6 @@ const MeshDescriptor& descriptor_of(MeshKind kind) {
   throw std::logic_error("a mesh has no descriptor: add a row in meshes.cpp");
 }
 
-// Throws InvalidCase for a spacing or grading that the mesh cannot have.
 void check_spacing(const Case& input) {
   if (!mesh_uses(input, "model.strike_refinement") && input.model.strike_refinement != 1.0) {
     throw InvalidCase(
@@ -295,8 +292,7 @@ MeshKind default_mesh(const Case& input) {
 bool mesh_uses(const Case& input, const char* key) {
   if (input.parts.mesh) return false;
   const auto keys = descriptor_of(input.model.mesh).keys;
-  return std::any_of(keys.begin(), keys.end(),
-                     [key](std::string_view used) { return used == key; });
+  return std::ranges::find(keys, std::string_view(key)) != keys.end();
 }
 
 }  // namespace subimpact

@@ -43,8 +43,7 @@ struct MeshDescriptor {
 std::span<const MeshDescriptor> meshes();
 const MeshDescriptor& descriptor_of(MeshKind kind);
 
-/// Throws InvalidCase if the mesh of a case does not suit the beam's theory, or as its descriptor's
-/// check() does.
+/// Throws InvalidCase if the mesh does not suit the beam's theory, or as its descriptor's check().
 void check_mesh(const Case& input);
 
 /// Cells, but for a strike at an end: a mesh with a node there.

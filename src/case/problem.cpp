@@ -9,7 +9,6 @@
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/case/validity.h"
 
 namespace subimpact {
 namespace {

@@ -11,8 +11,7 @@
 
 namespace subimpact {
 
-/// A bending law of sections that a case can name: its own row in problem.cpp and a factory of
-/// Fibres.
+/// A bending law of sections that a case can name: a row in problem.cpp and a factory of Fibres.
 struct SectionDescriptor {
   SectionKind kind;
   const char* name;  ///< in case files
@@ -25,7 +24,6 @@ struct SectionDescriptor {
 std::span<const SectionDescriptor> sections();
 const SectionDescriptor& descriptor_of(SectionKind kind);
 
-/// Whether a section of the beam may ever yield.
 bool may_yield(const Case& input);
 
 /// Whether the scene is its own mirror image about mid-span, where it is struck.

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "case/problem.h"
-#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -16,11 +16,6 @@ constexpr double largest_shift = 1e-3;  // that the range of a key must leave ro
 
 double number_of(const Case& input, const CaseKey& key) {
   return std::get<double>(*key.get(input));
-}
-
-bool is_inside_range(const CaseKey& key, double x) {
-  return key.limits.hold(x * std::exp(largest_shift)) &&
-         key.limits.hold(x * std::exp(-largest_shift));
 }
 
 }  // namespace
@@ -48,7 +43,8 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
            "where the scene is symmetric: shifts to either side have the same effect, so that a "
            "derivative is 0 or does not exist; allowed: other positions";
   }
-  if (!is_inside_range(key, x)) {
+  if (!key.limits.hold(x * std::exp(largest_shift)) ||
+      !key.limits.hold(x * std::exp(-largest_shift))) {
     return value + fmt::format("at an end of its range ({}), and shifts to both sides are needed",
                                key.range);
   }

@@ -56,8 +56,7 @@ std::string spelt_alike(std::string_view name) {
   return text;
 }
 
-// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other
-// (optimal string alignment).
+// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   // Distances of the first i letters of `a`, and of i - 1 and i - 2, from the first j of `b`.
   std::vector<std::size_t> now(b.size() + 1), before(b.size() + 1), two_before(b.size() + 1);
@@ -110,8 +109,7 @@ std::vector<std::string> keys_called(const std::string& leaf) {
   return names;
 }
 
-// For a key that is not known in `table`: the slip meant, else the table in which the name is
-// known.
+// For a key that `table` does not know: the slip meant, else the table in which the name is known.
 std::string suggestion(const std::string& table, const std::string& leaf) {
   const std::string near = nearest_name(leaf, leaves_of(table));
   if (!near.empty()) return fmt::format("; did you mean \"{}\"?", full_key_name(table, near));

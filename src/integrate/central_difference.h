@@ -29,8 +29,7 @@ class CentralDifference final : public Integrator {
   bool ends_at_last_evaluation() const override { return true; }
 
  private:
-  // One step of length h (which may be negative) from (from, a_from) into y; leaves a(q) at its end
-  // in `acceleration`.
+  // One step of length h, perhaps below 0, from (from, a_from) into y; leaves a(q) there.
   void advance(double h, const State& from, const AlignedVector& a_from, State& y,
                AlignedVector& acceleration);
 

@@ -106,8 +106,7 @@ double Exponential::fourth_derivative_bound() const {
 }
 
 bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) const {
-  // The cubic's distance from the critical displacement, at its ends and at its extrema between
-  // them.
+  // The cubic's distance from the critical displacement, at its ends and extrema.
   const double critical = oscillators_.critical_displacement();
   const double sign = oscillators_.is_free() ? 1.0 : -1.0;  // the side on which an event lies
   const HermiteCubic path(sign * (ends.lambda0 - critical), sign * ends.rate0,

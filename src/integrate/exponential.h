@@ -50,8 +50,7 @@ class Exponential final : public Integrator {
   bool solve(const OscillatorStep& step, const NodeForces& free, NodeForces& forces,
              NodeForces& lambda) const;
   double fourth_derivative_bound() const;
-  // Whether the cubic through the ends, off by up to `uncertainty` (m), resolves the side of the
-  // critical displacement.
+  // Whether a cubic off by up to `uncertainty` (m) shows the side of the critical displacement.
   bool resolves_side(const Ends& ends, double h, double uncertainty) const;
 
   std::unique_ptr<ForcedOscillators> owned_;

@@ -39,8 +39,7 @@ const NystromTable& nystrom_table(const std::string& name);
 ///
 /// Error control as in `erk`: weighted root-mean-square norm of the estimate with the constant
 /// weights 1/(rtol * scale), a proportional-integral controller, rejected steps retaken. A state
-/// inside the last step is a retaken, shorter step. Throws std::invalid_argument for an unknown
-/// table.
+/// inside the last step is a retaken, shorter step. Throws std::invalid_argument for other tables.
 class Nystrom final : public Integrator {
  public:
   Nystrom(SecondOrderOde& ode, const IntegratorOptions& options);

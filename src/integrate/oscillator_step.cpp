@@ -69,8 +69,7 @@ UnitResponse unit_response(double theta, const StumpffLanes& c) {
   return response;
 }
 
-// Position and velocity of a damped oscillator under the unit force at Gauss point j of a step of
-// length h.
+// Position and velocity of a damped oscillator under the unit force at Gauss point j of a step h.
 std::pair<double, double> unit_response(const DampedOscillator& at, std::size_t j, double h) {
   double position = 0.0;
   double velocity = 0.0;

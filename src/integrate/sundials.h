@@ -15,8 +15,7 @@ std::string sundials_version();  ///< of the library that runs
 std::string klu_version();       ///< of the headers compiled against
 
 /// The tables of Runge-Kutta coefficients, in the order in which users see them: explicit embedded
-/// ones, implicit ones, and pairs of an implicit and an explicit one. The first of each is the
-/// default.
+/// ones, implicit ones, and pairs of an implicit and an explicit one; the first is the default.
 const std::vector<CoefficientTable>& explicit_tables();
 const std::vector<CoefficientTable>& dirk_tables();
 const std::vector<CoefficientTable>& imex_tables();
@@ -44,12 +43,10 @@ std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system,
 
 /// The same with the right-hand side in two parts: [v, stiff part of f] taken implicitly,
 /// [0, rest of f] explicitly, by a pair of tables that share their stages. The Newton matrix then
-/// only changes where a section flows. Throws std::invalid_argument for a pair that is not among
-/// imex_tables().
+/// only changes where a section flows. Throws std::invalid_argument for pairs not in imex_tables().
 std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system,
                                              const IntegratorOptions& options);
 
-/// The highest orders of CVODE.
 constexpr int adams_order_limit = 12;
 constexpr int bdf_order_limit = 5;
 

@@ -7,13 +7,14 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
-#include <string_view>
 #include <utility>
+
+#include <toml++/toml.h>
 
 #include "case/meshes.h"
 #include "case/slips.h"
-#include "io/toml_parts.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -21,84 +22,119 @@ namespace {
 
 constexpr std::size_t largest_case = 1'000'000;  // bytes
 constexpr std::size_t most_problems = 100;       // reported at once
-constexpr const char* by_default = "default";    // as if the file did not have the key
+// Keys, tables and lists of a case are nested three deep at most.
+constexpr std::size_t deepest_nesting = 32;
+constexpr const char* by_default = "default";  // as if the file did not have the key
 
-/// Gathers the values of a case and everything that is wrong with them.
-class Reader {
- public:
-  explicit Reader(std::string name) : name_(std::move(name)) {}
+// --- TOML ----------------------------------------------------------------------------------------
 
-  /// The keys of a table, those within it too; empty: outside all tables.
-  void read(const toml::table& content, const std::string& table = {});
-  void apply(const Override& setting);
-  LoadedCase finish();
-
- private:
-  struct Given {
-    KeyValue value;
-    std::string place;
-    bool in_file;
-  };
-
-  std::string place(const toml::source_position& at) const {
-    return fmt::format("{}:{}:{}", name_, at.line, at.column);
-  }
-  void complain(const std::string& where, const std::string& message) {
-    if (!is_full()) problems_.push_back(where + ": " + message);
-  }
-  // Further problems are not looked for: their messages take longer than reading the file.
-  bool is_full() const { return problems_.size() >= most_problems; }
-  void read_value(const CaseKey& key, const toml::node& node, const std::string& where);
-  void complain_of_missing_keys();
-  bool is_given(const char* key, bool in_file) const;
-  void choose_mesh(Case& read);
-  GivenKeys given_keys() const;
-
-  std::string name_;
-  std::map<std::string, Given> given_;
-  std::map<std::string, std::string> tables_;  // present ones, and their places
-  std::vector<std::string> refused_;           // keys already complained of
-  std::vector<std::string> problems_;
-};
-
-void Reader::read(const toml::table& content, const std::string& table) {
-  for (const auto& [key, node] : content) {
-    if (is_full()) return;
-    const std::string leaf(key.str());
-    const std::string where = place(key.source().begin);
-    const std::string name = full_key_name(table, leaf);
-    const toml::table* inner = node.as_table();
-    const bool is_outermost = table.empty();
-    const CaseKey* known = find_case_key(name);
-    const bool is_table = known == nullptr && is_case_table(name);
-    if (is_outermost && is_table) tables_[name] = where;
-    if (known != nullptr) {
-      read_value(*known, node, where);
-    } else if (is_table && inner != nullptr) {
-      read(*inner, name);
-    } else if (is_table && is_outermost) {
-      complain(where, fmt::format("\"{0}\" is {1}; allowed: a table; write [{0}] on a line of its "
-                                  "own, and its keys below it",
-                                  name, node.is_array() ? "a list" : describe_type(node)));
-    } else {
-      complain(where,
-               is_outermost && inner != nullptr ? unknown_table(name) : unknown_key(table, leaf));
+// The index after the string that begins at `at`. A string in three quotes may hold one or two
+// quotes, and those at its end belong to it.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool is_long = text.substr(at, 3) == three;
+  const bool has_escapes = quote == '"';
+  for (std::size_t i = at + (is_long ? 3 : 1); i < text.size(); ++i) {
+    if (has_escapes && text[i] == '\\') {
+      ++i;
+    } else if (!is_long && (text[i] == quote || text[i] == '\n')) {
+      return i + 1;
+    } else if (is_long && text.substr(i, 3) == three) {
+      i += 3;
+      while (i < text.size() && text[i] == quote) ++i;
+      return i;
     }
   }
+  return text.size();
 }
 
-void Reader::read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
-  std::optional<KeyValue> value = to_key_value(node);
-  if (value) {
-    given_[key.name] = {std::move(*value), where, true};
-  } else {
-    refused_.push_back(key.name);
-    complain(where, key.name + " " + refusal(key, describe_type(node)));
+std::optional<std::vector<double>> numbers_in(const toml::array& list) {
+  std::vector<double> numbers;
+  for (const toml::node& item : list) {
+    if (const auto* whole = item.as_integer()) {  // value<double>() has none for large ones
+      numbers.push_back(static_cast<double>(whole->get()));
+    } else if (const auto* number = item.as_floating_point()) {
+      numbers.push_back(number->get());
+    } else {
+      return std::nullopt;
+    }
   }
+  return numbers;
 }
 
-// On a command line quotes are a nuisance: what is no TOML value is taken as a text where one is
-// wanted.
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (std::size_t i = 1; i < number && !text.empty(); ++i) {
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  }
+  return text.substr(0, text.find('\n'));
+}
+
+// The number, from 1, of the first line of a TOML text on which more parts of a dotted key, or more
+// open lists and inline tables, follow one another than deepest_nesting. toml++ takes dotted keys
+// of any depth and frees their tables by recursion, which exhausts the stack. A text that is no
+// TOML is counted right up to its first error, where its parser stops.
+std::optional<std::size_t> too_deep_at(std::string_view toml) {
+  std::size_t dots = 0, brackets = 0;
+  for (std::size_t i = 0; i < toml.size(); ++i) {
+    const char c = toml[i];
+    if (c == '"' || c == '\'') i = end_of_string(toml, i) - 1;
+    if (c == '#') i = std::min(toml.find('\n', i), toml.size()) - 1;
+    if (c == '.') ++dots;
+    if (c == '[' || c == '{') ++brackets;
+    if ((c == ']' || c == '}') && brackets > 0) --brackets;
+    if (std::string_view("[]{}=,\n").find(c) != std::string_view::npos) dots = 0;
+    if (dots > deepest_nesting || brackets > deepest_nesting) {
+      return 1 + std::count(toml.begin(), toml.begin() + static_cast<std::ptrdiff_t>(i), '\n');
+    }
+  }
+  return std::nullopt;
+}
+
+// Nothing if no key holds such a thing (a date, a table, a mixed list).
+std::optional<KeyValue> to_key_value(const toml::node& node) {
+  if (const auto* flag = node.as_boolean()) return KeyValue(flag->get());
+  if (const auto* whole = node.as_integer()) return KeyValue(whole->get());
+  if (const auto* number = node.as_floating_point()) return KeyValue(number->get());
+  if (const auto* text = node.as_string()) return KeyValue(text->get());
+  if (const auto* list = node.as_array()) {
+    if (auto numbers = numbers_in(*list); numbers && !numbers->empty()) return *numbers;
+    std::vector<std::string> texts;
+    for (const toml::node& item : *list) {
+      if (!item.is_string()) return std::nullopt;
+      texts.push_back(item.as_string()->get());
+    }
+    return KeyValue(std::move(texts));
+  }
+  return std::nullopt;
+}
+
+// "a date", "a table".
+std::string describe_type(const toml::node& node) {
+  static constexpr const char* types[] = {
+      "nothing",        "a table",        "a list of things of several types",
+      "a text",         "a whole number", "a number",
+      "a boolean",      "a date",         "a time of day",
+      "a date and time"};
+  static_assert(static_cast<int>(toml::node_type::date_time) == 9);
+  return types[static_cast<int>(node.type())];
+}
+
+// The number with a decimal comma in a line (from 1) such as "mass = 0,201"; empty if there is
+// none. Lists are left alone: in [0,5] there are two numbers.
+std::string decimal_comma_in(std::string_view text, std::size_t line_number) {
+  const std::string_view line = line_of(text, line_number);
+  for (std::size_t at = line.find('='); at < line.size(); at = line.find('=', at + 1)) {
+    const std::size_t start = std::min(line.find_first_not_of(" \t", at + 1), line.size());
+    const std::string_view number = leading_decimal_comma(line.substr(start));
+    if (!number.empty()) return std::string(number);
+  }
+  return {};
+}
+
+// --- values, and what is wrong with them ---------------------------------------------------------
+
+// On a command line quotes are a nuisance: what is no TOML is a text where one is wanted.
 std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& text) {
   const bool wants_text = key.type == KeyType::text || key.type == KeyType::choice;
   const bool wants_pair = key.type == KeyType::pair && !text.starts_with('[');
@@ -121,127 +157,193 @@ std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& tex
   }
 }
 
-void Reader::apply(const Override& setting) {
-  const CaseKey* key = find_case_key(setting.key);
-  if (key == nullptr) {
-    const auto dot = setting.key.rfind('.');
-    const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
-    const bool has_table = table.empty() || is_case_table(table);
-    complain(setting.origin,
-             has_table ? unknown_key(table, setting.key.substr(dot + 1)) : unknown_table(table));
-    return;
-  }
-  const bool wants_number = key->type == KeyType::number;
-  std::erase(refused_, key->name);
-  if (setting.value == by_default && key->type != KeyType::text) {
-    given_.erase(key->name);
-    return;
-  }
-  if (std::optional<KeyValue> value = parse_setting(*key, setting.value)) {
-    given_[key->name] = {std::move(*value), setting.origin, false};
-  } else {
-    refused_.push_back(key->name);
-    complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'") +
-                                 (wants_number ? decimal_comma_hint(setting.value) : ""));
-  }
-}
+/// Gathers the values of a case and everything that is wrong with them.
+class Reader {
+ public:
+  explicit Reader(std::string name) : name_(std::move(name)) {}
 
-void Reader::complain_of_missing_keys() {
-  std::vector<std::string> missing_tables;
-  for (const CaseKey& key : case_keys()) {
-    const bool refused = std::find(refused_.begin(), refused_.end(), key.name) != refused_.end();
-    if (!key.required || given_.contains(key.name) || refused) continue;
-    const std::string table = key.table();
-    const auto present = tables_.find(table);
-    if (present != tables_.end()) {
-      complain(present->second,
-               fmt::format("{} is missing; allowed: {}; add \"{} = ...\" under [{}]: the {}",
-                           key.name, allowed_values(key), key.leaf(), table, key.meaning));
-    } else if (missing_tables.empty() || missing_tables.back() != table) {
-      missing_tables.push_back(table);
-      std::vector<std::string> needed;
-      for (const CaseKey& other : case_keys()) {
-        if (other.required && other.table() == table) needed.push_back(other.leaf());
+  /// The keys of a table, those within it too; empty: outside all tables.
+  void read(const toml::table& content, const std::string& table = {}) {
+    for (const auto& [key, node] : content) {
+      if (is_full()) return;
+      const std::string leaf(key.str());
+      const std::string where = place(key.source().begin);
+      const std::string name = full_key_name(table, leaf);
+      const toml::table* inner = node.as_table();
+      const bool is_outermost = table.empty();
+      const CaseKey* known = find_case_key(name);
+      const bool is_table = known == nullptr && is_case_table(name);
+      if (is_outermost && is_table) tables_[name] = where;
+      if (known != nullptr) {
+        read_value(*known, node, where);
+      } else if (is_table && inner != nullptr) {
+        read(*inner, name);
+      } else if (is_table && is_outermost) {
+        complain(where,
+                 fmt::format("\"{0}\" is {1}; allowed: a table; write [{0}] on a line of its "
+                             "own, and its keys below it",
+                             name, node.is_array() ? "a list" : describe_type(node)));
+      } else {
+        complain(where,
+                 is_outermost && inner != nullptr ? unknown_table(name) : unknown_key(table, leaf));
       }
-      complain(name_, fmt::format("table [{0}] is missing; add [{0}] with at least: {1}", table,
-                                  fmt::join(needed, ", ")));
     }
   }
-}
 
-bool Reader::is_given(const char* key, bool in_file) const {
-  const auto given = given_.find(key);
-  return given != given_.end() && given->second.in_file == in_file;
-}
-
-// A case that names the size of a mesh and no mesh means that mesh. A setting goes before the file.
-void Reader::choose_mesh(Case& read) {
-  if (given_.contains("model.mesh")) return;
-  for (const bool in_file : {false, true}) {
-    const MeshDescriptor* chosen = nullptr;
-    for (const MeshDescriptor& mesh : meshes()) {
-      if (!mesh.suits(read.scene.beam)) continue;
-      if (!mesh.refinement || !is_given(mesh.refinement->key, in_file)) continue;
-      if (chosen != nullptr) {
-        const char* first = chosen->refinement->key;
-        const char* second = mesh.refinement->key;
-        complain(given_.at(second).place,
-                 fmt::format("{} is given, and {} too, but each is the size of another mesh; "
-                             "allowed without model.mesh: one of them; leave one out, or "
-                             "choose with model.mesh = \"{}\" ({}) or \"{}\" ({})",
-                             second, first, mesh.name, find_case_key(second)->leaf(), chosen->name,
-                             find_case_key(first)->leaf()));
-      }
-      chosen = &mesh;
+  void apply(const Override& setting) {
+    const CaseKey* key = find_case_key(setting.key);
+    if (key == nullptr) {
+      const auto dot = setting.key.rfind('.');
+      const std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
+      const bool has_table = table.empty() || is_case_table(table);
+      complain(setting.origin,
+               has_table ? unknown_key(table, setting.key.substr(dot + 1)) : unknown_table(table));
+      return;
     }
-    if (chosen == nullptr) continue;
-    read.model.mesh = chosen->kind;
-    return;
-  }
-  read.model.mesh = default_mesh(read);
-}
-
-GivenKeys Reader::given_keys() const {
-  GivenKeys keys;
-  for (const auto& [name, given] : given_) {
-    (given.in_file ? keys.in_file : keys.in_settings).insert(name);
-  }
-  // The size that a setting names chooses the mesh.
-  const bool by_size = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
-    return mesh.refinement && is_given(mesh.refinement->key, false);
-  });
-  if (by_size && !given_.contains("model.mesh")) keys.in_settings.insert("model.mesh");
-  return keys;
-}
-
-LoadedCase Reader::finish() {
-  std::map<std::string, std::string> places;
-  Case read;
-  for (const CaseKey& key : case_keys()) {
-    const auto given = given_.find(key.name);
-    if (given == given_.end()) continue;
-    places[key.name] = given->second.place;
-    if (const auto problem = problem_with(key, given->second.value)) {
-      complain(given->second.place, key.name + " " + *problem);
+    const bool wants_number = key->type == KeyType::number;
+    std::erase(refused_, key->name);
+    if (setting.value == by_default && key->type != KeyType::text) {
+      given_.erase(key->name);
+      return;
+    }
+    if (std::optional<KeyValue> value = parse_setting(*key, setting.value)) {
+      given_[key->name] = {std::move(*value), setting.origin, false};
     } else {
-      key.set(read, given->second.value);
+      refused_.push_back(key->name);
+      complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'") +
+                                   (wants_number ? decimal_comma_hint(setting.value) : ""));
     }
   }
-  choose_mesh(read);
-  complain_of_missing_keys();
-  LoadedCase loaded(name_, std::move(places));
-  loaded.value = std::move(read);
-  loaded.given = given_keys();
-  if (problems_.empty()) {
-    try {
-      check(loaded.value);
-    } catch (const InvalidCase& error) {
-      problems_.push_back(loaded.message(error));
+
+  LoadedCase finish() {
+    std::map<std::string, std::string> places;
+    Case read;
+    for (const CaseKey& key : case_keys()) {
+      const auto given = given_.find(key.name);
+      if (given == given_.end()) continue;
+      places[key.name] = given->second.place;
+      if (const auto problem = problem_with(key, given->second.value)) {
+        complain(given->second.place, key.name + " " + *problem);
+      } else {
+        key.set(read, given->second.value);
+      }
+    }
+    choose_mesh(read);
+    complain_of_missing_keys();
+    LoadedCase loaded(name_, std::move(places));
+    loaded.value = std::move(read);
+    loaded.given = given_keys();
+    if (problems_.empty()) {
+      try {
+        check(loaded.value);
+      } catch (const InvalidCase& error) {
+        problems_.push_back(loaded.message(error));
+      }
+    }
+    if (!problems_.empty()) throw CaseFileError(fmt::format("{}", fmt::join(problems_, "\n")));
+    return loaded;
+  }
+
+ private:
+  struct Given {
+    KeyValue value;
+    std::string place;
+    bool in_file;
+  };
+
+  std::string place(const toml::source_position& at) const {
+    return fmt::format("{}:{}:{}", name_, at.line, at.column);
+  }
+  void complain(const std::string& where, const std::string& message) {
+    if (!is_full()) problems_.push_back(where + ": " + message);
+  }
+  // Further problems are not looked for: their messages take longer than reading the file.
+  bool is_full() const { return problems_.size() >= most_problems; }
+
+  void read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
+    std::optional<KeyValue> value = to_key_value(node);
+    if (value) {
+      given_[key.name] = {std::move(*value), where, true};
+    } else {
+      refused_.push_back(key.name);
+      complain(where, key.name + " " + refusal(key, describe_type(node)));
     }
   }
-  if (!problems_.empty()) throw CaseFileError(fmt::format("{}", fmt::join(problems_, "\n")));
-  return loaded;
-}
+
+  void complain_of_missing_keys() {
+    std::vector<std::string> missing_tables;
+    for (const CaseKey& key : case_keys()) {
+      const bool refused = std::find(refused_.begin(), refused_.end(), key.name) != refused_.end();
+      if (!key.required || given_.contains(key.name) || refused) continue;
+      const std::string table = key.table();
+      const auto present = tables_.find(table);
+      if (present != tables_.end()) {
+        complain(present->second,
+                 fmt::format("{} is missing; allowed: {}; add \"{} = ...\" under [{}]: the {}",
+                             key.name, allowed_values(key), key.leaf(), table, key.meaning));
+      } else if (missing_tables.empty() || missing_tables.back() != table) {
+        missing_tables.push_back(table);
+        std::vector<std::string> needed;
+        for (const CaseKey& other : case_keys()) {
+          if (other.required && other.table() == table) needed.push_back(other.leaf());
+        }
+        complain(name_, fmt::format("table [{0}] is missing; add [{0}] with at least: {1}", table,
+                                    fmt::join(needed, ", ")));
+      }
+    }
+  }
+
+  bool is_given(const char* key, bool in_file) const {
+    const auto given = given_.find(key);
+    return given != given_.end() && given->second.in_file == in_file;
+  }
+
+  // A case that names the size of a mesh and no mesh means that mesh. Settings go before the file.
+  void choose_mesh(Case& read) {
+    if (given_.contains("model.mesh")) return;
+    for (const bool in_file : {false, true}) {
+      const MeshDescriptor* chosen = nullptr;
+      for (const MeshDescriptor& mesh : meshes()) {
+        if (!mesh.suits(read.scene.beam)) continue;
+        if (!mesh.refinement || !is_given(mesh.refinement->key, in_file)) continue;
+        if (chosen != nullptr) {
+          const char* first = chosen->refinement->key;
+          const char* second = mesh.refinement->key;
+          complain(given_.at(second).place,
+                   fmt::format("{} is given, and {} too, but each is the size of another mesh; "
+                               "allowed without model.mesh: one of them; leave one out, or "
+                               "choose with model.mesh = \"{}\" ({}) or \"{}\" ({})",
+                               second, first, mesh.name, find_case_key(second)->leaf(),
+                               chosen->name, find_case_key(first)->leaf()));
+        }
+        chosen = &mesh;
+      }
+      if (chosen == nullptr) continue;
+      read.model.mesh = chosen->kind;
+      return;
+    }
+    read.model.mesh = default_mesh(read);
+  }
+
+  GivenKeys given_keys() const {
+    GivenKeys keys;
+    for (const auto& [name, given] : given_) {
+      (given.in_file ? keys.in_file : keys.in_settings).insert(name);
+    }
+    // The size that a setting names chooses the mesh.
+    const bool by_size = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
+      return mesh.refinement && is_given(mesh.refinement->key, false);
+    });
+    if (by_size && !given_.contains("model.mesh")) keys.in_settings.insert("model.mesh");
+    return keys;
+  }
+
+  std::string name_;
+  std::map<std::string, Given> given_;
+  std::map<std::string, std::string> tables_;  // present ones, and their places
+  std::vector<std::string> refused_;           // keys already complained of
+  std::vector<std::string> problems_;
+};
 
 // No more than can be a case: a path may lead to a device that never ends.
 std::string read_text(const std::filesystem::path& path) {

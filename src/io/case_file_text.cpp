@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -7,7 +9,7 @@
 #include "io/sealed_files.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/io/versions.h"
+#include "subimpact/io/results.h"
 #include "subimpact/study/within.h"
 
 namespace subimpact {
@@ -59,6 +61,116 @@ std::string case_identity(const Case& input, const GivenKeys& given, const std::
       fmt::format("open: {} {} {} {}\n{}", open.mesh, open.size, open.method, open.tolerance, how);
   std::istringstream stream(text);
   return seal_of(stream).sha256.substr(0, n_digits);
+}
+
+// --- the JSON schema -----------------------------------------------------------------------------
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // editors list the keys in the order of the table
+
+Json number_schema(const char* type, const Limits& limits) {
+  Json schema = {{"type", limits.infinity ? Json{type, "null"} : Json(type)}};
+  if (limits.minimum) schema["minimum"] = *limits.minimum;
+  if (limits.exclusive_minimum) schema["exclusiveMinimum"] = *limits.exclusive_minimum;
+  if (limits.maximum) schema["maximum"] = *limits.maximum;
+  if (limits.multiple_of) schema["multipleOf"] = *limits.multiple_of;
+  return schema;
+}
+
+// The notes on the choices stand where the language server Taplo looks for them.
+Json choice_schema(const std::vector<Choice>& choices) {
+  Json names = Json::array(), notes = Json::array();
+  for (const Choice& choice : choices) {
+    names.push_back(choice.name);
+    notes.push_back(choice.note);
+  }
+  return {{"type", "string"}, {"enum", names}, {"x-taplo", {{"docs", {{"enumValues", notes}}}}}};
+}
+
+Json value_schema(const CaseKey& key) {
+  switch (key.type) {
+    case KeyType::text:
+      return {{"type", "string"}};
+    case KeyType::flag:
+      return {{"type", "boolean"}};
+    case KeyType::number:
+      return number_schema("number", key.limits);
+    case KeyType::count:
+      return number_schema("integer", key.limits);
+    case KeyType::choice:
+      return choice_schema(key.choices);
+    case KeyType::pair:
+      return {{"type", "array"},
+              {"items", choice_schema(key.choices)},
+              {"minItems", 2},
+              {"maxItems", 2}};
+    case KeyType::numbers:
+      return {{"type", "array"}, {"items", number_schema("number", key.limits)}};
+  }
+  return Json::object();
+}
+
+std::string description(const CaseKey& key) {
+  return key.meaning + (key.unit.empty() ? "" : " (" + key.unit + ")") +
+         (key.range.empty() ? "" : "; " + key.range) +
+         (key.required ? "; required" : "; default: " + key.default_text);
+}
+
+// Nothing where the default follows from other keys or has no form in JSON.
+Json default_value(const CaseKey& key) {
+  const std::optional<KeyValue> value = key.get(Case{});
+  if (key.required || !value || to_text(*value) != key.default_text) return nullptr;
+  if (const auto* x = std::get_if<double>(&*value); x != nullptr && !std::isfinite(*x)) {
+    return nullptr;
+  }
+  return std::visit([](const auto& plain) { return Json(plain); }, *value);
+}
+
+Json key_schema(const CaseKey& key) {
+  Json schema = {{"description", description(key)}};
+  schema.update(value_schema(key));
+  if (const Json value = default_value(key); !value.is_null()) schema["default"] = value;
+  return schema;
+}
+
+Json object_schema() {
+  return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+}
+
+void require(Json& object, const std::string& name) {
+  Json& required = object["required"];
+  if (std::find(required.begin(), required.end(), name) == required.end()) {
+    required.push_back(name);
+  }
+}
+
+// The object of a table, such as "beam" or "beam.damping", within another one.
+Json& object_of(Json& outer, const std::string& table) {
+  const std::size_t dot = table.find('.');
+  Json& objects = outer["properties"];
+  const std::string first = table.substr(0, dot);
+  if (!objects.contains(first)) objects[first] = object_schema();
+  return dot == std::string::npos ? objects[first]
+                                  : object_of(objects[first], table.substr(dot + 1));
+}
+
+}  // namespace
+
+std::string case_schema() {
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "subimpact case"},
+                 {"description", "A strike of a rigid mass on a beam, in SI units"}};
+  schema.update(object_schema());
+  for (const CaseKey& key : case_keys()) {
+    const std::string table = key.table();
+    Json& object = table.empty() ? schema : object_of(schema, table);
+    object["properties"][key.leaf()] = key_schema(key);
+    if (!key.required) continue;
+    require(object, key.leaf());
+    if (!table.empty()) require(schema, table);
+  }
+  return schema.dump(2) + "\n";
 }
 
 }  // namespace subimpact

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "case/case_choices.h"
 #include "case/counted.h"
 #include "io/study_columns.h"
 #include "io/sub_impact_rows.h"
+#include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -15,7 +15,6 @@
 namespace subimpact {
 namespace {
 
-constexpr double us = 1e6;  // per second
 constexpr std::size_t narrowest_name = 22;
 
 std::string setting_of(const ComparedRun& run) {

@@ -3,8 +3,8 @@
 /// Columns of CSV tables. A column stands in one place, with its name, its meaning and the member
 /// that it holds; heading, writer, reader and documentation follow from the list of columns.
 ///
-/// Numbers have the 17 digits that determine a double. A value that is absent is an empty cell. No
-/// cell is quoted: commas within texts become semicolons.
+/// Numbers have the 17 digits that determine a double, unless their column has fewer. A value that
+/// is absent is an empty cell. No cell is quoted: commas within texts become semicolons.
 
 #include <fmt/format.h>
 
@@ -25,25 +25,6 @@
 
 namespace subimpact {
 
-inline void append_cell(std::string& text, double value) {
-  fmt::format_to(std::back_inserter(text), "{:.17g}", value);
-}
-inline void append_cell(std::string& text, std::integral auto value) {
-  fmt::format_to(std::back_inserter(text), "{:d}", value);
-}
-inline void append_cell(std::string& text, std::string_view words) {
-  for (const char c : words) text.push_back(c == ',' ? ';' : c == '\n' ? ' ' : c);
-}
-template <class Enum>
-requires std::is_enum_v<Enum>
-void append_cell(std::string& text, Enum value) {
-  append_cell(text, std::string_view(to_string(value)));
-}
-template <class Value>
-void append_cell(std::string& text, const std::optional<Value>& value) {
-  if (value) append_cell(text, *value);
-}
-
 /// A cell as a value; std::monostate: empty.
 using Cell = std::variant<std::monostate, double, std::int64_t, std::string>;
 enum class CellType { real, whole, words };
@@ -56,6 +37,16 @@ requires std::is_enum_v<Enum> Cell to_cell(Enum value) { return std::string(to_s
 template <class Value>
 Cell to_cell(const std::optional<Value>& value) {
   return value ? to_cell(*value) : Cell();
+}
+
+/// `digits`: of a real number.
+inline void append_cell(std::string& text, const Cell& cell, int digits) {
+  const auto out = std::back_inserter(text);
+  if (const auto* real = std::get_if<double>(&cell)) fmt::format_to(out, "{:.{}g}", *real, digits);
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) fmt::format_to(out, "{}", *whole);
+  if (const auto* words = std::get_if<std::string>(&cell)) {
+    for (const char c : *words) text.push_back(c == ',' ? ';' : c == '\n' ? ' ' : c);
+  }
 }
 
 template <class Value>
@@ -118,9 +109,6 @@ struct Column {
     type = cell_type<std::remove_cvref_t<decltype(held(std::declval<const Row&>(), 0))>>;
     if constexpr (std::is_same_v<Value, double Row::*>) member = value;
     cell = [held](const Row& row, std::size_t index) { return to_cell(held(row, index)); };
-    append = [held](std::string& text, const Row& row, std::size_t index) {
-      append_cell(text, held(row, index));
-    };
     if constexpr (std::is_invocable_v<Value, Row&>) {
       if constexpr (std::is_lvalue_reference_v<std::invoke_result_t<Value, Row&>>) {
         using Held = std::invoke_result_t<Value, Row&>;
@@ -139,9 +127,9 @@ struct Column {
   std::string meaning;                      ///< for the documentation
   const char* allowed = "a finite number";  ///< for messages
   CellType type = CellType::real;
+  int digits = 17;                ///< of real numbers in the file
   double Row::*member = nullptr;  ///< that the column holds, if it is a number that is always there
   std::function<Cell(const Row&, std::size_t index)> cell;
-  std::function<void(std::string& text, const Row&, std::size_t index)> append;
   std::function<bool(std::string_view cell, Row&)> read;  ///< none: it follows from other columns
 };
 
@@ -160,7 +148,7 @@ void append_row(std::string& text, const Columns<Row>& columns, const Row& row,
                 std::size_t index = 0) {
   for (const Column<Row>& column : columns) {
     if (&column != &columns.front()) text.push_back(',');
-    column.append(text, row, index);
+    append_cell(text, column.cell(row, index), column.digits);
   }
   text.push_back('\n');
 }

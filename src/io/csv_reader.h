@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <istream>
 #include <string>
 #include <string_view>
@@ -11,18 +10,15 @@
 
 namespace subimpact {
 
-/// Reads a CSV file of this program: a heading, then rows of as many cells. No quoting. One row is
-/// held at a time.
+/// Reads a CSV file of this program, row by row: a heading, then as many cells; no quoting.
 class CsvReader {
  public:
-  /// For messages: the file's name, and what to do if it is damaged. Throws ResultsError if there
-  /// is no heading.
+  /// For messages: the file's name, and a remedy. Throws ResultsError if there is no heading.
   CsvReader(std::istream& file, std::string name, std::string remedy = "run the case again");
 
   const std::vector<std::string>& heading() const { return heading_; }
   /// Whether there was a further row. Throws ResultsError if it has another number of cells.
   bool next();
-  /// Of the row.
   std::string_view cell(std::size_t column) const { return cells_[column]; }
   /// Index of a column; the number of columns if there is none of that name.
   std::size_t find(std::string_view column) const;

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <iterator>
 
 #include "case/case_choices.h"
 #include "case/counted.h"
@@ -12,7 +11,7 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact {
 namespace {
@@ -130,11 +129,10 @@ std::string files_text(const Case& input, const ResolvedSettings& used) {
 std::string explanation(const Case& input, const ResolvedSettings& used,
                         const std::optional<CostEstimate>& cost) {
   const Scene& scene = input.scene;
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  const auto head = [&](const char* title) { fmt::format_to(out, "{}\n", title); };
+  std::string text;
+  const auto head = [&](const char* title) { text += fmt::format("{}\n", title); };
   const auto line = [&](const char* label, const std::string& value) {
-    fmt::format_to(out, "  {:<21} {}\n", label, value);
+    text += fmt::format("  {:<21} {}\n", label, value);
   };
   head(input.title.empty() ? "untitled case" : input.title.c_str());
   head("Scene");
@@ -202,48 +200,45 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   }
   line("memory", fmt::format("about {:.2g} MB", MB * used.memory));
   line("files", files_text(input, used));
-  return fmt::to_string(text);
+  return text;
 }
 
 std::string key_listing() {
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
+  std::string text;
   std::string table;
   for (const CaseKey& key : case_keys()) {
-    if (key.table() != table) fmt::format_to(out, "\n[{}]\n", table = key.table());
-    fmt::format_to(out, "{:<18} {}\n", key.leaf(), key.meaning);
+    if (key.table() != table) text += fmt::format("\n[{}]\n", table = key.table());
+    text += fmt::format("{:<18} {}\n", key.leaf(), key.meaning);
     const std::string allowed =
         key.type == KeyType::choice ? "one of those below" : allowed_values(key);
-    fmt::format_to(out, "{:<18} {}; {}\n", "", allowed,
-                   key.required ? "required" : "default " + key.default_text);
+    text += fmt::format("{:<18} {}; {}\n", "", allowed,
+                        key.required ? "required" : "default " + key.default_text);
     for (const Choice& choice : key.choices) {
-      fmt::format_to(out, "{:<20} {:<18} {}\n", "", choice.name, choice.note);
+      text += fmt::format("{:<20} {:<18} {}\n", "", choice.name, choice.note);
     }
   }
-  return fmt::to_string(text);
+  return text;
 }
 
 std::string method_listing() {
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
+  std::string text;
   const auto list_choices = [&](const char* title, const char* key) {
-    fmt::format_to(out, "{} ({})\n", title, key);
+    text += fmt::format("{} ({})\n", title, key);
     for (const Choice& choice : find_case_key(key)->choices) {
-      fmt::format_to(out, "  {:<20} {}\n", choice.name, choice.note);
+      text += fmt::format("  {:<20} {}\n", choice.name, choice.note);
     }
   };
   list_choices("Methods", "solver.method");
-  fmt::format_to(
-      out,
+  text += fmt::format(
       "\nTables (solver.table): order(order of the error estimate), stages or right-hand "
       "sides per step\n");
   for (const MethodTable& table : method_tables()) {
-    fmt::format_to(out, "  {:<10} {:<20} {:>6} {:>3}  {}\n", to_string(table.method), table.name,
-                   fmt::format("{}({})", table.order, table.embedded_order), table.evaluations,
-                   table.note);
+    text += fmt::format("  {:<10} {:<20} {:>6} {:>3}  {}\n", to_string(table.method), table.name,
+                        fmt::format("{}({})", table.order, table.embedded_order), table.evaluations,
+                        table.note);
   }
   list_choices("\nTreatment of events", "solver.events");
-  return fmt::to_string(text);
+  return text;
 }
 
 }  // namespace subimpact

@@ -16,7 +16,6 @@
 #include <utility>
 
 #include "io/sealed_files.h"
-#include "io/write_file.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
@@ -48,7 +47,6 @@ std::vector<std::string> files_in(const fs::path& directory) {
   return names;
 }
 
-// The manifest, as a writer needs it.
 std::optional<Manifest> manifest_for_writing(const fs::path& directory) {
   try {
     return read_manifest(directory);
@@ -124,16 +122,15 @@ class DirectoryLock {
       return fmt::format("{}: {}; {} choose another directory with --out", directory.string(),
                          cause, remedy);
     };
-    const auto fail = [&](const std::string& cause, const char* remedy) {
+    const auto fail = [&](const char* what, const char* remedy) {
+      const std::string cause = fmt::format("{} ({})", what, std::strerror(errno));
       if (descriptor_ >= 0) close(descriptor_);
       throw OutputError(message(cause, remedy));
     };
+    constexpr const char* unwritable = "this output directory cannot be written to";
     for (;;) {
       descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-      if (descriptor_ < 0) {
-        fail(fmt::format("this output directory cannot be written to ({})", std::strerror(errno)),
-             "change its permissions, free the disk, or");
-      }
+      if (descriptor_ < 0) fail(unwritable, "change its permissions, free the disk, or");
       if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
         if (errno == EINTR) continue;
         if (errno == EWOULDBLOCK) {
@@ -142,8 +139,7 @@ class DirectoryLock {
           throw DirectoryInUse(
               message(holder + " is writing into this directory", "wait until it has ended, or"));
         }
-        fail(fmt::format("this directory cannot be locked against other writers ({})",
-                         std::strerror(errno)),
+        fail("this directory cannot be locked against other writers",
              "use a file system that has locks:");
       }
       if (is_open_as(descriptor_, file_)) break;
@@ -152,8 +148,7 @@ class DirectoryLock {
     const std::string holder = this_process();
     if (ftruncate(descriptor_, 0) != 0 ||
         pwrite(descriptor_, holder.data(), holder.size(), 0) < 0) {
-      fail(fmt::format("this output directory cannot be written to ({})", std::strerror(errno)),
-           "free the disk, or");
+      fail(unwritable, "free the disk, or");
     }
   }
   ~DirectoryLock() {
@@ -298,8 +293,7 @@ void OutputDirectory::seal() {
   fs::rename(manifest, path_ / manifest_name);
 }
 
-// Moves what the manifest lists to its place and removes what it replaces, and what killed writers
-// have left.
+// Puts what the manifest lists in place; removes what it replaces and what killed writers left.
 void OutputDirectory::settle() {
   if (const std::optional<Manifest> manifest = manifest_for_writing(path_)) {
     const fs::path waiting = staging_of(path_, manifest->commit);

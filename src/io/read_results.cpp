@@ -2,6 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <optional>
+
 #include "io/csv_reader.h"
 #include "io/row_thinning.h"
 #include "io/run_record.h"
@@ -10,6 +17,8 @@
 
 namespace subimpact {
 namespace {
+
+namespace fs = std::filesystem;
 
 // The rows of a table: all of them, or of a long one those that figures need.
 template <class Row>
@@ -27,7 +36,7 @@ std::vector<Row> read_table(const RunTable<Row>& table, const FinishedRun& run, 
   return rows.take();
 }
 
-FinishedRun read_once(const std::filesystem::path& directory, const SealedFiles& files) {
+FinishedRun read_once(const fs::path& directory, const SealedFiles& files) {
   FinishedRun run;
   read_summary(directory / "summary.json", files.text("summary.json"), run);
   if (!files.manifest() || files.manifest()->kind != "run") {
@@ -54,9 +63,9 @@ FinishedRun read_once(const std::filesystem::path& directory, const SealedFiles&
 
 }  // namespace
 
-FinishedRun read_results(const std::filesystem::path& directory) {
+FinishedRun read_results(const fs::path& directory) {
   std::error_code ignored;
-  if (!std::filesystem::is_directory(directory, ignored)) {
+  if (!fs::is_directory(directory, ignored)) {
     throw ResultsError(
         fmt::format("{}: is not a directory; give the output directory of "
                     "`subimpact run` (--out)",
@@ -64,6 +73,125 @@ FinishedRun read_results(const std::filesystem::path& directory) {
   }
   return read_sealed(directory,
                      [&](const SealedFiles& files) { return read_once(directory, files); });
+}
+
+// --- sweeps --------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr const char* runs_name = "runs.csv";
+constexpr const char* sub_impacts_name = "sub_impacts.csv";
+constexpr const char* remedy = "run the sweep again, which takes what it has from its store";
+
+struct SweptSubImpact : SubImpact {
+  long run = 0;
+};
+
+// Those of events.csv after the run's number.
+Columns<SweptSubImpact> sub_impact_columns() {
+  Columns<SweptSubImpact> columns = {{"run", &SweptSubImpact::run}};
+  for (const Column<SubImpact>& of_run : run_table<SubImpact>().columns) {
+    if (!of_run.read) continue;
+    Column<SweptSubImpact> column(of_run.name, [](const SweptSubImpact&) { return 0.0; });
+    column.allowed = of_run.allowed;
+    column.read = of_run.read;
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+// As numbers, if every cell is a number or empty.
+std::optional<std::vector<double>> as_numbers(const std::vector<std::string>& cells) {
+  std::vector<double> numbers;
+  for (const std::string& cell : cells) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (!cell.empty() && !read_cell(cell, value)) return std::nullopt;
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+SweptRuns read_runs(const SealedFiles& files, const fs::path& path) {
+  std::ifstream file = files.open(path.filename());
+  CsvReader csv(file, path.string(), remedy);
+  const std::size_t n = csv.heading().size();
+  const std::size_t run = csv.find("run"), outcome = csv.find("outcome");
+  if (run == n) csv.refuse_lack_of("run");
+  if (outcome == n) csv.refuse_lack_of("outcome");
+  SweptRuns runs;
+  std::vector<std::vector<std::string>> cells(n);
+  while (csv.next()) {
+    long number = 0;
+    const long least = runs.numbers.empty() ? 0 : runs.numbers.back() + 1;
+    if (!read_cell(csv.cell(run), number) || number < least) {
+      csv.refuse_cell(run, "whole numbers from 0, in ascending order");
+    }
+    if (csv.cell(outcome).empty()) csv.refuse_cell(outcome, "how the run ended");
+    runs.numbers.push_back(number);
+    for (std::size_t k = 0; k < n; ++k) cells[k].emplace_back(csv.cell(k));
+  }
+  if (runs.numbers.empty()) {
+    throw ResultsError(fmt::format("{}: has no run yet; {}", path.string(), remedy));
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k == run) continue;
+    SweptRuns::Column column{csv.heading()[k], k > run && k < outcome, {}, {}};
+    const auto numbers = k == outcome ? std::nullopt : as_numbers(cells[k]);
+    if (!numbers) {
+      column.words = std::move(cells[k]);
+    } else if (std::ranges::any_of(*numbers, [](double x) { return !std::isnan(x); })) {
+      column.numbers = *numbers;
+    } else {
+      continue;
+    }
+    runs.columns.push_back(std::move(column));
+  }
+  return runs;
+}
+
+void read_sub_impacts(const SealedFiles& files, const fs::path& path, SweptRuns& runs) {
+  std::map<long, std::size_t> places;
+  for (const long number : runs.numbers) places.emplace(number, places.size());
+  runs.sub_impacts.resize(runs.numbers.size());
+  std::ifstream file = files.open(path.filename());
+  CsvReader csv(file, path.string(), remedy);
+  std::optional<long> before;
+  std::optional<RowOrder> order;
+  for_each_row(csv, sub_impact_columns(), [&](const SweptSubImpact& row) {
+    const auto place = places.find(row.run);
+    if (place == places.end()) csv.refuse_cell(csv.find("run"), "a run of runs.csv");
+    if (row.run != before) {
+      if (!runs.sub_impacts[place->second].empty()) {
+        csv.refuse_cell(csv.find("run"), "rows of one run after each other");
+      }
+      order.emplace(fmt::format("{}, run {}", path.string(), row.run));
+    }
+    before = row.run;
+    order->check(static_cast<const SubImpact&>(row));
+    runs.sub_impacts[place->second].push_back(row);
+  });
+}
+
+}  // namespace
+
+const SweptRuns::Column* SweptRuns::find(std::string_view name) const {
+  const auto found = std::ranges::find(columns, name, &Column::name);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+bool holds_sweep(const fs::path& directory) {
+  std::error_code ignored;
+  return fs::exists(directory / runs_name, ignored) &&
+         !fs::exists(directory / "summary.json", ignored);
+}
+
+SweptRuns read_sweep(const fs::path& directory) {
+  return read_sealed(directory, [&](const SealedFiles& files) {
+    SweptRuns runs = read_runs(files, directory / runs_name);
+    read_sub_impacts(files, directory / sub_impacts_name, runs);
+    if (files.are_sealed()) runs.identity = files.manifest()->identity;
+    return runs;
+  });
 }
 
 }  // namespace subimpact

@@ -1,7 +1,5 @@
 #include "io/record.h"
 
-#include <fmt/format.h>
-
 namespace subimpact {
 namespace {
 

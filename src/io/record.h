@@ -10,7 +10,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -165,8 +164,7 @@ std::vector<std::pair<std::string, std::string>> listing_of(const Record<Row>& r
   return list;
 }
 
-/// A list of objects: `access` returns a vector, by reference or as a value, which is then written
-/// and never read.
+/// A list of objects: `access` returns a vector by reference, or a value, which is never read.
 template <class Row, class Access, class Inner>
 Entry<Row> list_entry(const std::string& name, const std::string& meaning, Access access,
                       const Record<Inner>& record) {

@@ -15,9 +15,7 @@ std::optional<double> duration(const SubImpact& s) {
 // A number of nine digits: fields are looked at and integrated, and their files are large.
 Column<ShapeRow> short_column(const char* name, const char* meaning, double ShapeRow::*member) {
   Column<ShapeRow> column(name, meaning, member);
-  column.append = [member](std::string& text, const ShapeRow& row, std::size_t) {
-    fmt::format_to(std::back_inserter(text), "{:.9g}", row.*member);
-  };
+  column.digits = 9;
   return column;
 }
 

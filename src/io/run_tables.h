@@ -15,8 +15,7 @@ struct RunTable {
   std::vector<Row> Result::*rows;
   /// How many rows there are at an instant; 0: the run leaves no such table.
   std::size_t (*group)(const Case& input, const Result& result);
-  /// Of a table that may be too long to hold: how many instants were written, and the values whose
-  /// extremes are kept.
+  /// Of a table that may be too long to hold: how many instants it has; what keeps its extremes.
   std::size_t (*n_instants)(const Result& result) = nullptr;
   std::vector<double Row::*> drawn = {};
 };
@@ -25,7 +24,6 @@ struct RunTable {
 template <class Row>
 const RunTable<Row>& run_table();
 
-/// Calls `use` with every table.
 template <class Use>
 void for_each_run_table(Use use) {
   use(run_table<SubImpact>());
@@ -37,7 +35,6 @@ void for_each_run_table(Use use) {
   use(run_table<EnvelopeRow>());
 }
 
-/// The contents of a file.
 template <class Row>
 std::string csv_of(const Result& result) {
   const RunTable<Row>& table = run_table<Row>();

@@ -12,7 +12,7 @@
 
 #include "io/record.h"
 #include "subimpact/io/read_results.h"
-#include "subimpact/io/versions.h"
+#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {

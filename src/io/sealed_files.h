@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace subimpact {
 
@@ -38,14 +39,19 @@ std::filesystem::path staging_of(const std::filesystem::path& directory, const s
 /// Whether this is the name of such a directory.
 bool is_staging(const std::string& name);
 
-/// Nothing if the directory has no manifest.json. Throws ResultsError if the file is not a manifest
-/// of this program.
+/// Nothing if the directory has no manifest.json. Throws ResultsError if that is no manifest.
 std::optional<Manifest> read_manifest(const std::filesystem::path& directory);
 
 std::string to_json(const Manifest& manifest);
 
 /// The whole of a file. Throws ResultsError.
 std::string read_whole_file(const std::filesystem::path& path);
+
+/// Writes a file, in the place of one of that name. Throws OutputError.
+void write_file(const std::filesystem::path& path, const std::string& content);
+
+/// Writes the whole content to an open file. Returns 0, or the number of the error.
+int write_all(int file, std::string_view content);
 
 /// Thrown where a file differs from its manifest because another process has put newer files in
 /// place since: what was read so far is to be read again.
@@ -75,8 +81,7 @@ class SealedFiles {
   std::optional<Manifest> manifest_;
 };
 
-/// What `read(files)` returns for the files of one writer, though another one may replace them
-/// meanwhile. Throws ResultsError.
+/// What `read(files)` returns for files that others may replace meanwhile. Throws ResultsError.
 template <class Read>
 auto read_sealed(const std::filesystem::path& directory, Read read) {
   constexpr int most_attempts = 20;

@@ -1,22 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 
 #include "case/counted.h"
+#include "io/sealed_files.h"
 #include "io/study_columns.h"
 #include "io/uncertain.h"
-#include "io/write_file.h"
+#include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/io/sensitivity.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double us = 1e6;              // per second
 constexpr double us_per_percent = 1e4;  // of d/d ln p in seconds
 constexpr int most_decimals = 6;
 constexpr int most_decimals_of_scatter = 4;
@@ -38,23 +35,8 @@ std::string per_percent(const std::optional<Derivative>& derivative) {
   return with_decimals(us_per_percent * derivative->value, rounding->decimals);
 }
 
-bool is_time(const Row& row) {
-  return row.quantity == EventQuantity::start || row.quantity == EventQuantity::end;
-}
-
-struct Line {
-  std::vector<std::string> cells;
-  std::string flag;
-};
-
-Line line_of(const Row& row) {
-  Line line{{fmt::format("{}", row.sub_impact + 1),
-             row.quantity == EventQuantity::start ? "start" : "end",
-             fmt::format("{:.4f}", us * row.value)},
-            row.flag};
-  for (const auto& derivative : row.by_key) line.cells.push_back(per_percent(derivative));
-  return line;
-}
+bool is_start(const Row& row) { return row.quantity == EventQuantity::start; }
+bool is_time(const Row& row) { return is_start(row) || row.quantity == EventQuantity::end; }
 
 // "217.1 +- 1.6": a time with its standard deviation.
 std::string scattered(const std::optional<double>& time, const std::optional<double>& scatter) {
@@ -104,36 +86,32 @@ void write_sensitivity(const std::filesystem::path& directory, const Sensitivity
 }
 
 std::string sensitivity_table(const Sensitivity& study) {
-  std::vector<Line> lines = {{{"", "", ""}, ""}, {{"no.", "", "us"}, ""}};
-  for (const std::string& name : study.keys) {
-    const CaseKey& key = *find_case_key(name);
-    lines[0].cells.push_back(key.table() + ".");
-    lines[1].cells.push_back(key.leaf());
+  std::vector<Row> rows = study.rows;
+  // The first touch, where time begins, has no derivative.
+  std::erase_if(rows, [](const Row& row) { return !is_time(row) || row.value == 0.0; });
+  StudyColumns<Row> columns = {
+      {"", [](const Row& row) { return row.sub_impact + 1; }, {"no.", ">4"}},
+      {"", [](const Row& row) { return is_start(row) ? "start" : "end"; }, {"", ">5"}}};
+  const auto add = [&](const std::string& heading, std::size_t width, auto cell) {
+    for (const Row& row : rows) width = std::max(width, cell(row).size());
+    columns.push_back({"", cell, {heading, fmt::format(">{}", width)}});
+  };
+  add("us", narrowest, [](const Row& row) { return fmt::format("{:.4f}", us * row.value); });
+  for (std::size_t k = 0; k < study.keys.size(); ++k) {
+    const CaseKey& key = *find_case_key(study.keys[k]);
+    add(key.table() + ".\n" + key.leaf(),
+        std::max({narrowest, key.table().size() + 1, key.leaf().size()}),
+        [k](const Row& row) { return per_percent(row.by_key[k]); });
   }
-  for (const Row& row : study.rows) {
-    const bool is_zero_of_time = row.value == 0.0;  // the first touch
-    if (is_time(row) && !is_zero_of_time) lines.push_back(line_of(row));
-  }
-  std::vector<std::size_t> widths(lines[0].cells.size(), narrowest);
-  widths[0] = 4;
-  widths[1] = 5;
-  for (const Line& line : lines) {
-    for (std::size_t k = 0; k < widths.size(); ++k) {
-      widths[k] = std::max(widths[k], line.cells[k].size());
-    }
-  }
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{}, {}; change of event times in us per 1 % more of\n", study.base.used.mesh,
-                 to_string(study.input.solver.method));
-  for (const Line& line : lines) {
-    for (std::size_t k = 0; k < widths.size(); ++k) {
-      fmt::format_to(out, "{}{:>{}}", k == 0 ? "" : " ", line.cells[k], widths[k]);
-    }
-    fmt::format_to(out, "{}{}\n", line.flag.empty() ? "" : "  ! ", line.flag);
-  }
-  for (const std::string& remark : study.remarks) fmt::format_to(out, "{}\n", remark);
-  return fmt::to_string(text);
+  const auto flag = [](const Row& row) {
+    return row.flag.empty() ? std::nullopt : std::optional(" ! " + row.flag);
+  };
+  columns.push_back({"", flag, {"", "<"}});
+  std::string text =
+      fmt::format("{}, {}; change of event times in us per 1 % more of\n{}", study.base.used.mesh,
+                  to_string(study.input.solver.method), printed_table(columns, rows));
+  for (const std::string& remark : study.remarks) text += remark + '\n';
+  return text;
 }
 
 std::string predictability_words(const Result& result) {
@@ -152,27 +130,25 @@ std::string predictability_words(const Result& result) {
 
 std::string scatter_table(const Result& result) {
   const Predictability& found = *result.predictability;
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out,
-                 "standard deviations by the scatter of the case (?: not known, or more than is "
-                 "possible: derivatives do not hold that far)\n{:>6} {:>22} {:>22}\n",
-                 "no.", "start, us", "end, us");
+  std::string text;
+  text += fmt::format(
+      "standard deviations by the scatter of the case (?: not known, or more than is possible: "
+      "derivatives do not hold that far)\n{:>6} {:>22} {:>22}\n",
+      "no.", "start, us", "end, us");
   for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
     if (found.first_unpredictable == i) {
-      fmt::format_to(out, "from here on not predictable: {}\n", found.reason);
+      text += fmt::format("from here on not predictable: {}\n", found.reason);
     }
     const SubImpact& s = result.sub_impacts[i];
-    fmt::format_to(out, "{:>6} {:>22} {:>22}\n", i + 1, scattered(s.start, s.start_scatter),
-                   scattered(s.end, s.end_scatter));
+    text += fmt::format("{:>6} {:>22} {:>22}\n", i + 1, scattered(s.start, s.start_scatter),
+                        scattered(s.end, s.end_scatter));
   }
   const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
   for (std::size_t z = 0; z < std::min(zones.size(), found.zones.size()); ++z) {
-    text.append(zone_line(found.zones[z], zones[z]));
+    text += zone_line(found.zones[z], zones[z]);
   }
-  fmt::format_to(out, "striker, at the end: {} m/s\n",
-                 with_scatter(result.striker_velocity, found.striker_velocity_scatter));
-  return fmt::to_string(text);
+  return text + fmt::format("striker, at the end: {} m/s\n",
+                            with_scatter(result.striker_velocity, found.striker_velocity_scatter));
 }
 
 }  // namespace subimpact

@@ -20,15 +20,18 @@ struct Print {
   double unit = 1.0;        ///< what real numbers are multiplied by
 };
 
-/// A column that is in the file (if it has a name), in the printed table (if it has a width), or in
-/// both.
+/// A column of the file (if it has a name), of the printed table (if it has a width), or of both.
 template <class Row>
 struct StudyColumn : Column<Row> {
   template <class Value>
-  StudyColumn(std::string name_in_file, Value value, Print how = {})
-      : Column<Row>(std::move(name_in_file), value), print(std::move(how)) {}
+  StudyColumn(std::string name_in_file, Value value, Print how = {},
+              bool (*printed_where)(const Row&) = nullptr)
+      : Column<Row>(std::move(name_in_file), value),
+        print(std::move(how)),
+        is_printed(printed_where) {}
 
   Print print;
+  bool (*is_printed)(const Row&);  ///< null: in all rows; elsewhere the column is blank
 };
 
 template <class Row>
@@ -90,8 +93,9 @@ std::string printed_heading(const StudyColumns<Row>& columns) {
 
 template <class Row>
 std::string printed_row(const StudyColumns<Row>& columns, const Row& row, std::size_t index = 0) {
-  return printed_line(columns,
-                      [&](const StudyColumn<Row>& column) { return column.cell(row, index); });
+  return printed_line(columns, [&](const StudyColumn<Row>& column) {
+    return !column.is_printed || column.is_printed(row) ? column.cell(row, index) : Cell();
+  });
 }
 
 template <class Row>

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 
+#include <toml++/toml.h>
+#include <Eigen/Core>
+
 #include "case/problem.h"
+#include "integrate/sundials.h"
 #include "io/run_record.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/versions.h"
+#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {
@@ -79,6 +83,22 @@ void read_summary(const std::filesystem::path& path, const std::string& text, Fi
     throw ResultsError(
         fmt::format("{}: the case in this file is not valid: {}", path.string(), error.what()));
   }
+}
+
+std::string project_version() { return SUBIMPACT_VERSION; }
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+  return {
+      {"SUNDIALS", sundials_version()},
+      {"KLU", klu_version()},
+      {"Eigen",
+       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"fmt",
+       fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
+                                    NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"toml++", fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+  };
 }
 
 }  // namespace subimpact

@@ -14,15 +14,13 @@ struct Rounding {
 };
 
 /// The rounding that an error allows, with at most `most_decimals`: a smaller error is stated as
-/// one unit of the last of them. None for an error that means nothing: not finite, negative, or
-/// 1e15 and above.
+/// one unit of the last of them. None for an error that is not finite, negative, or 1e15 and above.
 std::optional<Rounding> rounding_of(double error, int most_decimals);
 
 /// A number with so many decimals; negative: rounded to tens, hundreds, ...
 std::string with_decimals(double value, int decimals);
 
-/// A number of which no error is known, with so many significant digits; two: 8800 for 8796.3, 5.8
-/// for 5.7933, 1.2e-09.
+/// A number without a known error, with so many significant digits: 8800 for 8796.3, 1.2e-09.
 std::string with_digits(double value, int digits);
 
 /// An error of times in words: "0.3 us", "0.012 us", "2 ms"; rounded as above.

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "io/run_tables.h"
-#include "io/write_file.h"
+#include "io/sealed_files.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
@@ -30,8 +30,7 @@ class ResultWriter::RowFile {
   }
   bool is_full() const { return pending_.size() > most_pending; }
 
-  /// Writes the rows collected. Throws OutputError; the file holds the rows of the calls before
-  /// then.
+  /// Writes the rows collected. Throws OutputError; the file then holds the rows of earlier calls.
   void write_to(const OutputDirectory& directory) {
     if (file_ < 0) {
       const fs::path path = directory.staging() / name_;

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "subimpact/model/natural_modes.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

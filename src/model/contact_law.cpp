@@ -82,8 +82,7 @@ void require(bool holds, fmt::format_string<const Values&...> broken, const Valu
   if (!holds) throw BrokenRule(fmt::format(broken, values...));
 }
 
-// By Simpson's rule in s with x = from + (to - from) s^3: forces change fastest where a branch
-// begins.
+// By Simpson's rule in s, x = from + (to - from) s^3: forces change fastest where a branch begins.
 template <class F>
 double integral(F f, double from, double to) {
   constexpr double h = 1.0 / n_panels;

@@ -99,8 +99,7 @@ struct Columns {
   explicit Columns(std::size_t n) : w((n + n_lanes - 1) / n_lanes * n_lanes), slope(w.size()) {}
 };
 
-/// Writes shapes of modes and rigid motion: computed for the nodes on one side of the middle, which
-/// the other side mirrors.
+/// Writes shapes of modes and rigid motion: one side of the middle is computed, the other mirrored.
 class Shapes {
  public:
   /// `about_last` or `about_first`: the last or first end, pinned, is the middle of odd modes.

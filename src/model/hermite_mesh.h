@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "model/hermite_element.h"
-#include "model/hermite_nodes.h"
+#include "model/hermite_elements.h"
 #include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "subimpact/model/natural_modes.h"
+#include "subimpact/model/beam_mesh.h"
 #include "subimpact/model/scene.h"
 
 namespace subimpact {

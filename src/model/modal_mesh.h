@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "subimpact/model/beam_mesh.h"
-#include "subimpact/model/natural_modes.h"
 
 namespace subimpact {
 

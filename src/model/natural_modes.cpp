@@ -1,5 +1,3 @@
-#include "subimpact/model/natural_modes.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -91,8 +89,7 @@ Eigen::MatrixXd inertia_of(const BeamMesh& mesh, const Eigen::MatrixXd& shapes) 
 // X becomes X (I + E), where E removes to first order what keeps X^T Mass X from I and X^T K X from
 // a diagonal matrix (Ogita and Aishima, Jpn. J. Ind. Appl. Math. 35, 2018, 1007-1035). Rounding in
 // a decomposition mixes modes i and j by some 1e-16 of the highest eigenvalue over the difference
-// of theirs, which grows as the fourth power of the number of elements. Returns the largest entry
-// of E.
+// of theirs, which grows as the fourth power of the number of elements. Returns the largest of E.
 double correct_shapes(const BeamMesh& mesh, double bending_stiffness, Eigen::MatrixXd& shapes) {
   const Eigen::Index n = shapes.cols();
   Eigen::MatrixXd energies = Eigen::MatrixXd::Zero(n, n);  // lower halves only

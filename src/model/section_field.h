@@ -19,7 +19,6 @@ class SectionField {
  public:
   /// A field that never yields, M = stiffness kappa.
   SectionField(std::size_t n_sections, double stiffness);
-  /// A field of one law.
   SectionField(std::size_t n_sections, const SectionLaw& law);
 
   std::size_t size() const { return low_.size(); }

@@ -10,8 +10,7 @@ namespace {
 
 using Point = SectionHistory::Point;
 
-// The i-th reversal point in force: those stored and, when the motion turns back from the edge, the
-// edge itself on top.
+// The i-th reversal point in force: those stored and, where the motion turns back, the edge on top.
 const Point& point_in_force(const SectionHistory& history, std::size_t i) {
   return i < history.reversals.size() ? history.reversals[i] : history.edge;
 }
@@ -130,8 +129,7 @@ void SectionLaw::commit(SectionHistory& history, double curvature) const {
     history.direction = -history.direction;
     history.work_of_branch = 0.0;
   }
-  // Along the branches to x; a branch that passes the previous reversal point closes a loop, which
-  // is forgotten.
+  // Along the branches to x. One that passes the previous reversal point closes a loop: forgotten.
   std::vector<Point>& reversals = history.reversals;
   for (;;) {
     const SectionBranch branch = innermost_branch(history);

@@ -21,8 +21,7 @@ struct SectionHistory {
   double work_of_branch = 0.0;  ///< that part which was done on the branch of the edge
 };
 
-/// Curvatures (1/m) between which none of a section's fibres flows: there M = stiffness kappa -
-/// offset.
+/// Curvatures (1/m) between which no fibre of a section flows: there M = stiffness kappa - offset.
 struct ElasticWindow {
   double low, high;
   double offset;  ///< N m

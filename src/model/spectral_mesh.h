@@ -64,8 +64,7 @@ class SpectralMesh final : public BeamMesh {
   void assemble_mass(const Beam& beam);
   void assemble_shear();
   void place_sections();
-  // The unknowns of the displacements (0) or the rotations r phi (1) at x, with Lagrange's
-  // polynomials there.
+  // Lagrange's polynomials at x for the displacements (0) or the rotations r phi (1).
   SparseFunctional interpolated(double x, std::size_t which) const;
 
   std::size_t n_elements_;  // of the whole beam

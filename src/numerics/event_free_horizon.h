@@ -18,15 +18,13 @@ namespace subimpact {
 /// tau/4. See docs/theory.md, "Free flight", for the derivation.
 class EventFreeHorizon {
  public:
-  /// `frequencies`: omega, n of them, rad/s, ascending, the last above 0; `functions`: g, row by
-  /// row.
+  /// `frequencies`: omega, n of them, rad/s, ascending, the last above 0; `functions`: rows of g.
   EventFreeHorizon(std::vector<double> frequencies, std::vector<double> functions);
 
   std::span<const double> frequencies() const { return omega_; }
   std::size_t n_functions() const { return functions_.size() / n_; }
 
-  /// Horizon (s), at most `longest`, from displacements z and their rates; 0 if nothing can be
-  /// shown.
+  /// Horizon (s), at most `longest`, from displacements z and their rates; 0: nothing can be shown.
   double from(std::span<const double> z, std::span<const double> rates, std::span<const double> low,
               std::span<const double> high, double longest);
 

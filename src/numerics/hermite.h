@@ -30,8 +30,7 @@ class HermiteCubic {
     return s > 0.0 && s < 1.0 ? std::min(ends, slope(s)) : ends;
   }
 
-  /// Where the slope changes from positive to negative in [0, 1], given that it is positive at 0
-  /// and negative at 1.
+  /// Where the slope changes its sign in [0, 1], given that it is positive at 0 and negative at 1.
   double peak() const {
     const double root = std::sqrt(std::max(c2_ * c2_ - 3.0 * c1_ * c3_, 0.0));
     return std::clamp(c1_ / (root - c2_), 0.0, 1.0);
@@ -46,8 +45,7 @@ class HermiteCubic {
     return std::nullopt;
   }
 
-  /// Where, between equal senses at both ends, the slope is farthest in the other sense; nothing if
-  /// it never is.
+  /// Where, between equal senses at both ends, the slope is farthest in the other sense, if ever.
   std::optional<double> reversed_at() const {
     const double last = c1_ + 2.0 * c2_ + 3.0 * c3_;
     const double s = -c2_ / (3.0 * c3_);
@@ -79,8 +77,7 @@ class HermiteCubic {
   double c0_, c1_, c2_, c3_;
 };
 
-/// Septic through a value and its first three rates at both ends of a step, as a function of s in
-/// [0, 1].
+/// Septic through a value and its first three rates at both ends of a step; s in [0, 1].
 class HermiteSeptic {
  public:
   struct End {

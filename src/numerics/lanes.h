@@ -93,7 +93,6 @@ inline double sum(const Lanes& values) {
   return (joined[0] + joined[2]) + (joined[1] + joined[3]);
 }
 
-/// a . b
 inline double dot(const double* a, const double* b, std::size_t n) {
   // Four running sums, so that additions do not wait for each other.
   Lanes running[4] = {};

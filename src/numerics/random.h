@@ -1,17 +1,13 @@
 #pragma once
 
-/// Random numbers that are the same on every machine and with every standard library.
-
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 namespace subimpact {
 
-/// Steele, Lea and Flood 2014, SplitMix64, with transforms of our own.
-class Random {
+/// SplitMix64 (Steele, Lea and Flood 2014): random numbers that are the same on every machine.
+class SplitMix64 {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t next() {
     state_ += 0x9e3779b97f4a7c15ULL;
@@ -23,21 +19,6 @@ class Random {
 
   /// From 0 (included) to 1 (not).
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-  double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  double log_uniform(double low, double high) {
-    return low * std::exp(uniform() * std::log(high / low));
-  }
-  bool chance(double probability) { return uniform() < probability; }
-  /// From 0 to n - 1.
-  std::size_t index(std::size_t n) {
-    return static_cast<std::size_t>(uniform() * static_cast<double>(n));
-  }
-
-  /// One of a list.
-  template <class List>
-  const auto& one_of(const List& list) {
-    return list[index(list.size())];
-  }
 
  private:
   std::uint64_t state_;

@@ -23,7 +23,6 @@ class VectorSum {
 
   /// The first n entries of the sum. `out` may be the first vector, but no other.
   void write(double* out, std::size_t n) const;
-  /// The sum of the squares of the first n entries.
   double sum_of_squares(std::size_t n) const;
 
  private:

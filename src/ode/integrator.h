@@ -14,8 +14,7 @@
 namespace subimpact {
 
 /// Functions of the state whose events an integrator finds by itself (Integrator::root). An event
-/// happens where a value rises through zero; a value that falls through zero, or is exactly zero,
-/// is none.
+/// happens where a value rises through zero; falling through zero, or exactly zero, is none.
 class EventFunctions {
  public:
   virtual ~EventFunctions() = default;
@@ -28,8 +27,7 @@ class EventFunctions {
   virtual void evaluate(std::span<const double> y, std::span<EventValue> values) const = 0;
 };
 
-/// Thrown by an integrator that cannot continue. `what()` is the whole message; its parts are
-/// stored for reports.
+/// Thrown by an integrator that cannot continue; the parts of `what()` are stored for reports.
 class IntegrationFailure : public std::runtime_error {
  public:
   IntegrationFailure(double time, const std::string& function, const std::string& flag,
@@ -44,8 +42,7 @@ class IntegrationFailure : public std::runtime_error {
   std::string flag;      ///< name of the error
 };
 
-/// One step as the integrator took it, or a part of one: times (s) and states of both ends, which
-/// must outlive this.
+/// One step as the integrator took it, or a part of one: times (s) and states that outlive this.
 struct StepEnds {
   double t0, t1;
   const State& y0;

@@ -26,8 +26,7 @@ class SecondOrderOde {
   virtual void acceleration_at(std::span<const double> y, std::span<double> result) {
     acceleration(y.first(n_positions()), result);
   }
-  /// Typical sizes of a position and of a velocity in this problem, from which absolute tolerances
-  /// are derived.
+  /// Typical sizes of a position and of a velocity, from which absolute tolerances are derived.
   struct Scales {
     double position, velocity;
   };
@@ -50,8 +49,7 @@ struct SparsityPattern {
 /// depends_on_velocity(), of y = [q, v] only q is read.
 class MechanicalSystem : public SecondOrderOde {
  public:
-  /// f is the sum of a stiff part, which only implicit methods can take with long steps, and the
-  /// rest.
+  /// f is the sum of a stiff part, which only implicit methods take with long steps, and the rest.
   enum class Part { all, stiff, rest };
 
   /// f at y, or one part of it; changes no history.

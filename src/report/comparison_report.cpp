@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "case/counted.h"
+#include "io/sealed_files.h"
 #include "io/uncertain.h"
-#include "io/write_file.h"
 #include "report/page.h"
 #include "report/page_data.h"
 #include "subimpact/case/case_keys.h"

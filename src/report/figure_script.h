@@ -33,15 +33,13 @@ std::vector<Point> line_of(const std::vector<Row>& rows, X x, Y y) {
 std::vector<Point> thin_out(const std::vector<Point>& line, double x_scale, double y_scale,
                             double tolerance);
 
-/// The part of an axis that a figure shows.
 struct AxisRange {
   double from, to;
 };
 
 using NumberRows = std::vector<std::vector<double>>;
 
-/// A figure of a run: its script (figures/<name>.gp), and the tables and variables that the script
-/// reads, in SI units.
+/// A figure of a run: its script (figures/<name>.gp) with the tables and variables (SI) it reads.
 class FigureScript {
  public:
   FigureScript(std::string name, std::string caption, FigureSize size);
@@ -77,8 +75,7 @@ class FigureScript {
 std::vector<Point> thin_for_panel(const std::vector<Point>& line, FigureSize panel,
                                   const std::optional<AxisRange>& x_range = {});
 
-/// The member behind a column of history.csv. Throws std::logic_error for a name that no column of
-/// numbers has.
+/// The member behind a column of numbers of history.csv. Throws std::logic_error for other names.
 double HistoryRow::*history_member(std::string_view column);
 
 /// The figures of a run for which it has data, marked if the run did not complete.

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <ranges>
+#include <string_view>
 
 #include "case/counted.h"
 #include "io/sealed_files.h"
-#include "io/write_file.h"
 #include "report/figure_script.h"
 #include "report/files.h"
 #include "subimpact/io/report.h"
@@ -17,23 +17,17 @@ namespace {
 
 // The sections for which the figure `bending` has no space.
 std::string sections_left_out(const std::vector<double>& sections) {
-  std::string positions;
-  for (std::size_t k = most_bending_panels; k < sections.size(); ++k) {
-    positions += fmt::format("{}{:g}", positions.empty() ? "" : ", ", sections[k]);
-  }
   return fmt::format(
-      "bending: sections {} to {} of output.sections ({}): the figure has room for {}; run the "
+      "bending: sections {} to {} of output.sections ({:g}): the figure has room for {}; run the "
       "case again with fewer, or draw them from sections.csv",
-      most_bending_panels + 1, sections.size(), positions, most_bending_panels);
+      most_bending_panels + 1, sections.size(),
+      fmt::join(sections.begin() + most_bending_panels, sections.end(), ", "), most_bending_panels);
 }
 
 // A line each, because figures are narrow.
 void mark_clauses(FigureScript& figure, const std::string& text) {
-  const std::string separator = "; ";
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find(separator, start), text.size());
-    figure.mark(text.substr(start, end - start));
-    start = end + separator.size();
+  for (const auto clause : std::views::split(text, std::string_view("; "))) {
+    figure.mark({clause.begin(), clause.end()});
   }
 }
 

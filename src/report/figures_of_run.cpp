@@ -36,8 +36,7 @@ std::vector<std::size_t> yielding_again(const Result& result) {
   return found;
 }
 
-// The table $sub_impacts, and where their zones and sub-zones are. Without an error estimate all
-// count as certain.
+// $sub_impacts, and where zones and sub-zones are. Without an error estimate all count as certain.
 void add_sub_impacts(FigureScript& figure, const Result& result) {
   const std::size_t n_certain = result.n_certain().value_or(result.sub_impacts.size());
   NumberRows rows, zones, subzones;

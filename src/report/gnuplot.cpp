@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "io/sealed_files.h"
-#include "io/write_file.h"
 #include "report/files.h"
 #include "subimpact/io/results.h"
 

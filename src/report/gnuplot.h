@@ -3,7 +3,6 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "subimpact/report/figures.h"
 
@@ -35,13 +34,11 @@ inline constexpr std::chrono::seconds most_drawing_time{120};
 ///
 /// A figure appears whole or not at all. gnuplot is ended when `most_time` is over. Throws
 /// GnuplotMissing if gnuplot cannot be started; FigureError if it does not take the script, with
-/// what it printed, or takes too long; OutputError if a file cannot be written, and then the script
-/// is removed too.
+/// what it printed, or takes too long; OutputError if a file cannot be written (no script is left).
 void draw_figure(const std::filesystem::path& directory, const std::string& name,
                  const std::string& script, FigureSize size = {},
                  std::chrono::milliseconds most_time = most_drawing_time);
 
-/// Removes all files of a figure.
 void remove_figure(const std::filesystem::path& directory, const std::string& name);
 
 }  // namespace subimpact

@@ -9,8 +9,6 @@
 #include "io/sealed_files.h"
 #include "io/sub_impact_rows.h"
 #include "io/uncertain.h"
-#include "io/write_file.h"
-#include "report/files.h"
 #include "report/page.h"
 #include "report/page_data.h"
 #include "subimpact/case/case_keys.h"
@@ -21,7 +19,6 @@
 namespace subimpact {
 namespace {
 
-// What is certain of a run, and what is not.
 Json headlines(const Result& result) {
   Json list = Json::array();
   const auto line = [&](bool certain, const std::string& words) {
@@ -91,7 +88,6 @@ Json figure_list(const DrawnFigures& figures, const std::filesystem::path& figur
   });
 }
 
-// The table of sub-impacts.
 void add_sub_impacts(Json& page, const Result& result) {
   const SubImpactRows table = sub_impact_rows(result, "±");
   page["n_columns"] = table.columns.size();

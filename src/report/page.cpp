@@ -8,7 +8,6 @@
 #include <regex>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "io/printable.h"
 #include "io/sealed_files.h"

@@ -36,8 +36,7 @@ Json list_of(const Range& range, Entry entry) {
   return list;
 }
 
-/// Words of the program with units and signs as they are set in print: "12 us +- 1" becomes "12 µs
-/// ± 1".
+/// Words with units and signs as they are set in print: "12 us +- 1" becomes "12 µs ± 1".
 std::string in_print(std::string text);
 
 /// One line of a page's headline: what is certain, or what is not.

@@ -4,8 +4,9 @@
 
 #include "case/case_choices.h"
 #include "case/meshes.h"
+#include "io/sealed_files.h"
 #include "io/study_columns.h"
-#include "io/write_file.h"
+#include "numerics/units.h"
 #include "report/gnuplot.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
@@ -13,8 +14,6 @@
 
 namespace subimpact {
 namespace {
-
-constexpr double us = 1e6;  // per second
 
 // Whether a case has a key of its mesh that another mesh does not take: its count of parts, which
 // may be given even where it has the default, or another one that differs from the default.

@@ -5,17 +5,15 @@
 
 #include "case/case_choices.h"
 #include "case/counted.h"
+#include "io/sealed_files.h"
 #include "io/study_columns.h"
-#include "io/write_file.h"
+#include "numerics/units.h"
 #include "report/gnuplot.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double us = 1e6;  // per second
-
-// A number of the errors of a run.
 template <auto number>
 constexpr auto errors = [](const auto& row) { return row.errors.*number; };
 

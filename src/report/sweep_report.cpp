@@ -8,8 +8,7 @@
 #include <set>
 
 #include "case/counted.h"
-#include "io/write_file.h"
-#include "report/files.h"
+#include "io/sealed_files.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
@@ -19,7 +18,6 @@ namespace {
 
 constexpr std::size_t most_sub_impacts = 80'000;  // on a page, which stays below 6 MB or so
 
-// How a column is shown: a value times `factor`, in `unit`.
 struct Shown {
   const char* column;
   const char* label;

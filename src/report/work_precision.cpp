@@ -9,12 +9,11 @@
 #include "io/csv_reader.h"
 #include "io/sealed_files.h"
 #include "io/study_columns.h"
-#include "io/write_file.h"
+#include "numerics/units.h"
 #include "report/gnuplot.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/io/versions.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact {
@@ -29,10 +28,8 @@ static bool read_cell(std::string_view cell, Verdict& verdict) {
 
 namespace {
 
-constexpr double us = 1e6;  // per second
 constexpr const char* file_name = "work_precision.csv";
 
-// A row of the file.
 struct LoggedPoint {
   std::string id, label;  // of the case
   std::string kind;       // of the setting
@@ -57,13 +54,6 @@ bool has_errors(const LoggedPoint& row) {
   return row.point.verdict == Verdict::right || row.point.verdict == Verdict::wrong_count;
 }
 
-// A number of the rows for which `condition` holds.
-auto where(bool (*condition)(const LoggedPoint&), auto value) {
-  return [=](const LoggedPoint& row) {
-    return condition(row) ? std::optional(value(row)) : std::nullopt;
-  };
-}
-
 std::string correspondence(const LoggedPoint& row) {
   return fmt::format("{:>4}/{:<4}", row.point.errors.n_corresponding, row.point.errors.n_reference);
 }
@@ -84,33 +74,27 @@ const StudyColumns<LoggedPoint>& point_columns() {
       {"reference_sub_impacts", errors<&EventErrors::n_reference>},
       {"sub_impacts", errors<&EventErrors::n_found>},
       {"corresponding", errors<&EventErrors::n_corresponding>},
-      {"", where(has_errors, correspondence), {"corre-\nspond", ">9"}},
+      {"", correspondence, {"corre-\nspond", ">9"}, has_errors},
       {"first_odd_s", &LoggedPoint::unmatched_start},
       {"odd_duration_s", &LoggedPoint::unmatched_duration},
-      {"median_error_s", errors<&EventErrors::median>},
-      {"", where(has_errors, errors<&EventErrors::median>), time("times,\nmedian us")},
-      {"max_error_s", errors<&EventErrors::maximum>},
-      {"", where(has_errors, errors<&EventErrors::maximum>), time("times,\nmax us")},
+      {"median_error_s", errors<&EventErrors::median>, time("times,\nmedian us"), has_errors},
+      {"max_error_s", errors<&EventErrors::maximum>, time("times,\nmax us"), has_errors},
       {"first_error_s", errors<&EventErrors::first>},
       {"last_error_s", errors<&EventErrors::last>},
-      {"peak_force_error", errors<&EventErrors::peak_force>},
-      {"", where(has_errors, errors<&EventErrors::peak_force>), share("peaks,\nmax rel.")},
-      {"striker_velocity_error", errors<&EventErrors::striker_velocity>},
-      {"", where(has_errors, errors<&EventErrors::striker_velocity>), share("striker,\nrel.")},
+      {"peak_force_error", errors<&EventErrors::peak_force>, share("peaks,\nmax rel."), has_errors},
+      {"striker_velocity_error", errors<&EventErrors::striker_velocity>, share("striker,\nrel."),
+       has_errors},
       {"beam_velocity_error", errors<&EventErrors::beam_velocity>},
       {"wall_s", of_point<&WorkPrecisionPoint::seconds>},
-      {"", where(has_run, wall_time), {"wall\ntime", ">10"}},
+      {"", wall_time, {"wall\ntime", ">10"}, has_run},
       {"repeats", of_point<&WorkPrecisionPoint::repeats>},
       {"setup_s", work<&Work::setup_seconds>},
       {"steps", work<&Work::steps>},
       {"rejected_steps", work<&Work::rejected_steps>},
-      {"right_hand_sides", work<&Work::right_hand_sides>},
-      {"", where(has_run, work<&Work::right_hand_sides>), {"right-hand\nsides", ">10"}},
-      {"mass_solves", work<&Work::mass_solves>},
-      {"", where(has_run, work<&Work::mass_solves>), {"mass\nsolves", ">10"}},
+      {"right_hand_sides", work<&Work::right_hand_sides>, {"right-hand\nsides", ">10"}, has_run},
+      {"mass_solves", work<&Work::mass_solves>, {"mass\nsolves", ">10"}, has_run},
       {"jacobians", work<&Work::jacobians>},
-      {"factorisations", work<&Work::factorisations>},
-      {"", where(has_run, work<&Work::factorisations>), {"factori-\nsations", ">8"}},
+      {"factorisations", work<&Work::factorisations>, {"factori-\nsations", ">8"}, has_run},
       {"message", of_point<&WorkPrecisionPoint::message>},
   };
   return columns;

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/units.h"
+
 namespace subimpact {
 namespace {
 
 // An energy above the initial one by this part is a blow-up, not an error.
 constexpr double blow_up = 0.5;
-
-constexpr double us = 1e6;  // per second
 
 // The larger of the two, or NaN if `error` is not a number.
 double larger(double largest, double error) { return error <= largest ? largest : error; }

@@ -22,11 +22,7 @@ constexpr double velocity_rounding = 1e-12;
 constexpr int most_cuts = 100;
 
 // Roots are found to rounding.
-RootOptions to_rounding(double time) {
-  RootOptions options;
-  options.tolerance = 8.0 * epsilon * time;
-  return options;
-}
+RootOptions to_rounding(double time) { return {8.0 * epsilon * time}; }
 
 }  // namespace
 

@@ -10,8 +10,7 @@
 
 namespace subimpact {
 
-/// Bound of the rounding error of an event function at a state y, time t (s), at which it vanishes:
-/// m, or m/s for contact_unloads.
+/// Bound of the rounding of an event function (m; of contact_unloads m/s) that vanishes at t (s).
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at);
 
@@ -36,8 +35,7 @@ class EventLocator {
 
   /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, by moving the pointer to a
   /// state stored in this object until the next call. Returns the event at the end, if there is
-  /// one. `indentation`: of the whole step. `correction`: that of the step as it then is, not yet
-  /// added to y1.
+  /// one. `indentation`: of the whole step. `correction`: of the step as it then is, not yet added.
   std::optional<EventFunction> find_end(const StepEnds& whole, const IndentationStep& indentation,
                                         double& t1, const State*& y1,
                                         SectionCorrection& correction);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "numerics/units.h"
+
 namespace subimpact {
 namespace {
 
@@ -19,8 +21,6 @@ constexpr double tolerated_rounding = 64.0;
 
 // Steps for which a run with a wrong energy is continued, to decide whether it is unstable.
 constexpr long most_steps_ahead = 20000;
-
-constexpr double us = 1e6;  // per second
 
 ContactBranch branch_after(EventKind kind) {
   if (kind == EventKind::contact_yields) return ContactBranch::plastic;
@@ -204,10 +204,7 @@ void EventLoop::report(const EventFunction& function, double time, const State& 
     beam_.contact().pass(function, beam_.indentation(y));
     return;
   }
-  Transition event;
-  event.time = time;
-  event.kind = function.kind;
-  event.value = beam_.indentation(y);
+  const Transition event{time, function.kind, {}, beam_.indentation(y)};
   if (changes_branch) check_root(function, time, y);
   watch_for_chattering(time);
   const bool audited = observer_->audits_events();

@@ -52,8 +52,7 @@ struct LoopOptions {
   double first_touch = 0.0;
 };
 
-/// The loop that all methods share: take a step, find its first event, end the step there, change
-/// the equations, continue.
+/// The loop of all methods: take a step, end it at its first event, change the equations, continue.
 class EventLoop {
  public:
   EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
@@ -61,8 +60,7 @@ class EventLoop {
 
   /// Puts the beam at the first touch, with the contact just begun.
   void start();
-  /// Puts the beam at the time of the first touch in another state, with the contact as it is (see
-  /// ContactState::set).
+  /// The same in another state, with the contact as it is (see ContactState::set).
   void start_from(const State& y);
   /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure
   /// or RunStopped; time() and state() are then those of the last state that was accepted.

@@ -31,8 +31,7 @@ class FieldRecorder {
   /// At every history row: the motion of the points, and the envelope.
   void follow(double time, const State& y, Accounts& accounts);
   void add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const;
-  /// At the end: the envelope and, of a state that `is_good`, the last shape and what is left of
-  /// bending.
+  /// At the end: the envelope and, of a state that `is_good`, the last shape and the bending left.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
 
  private:

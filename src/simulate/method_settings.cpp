@@ -62,8 +62,7 @@ bool takes_damping_ratio(const MethodDescriptor& method) {
 }
 
 double default_central_step(const ResolvedSettings& used) {
-  // The scheme's energy is off by some (h/T)^2 of what the contact's own motion holds, m_eff/m of
-  // the whole.
+  // The scheme's energy is off by some (h/T)^2 of what the contact's own motion holds, m_eff/m.
   const double steps = std::max(default_steps_in_contact,
                                 default_steps_to_keep_energy * std::sqrt(used.contact_mass_share));
   return std::min(default_part_of_critical * used.critical_step, used.contact_time / steps);

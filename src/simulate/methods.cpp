@@ -17,8 +17,7 @@ using IntegratorPointer = std::unique_ptr<Integrator>;
 
 constexpr int usual_adams_order = 12;
 // Orders above 2 are unstable on undamped oscillations, but only for steps that tolerances of 1e-7
-// and below do not take; there order 5 is 20 times as accurate as order 2 with a quarter of the
-// evaluations.
+// and below do not take; there order 5 is 20 times as accurate as order 2 at a quarter of the cost.
 constexpr int usual_bdf_order = 5;
 
 // A Nystroem evaluation advances a step twice as far as one of a Runge-Kutta method.

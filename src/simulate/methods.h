@@ -7,7 +7,6 @@
 
 #include "integrate/options.h"
 #include "ode/integrator.h"
-#include "subimpact/simulate/method_tables.h"
 #include "subimpact/simulate/options.h"
 #include "system/struck_beam.h"
 
@@ -72,8 +71,7 @@ struct MethodDescriptor {
 const std::vector<MethodDescriptor>& methods();
 const MethodDescriptor& descriptor_of(Method method);
 
-/// The default fixed step, and the largest that refined runs and sweeps take, over the critical
-/// step of central differences.
+/// The default fixed step, and the largest of refined runs and sweeps, over the critical step.
 constexpr double default_part_of_critical = 0.9;
 
 /// The given value or, if none is given, the default of the method.

@@ -76,8 +76,7 @@ class LossQuadrature {
   /// `tolerance` of a step's integral, J.
   explicit LossQuadrature(double tolerance) : tolerance_(tolerance) {}
 
-  /// What is lost from the start of the step to a time t within it or at its end, where the state
-  /// is y.
+  /// What is lost from the start of the step to a time t in it or at its end, where the state is y.
   Losses over(const ObservedStep& step, double t, const State& y, StruckBeam& beam);
 
  private:

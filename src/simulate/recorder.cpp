@@ -30,8 +30,7 @@ double maximum_in(const Function& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-// A tensile force is tolerated within this many roundings of the displacements of the contact's
-// end.
+// A tensile force is tolerated within so many roundings of displacements of the contact's end.
 constexpr double tolerated_rounding = 64.0;
 
 // Places at which the largest rotation is looked for, both ends of the part modelled among them.
@@ -42,8 +41,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 // Rows and shapes nearer than this, relative to the time, are of one instant.
 constexpr double same_instant = 1e-12;
 
-// The sections nearest to the given positions; in a half model their mirror images stand for those
-// of the other half.
+// The sections nearest to the given positions, or in a half model to their mirror images.
 std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
                                      const BeamMesh& mesh) {
   std::vector<std::size_t> sections;
@@ -218,15 +216,13 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
   if (events_ == EventHandling::interpolated) {
     step.state_at(t0 + guess * h, state_);
   } else {
-    RootOptions options;
-    options.tolerance = 1e-2 * h;
     find_rise(
         [&](double t) {
           step.state_at(t, state_);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
         rate0 > 0.0 ? t0 : t0 + path.first_extremum() * h,
-        rate1 < 0.0 ? t1 : t0 + path.second_extremum() * h, t0 + guess * h, options);
+        rate1 < 0.0 ? t1 : t0 + path.second_extremum() * h, t0 + guess * h, {1e-2 * h});
   }
   follow_peak(beam.indentation(state_), beam);
 }
@@ -339,7 +335,10 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
 void Recorder::add_row(double time, const State& y, Accounts& accounts) {
   HistoryRow row = make_row(time, y, accounts);
   if (in_contact_) follow_peak(row.indentation, accounts.beam());
-  check_push(row);
+  if (!(row.force >= 0.0)) {
+    check_push(time, row.force);
+    row.force = 0.0;  // the law's own force there
+  }
   keep(row, y, accounts);
 }
 
@@ -349,12 +348,6 @@ void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
   rows_.add(row);
   add_section_rows(row.time, y, accounts);
   if (fields_) fields_->follow(row.time, y, accounts);
-}
-
-void Recorder::check_push(HistoryRow& row) const {
-  if (row.force >= 0.0) return;
-  check_push(row.time, row.force);
-  row.force = 0.0;  // the law's own force there
 }
 
 void Recorder::check_push(double time, double force) const {

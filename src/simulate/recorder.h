@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "simulate/event_loop.h"
 #include "simulate/field_recorder.h"
@@ -12,7 +11,6 @@
 
 namespace subimpact {
 
-/// Takes the rows of a run into its result.
 class KeptRows final : public RowSink {
  public:
   explicit KeptRows(Result& result) : result_(result) {}
@@ -33,8 +31,7 @@ class Recorder final : public RunObserver {
   Recorder(const StruckBeam& beam, double interval, EventHandling events, Audit& audit,
            Result& result, RowSink* rows = nullptr);
 
-  /// Keeps the fields along the beam and the bending of single sections, as far as they are asked
-  /// for.
+  /// Keeps the fields along the beam and the bending of single sections that are asked for.
   void keep_fields(const RunParts& parts);
 
   /// Shows the run to a user's observer, after it has been recorded.
@@ -54,7 +51,6 @@ class Recorder final : public RunObserver {
   /// Closes the accounts at the last state, which `is_good` if every check passed.
   void finish(double time, const State& y, const StruckBeam& beam, bool is_good);
 
-  /// Steps within each contact.
   const std::vector<long>& steps_in_contact() const { return steps_in_contact_; }
 
  private:
@@ -76,7 +72,6 @@ class Recorder final : public RunObserver {
                        StruckBeam& beam);
   void look_for_peak(const ObservedStep& step, StruckBeam& beam);
   // Contact only pushes: a force below zero by no more than the tolerance is none.
-  void check_push(HistoryRow& row) const;
   void check_push(double time, double force) const;
   void check_push(double time, const State& y, const StruckBeam& beam);
   void add_event_row(const Transition& event, const State& y);

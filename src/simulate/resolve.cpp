@@ -169,8 +169,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   return used;
 }
 
-// The rotary inertia of a beam that is much thicker than long outweighs its mass by more than
-// numbers of 16 digits can hold.
+// The rotary inertia of a beam much thicker than long outweighs its mass by more than 16 digits.
 std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Options& options,
                                              const BeamMesh& mesh) {
   try {

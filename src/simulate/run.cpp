@@ -5,6 +5,7 @@
 #include <cmath>
 #include <new>
 
+#include "numerics/units.h"
 #include "simulate/methods.h"
 #include "simulate/recorder.h"
 #include "simulate/run_parts.h"
@@ -19,8 +20,6 @@ constexpr long proof_interval = 32;
 
 // A contact of fewer steps is not resolved.
 constexpr long fewest_steps_in_contact = 8;
-
-constexpr double us = 1e6;  // per second
 
 constexpr double tolerated_momentum = 1e-9;
 

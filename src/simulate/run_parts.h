@@ -19,11 +19,9 @@ enum class Coordinates {
   of_mesh  ///< the mesh's own
 };
 
-/// The struck beam of a problem.
 StruckBeam make_struck_beam(const Problem& problem, const Options& options,
                             Coordinates coordinates = Coordinates::chosen);
 
-/// What a run is made of.
 struct RunParts {
   RunParts(const Problem& problem, const Options& options, StruckBeam struck_beam);
 

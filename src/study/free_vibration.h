@@ -4,7 +4,7 @@
 
 #include "simulate/run_parts.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/model/natural_modes.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -45,8 +45,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   Case& other = refined_run.input;
   other.output.keep_no_rows();
   int& count = other.model.*(refinement->count);
-  // An even number of elements has a node at mid-span, where most strikes are: equal elements,
-  // whose modes have a closed form.
+  // An even number of elements has a node at mid-span: equal elements, with modes in closed form.
   const bool any = !uses_symmetry(input) && refinement->odd_in_half;
   count = nearest(factor * mesh_count(input), any, refinement->odd_in_half);
   if (count < refinement->fewest) return {};

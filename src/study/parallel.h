@@ -12,8 +12,7 @@
 namespace subimpact {
 
 /// Calls task(0) to task(n - 1), `jobs` at a time (0: as many as the machine has cores), in no
-/// particular order. Not for anything that is timed. The first exception stops the rest and is
-/// rethrown.
+/// particular order. Not for anything that is timed. Rethrows the first exception, which stops all.
 inline void in_parallel(std::size_t n, const std::function<void(std::size_t)>& task,
                         unsigned jobs = 0) {
   std::atomic<std::size_t> next{0};

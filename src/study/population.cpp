@@ -29,7 +29,7 @@ const CaseKey& known_key(const std::string& name) {
 }
 
 // Box and Muller's transform.
-double normal(Random& random) {
+double normal(SplitMix64& random) {
   const double r = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
   return r * std::cos(2.0 * std::numbers::pi * random.uniform());
 }
@@ -48,7 +48,7 @@ std::optional<KeyValue> value_of(const CaseKey& key, const Settings& settings, c
   return key.get(base);
 }
 
-double scattered(const CaseKey& key, double value, double deviation, Random& random) {
+double scattered(const CaseKey& key, double value, double deviation, SplitMix64& random) {
   for (int draw = 0; draw < most_draws; ++draw) {
     const double other = value * std::exp(deviation * normal(random));
     if (!problem_with(key, other)) return other;
@@ -148,7 +148,7 @@ Settings Population::settings(const Case& base, std::size_t number) const {
       settings.emplace_back(axes[a].keys[k], (*points[a])[k]);
     }
   }
-  Random random(Random(seed).next() ^ (number % n_samples * 0xd1342543de82ef95ULL));
+  SplitMix64 random(SplitMix64(seed).next() ^ (number % n_samples * 0xd1342543de82ef95ULL));
   random.next();
   for (const auto& [name, deviation] : scatter) {
     const CaseKey& key = known_key(name);

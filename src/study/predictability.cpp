@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "case/shifted_case.h"
+#include "numerics/units.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
@@ -15,8 +16,6 @@ namespace {
 constexpr double share_of_length = 0.5;   // of a duration or separation, in events beside it
 constexpr double share_of_change = 0.25;  // of a duration or separation, in itself
 constexpr double deviations = 2.0;        // within which a graze is possible
-constexpr double us = 1e6;                // per second
-constexpr double um = 1e6;                // per metre
 
 using ByKey = std::vector<std::optional<Derivative>>;
 
@@ -52,7 +51,6 @@ class Deviations {
     return a != nullptr && b != nullptr ? of(difference(*a, *b)) : std::nullopt;
   }
   const Sensitivity& study() const { return study_; }
-  const Scatter& scatter() const { return scatter_; }
 
  private:
   const Sensitivity& study_;
@@ -140,8 +138,7 @@ std::optional<Limit> limit_of(const Deviations& deviation) {
   return limit;
 }
 
-// The momentum that the striker loses over the sub-impacts from `first` to `last`: its mass times
-// the velocities before and after.
+// The momentum that the striker loses from `first` to `last`: mass times change of velocity.
 std::optional<double> impulse_deviation(const Deviations& deviation, std::size_t first,
                                         std::size_t last) {
   const Sensitivity& study = deviation.study();

@@ -58,8 +58,7 @@ CheckRun check_run_of(const Case& base) {
   return check;
 }
 
-/// Makes runs, `jobs` at a time; counts them in `n_done`, of `n_all`. Sets `stopped` where the
-/// options' progress ends them.
+/// Makes runs, `jobs` at a time; counts them in `n_done`, of `n_all`; `stopped`: by the progress.
 std::vector<Result> simulate_all(const std::vector<Case>& cases, const SensitivityOptions& options,
                                  std::size_t& n_done, std::size_t n_all, bool& stopped) {
   std::vector<Result> results(cases.size());

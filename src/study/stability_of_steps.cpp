@@ -14,7 +14,7 @@
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 #include "subimpact/study/stability.h"
 #include "system/contact_resonance.h"
 

@@ -27,8 +27,7 @@ struct Stencil {
 /// What the errors of single runs come to in the second differences.
 double noise_of(const Stencil& s);
 
-/// The difference of the two slopes beyond what the errors of runs account for. `error`: of one
-/// run.
+/// The difference of the two slopes beyond what the errors of runs (`error`: of one) account for.
 double bend_of_slope(const Stencil& s, double error);
 
 /// Where sections yield, a section that just does not flow for one value of a key does so for

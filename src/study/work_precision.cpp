@@ -62,8 +62,7 @@ void conclude(WorkPrecisionPoint& point, const TimedRun& run, const Reference& r
   }
 }
 
-// Whether every finer setting of the method that was run reaches the error too; points come from
-// coarse to fine.
+// Whether every finer setting of the method reaches the error too; points get finer.
 bool finer_ones_reach(const std::vector<WorkPrecisionPoint>& points, std::size_t from,
                       double error) {
   for (std::size_t i = from + 1; i < points.size(); ++i) {

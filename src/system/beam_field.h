@@ -110,8 +110,7 @@ class PermanentSet {
   double c1_ = 0.0, c2_ = 0.0, c3_ = 0.0;    // of x, x^2, x^3
 };
 
-/// Those of the whole beam where the plastic curvature exceeds `least` (1/m), in ascending order of
-/// x.
+/// Those of the whole beam, in order of x, where the plastic curvature exceeds `least` (1/m).
 std::vector<PlasticZone> plastic_zones(const BeamMesh& mesh, double length,
                                        std::span<const double> plastic_curvatures, double least);
 

@@ -9,8 +9,7 @@ namespace subimpact {
 namespace {
 
 // A cubic through the ends of a step is assumed to have the height of a local maximum between them
-// right to this part of the height; a maximum that comes closer to zero is searched on the
-// trajectory.
+// right to this part of the height; a maximum closer to zero is searched on the trajectory.
 constexpr double uncertain_share = 0.5;
 
 using MaybeCrossing = std::optional<Crossing>;

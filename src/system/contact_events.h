@@ -30,8 +30,7 @@ struct Crossing {
 struct CrossingSearch {
   /// Event functions that are left out, because their events in this step have been treated.
   const std::vector<EventFunction>& without;
-  /// Whether a branch left and regained within one step is looked for; off only to show which
-  /// events are then missed.
+  /// Whether a branch left and regained within one step is looked for; off only for studies.
   bool double_roots = true;
   /// m: an excursion smaller than this is below the rounding of the displacements.
   double rounding = 0.0;
@@ -48,8 +47,7 @@ struct InterpolatedEvent {
   double time;  ///< s
 };
 
-/// The events of a step that ends on the branch `after`, another one than that in force, in their
-/// order in time.
+/// The events of a step that ends on another branch, `after`, than that in force, in order of time.
 std::vector<InterpolatedEvent> interpolate_events(const ContactState& contact,
                                                   const IndentationStep& step, ContactBranch after);
 

@@ -5,7 +5,7 @@
 
 #include "numerics/event_free_horizon.h"
 #include "ode/integrator.h"
-#include "subimpact/model/natural_modes.h"
+#include "subimpact/model/beam_mesh.h"
 #include "system/struck_beam.h"
 
 namespace subimpact {

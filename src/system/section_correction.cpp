@@ -9,8 +9,7 @@
 namespace subimpact {
 namespace {
 
-// A step that must be cut ends after its first event, by this part of what is estimated to be
-// tolerable.
+// A step that must be cut ends after its first event, by this part of what seems tolerable.
 constexpr double cut_safety = 0.8;
 // The coupling of events is followed to first order. This share of the coupling is assumed to
 // remain: with it steps of the paper's beam at rtol 1e-11 are off by 0.7 of the tolerance (root

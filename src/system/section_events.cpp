@@ -1,6 +1,5 @@
 #include "system/section_events.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>

@@ -24,8 +24,7 @@ namespace subimpact {
 /// with the shear forces f_s = -K_s q where sections shear.
 ///
 /// With or without rotary inertia c_i decays within a few thicknesses, or a few unknowns, of the
-/// section; entries below rounding are left out. An influence is computed at its first use, with
-/// one mass solve.
+/// section; entries below rounding are left out. Its first use computes it, with one mass solve.
 class SectionInfluence {
  public:
   SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
@@ -97,8 +96,7 @@ class DefectResponse {
 };
 
 /// One section's curvature (1/m) over a step as a function of the part s of the step, 0 to 1: the
-/// path between the ends of the step that it would take without section events, and what events
-/// change in it.
+/// path between the ends of the step without section events, and what events change in it.
 class SectionPath {
  public:
   /// Starts anew with a path without events.

@@ -189,8 +189,7 @@ class StruckBeam final : public MechanicalSystem {
   bool depends_on_velocity_;
   Losses losses_;
   bool shears_;
-  // Of an elastic beam in natural modes, else empty: stiffnesses, and what a mode's acceleration is
-  // made of.
+  // Of an elastic beam in natural modes, else empty: stiffnesses, and what makes up accelerations.
   std::span<const double> modal_stiffness_;
   std::vector<double> modal_frequencies_squared_, modal_loads_;
   std::vector<double> modal_damping_;  // 2 zeta omega of each mode, with that of alpha and beta

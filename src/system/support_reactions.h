@@ -23,8 +23,7 @@ namespace subimpact {
 ///
 ///     p.w'' = -sum W_j (B g)_j M_j - (K_s g).w - (C g).w' + F S.g,   Mass g = p.
 ///
-/// With the moments of the equations of motion the sum R_0 + R_l closes their balance of momentum
-/// to rounding.
+/// With the moments of the equations of motion R_0 + R_l closes their momentum to rounding.
 class SupportReactions {
  public:
   /// `struck_at`: x_s, m. `beam` must outlive this.
@@ -33,8 +32,7 @@ class SupportReactions {
   /// Whether any end is held, on a mesh that gives displacements at the ends.
   bool exist() const { return held_[0] || held_[1]; }
 
-  /// At x = 0 and x = l; nothing at a free end, or where a mesh gives no moment functional to
-  /// distinguish the two.
+  /// At x = 0 and x = l; none at a free end, or without a moment functional to distinguish the two.
   using Forces = std::array<std::optional<double>, 2>;
   Forces at(const State& y, Accounts& accounts) const;
 

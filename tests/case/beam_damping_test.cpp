@@ -11,7 +11,7 @@
 #include "paper_case.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/model/natural_modes.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 namespace {

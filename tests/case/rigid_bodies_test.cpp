@@ -8,7 +8,7 @@
 
 #include "paper_scene.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact {
 namespace {

@@ -1,4 +1,4 @@
-#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/case_keys.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "io/sealed_files.h"
-#include "io/write_file.h"
 #include "read_file.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"

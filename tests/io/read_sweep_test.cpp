@@ -1,4 +1,3 @@
-#include "subimpact/io/read_sweep.h"
 #include "io/run_tables.h"
 
 #include <gtest/gtest.h>

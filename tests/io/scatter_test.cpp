@@ -14,7 +14,6 @@
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/io/sensitivity.h"
 #include "temporary_directory.h"
 
 namespace subimpact {

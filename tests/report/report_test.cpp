@@ -11,7 +11,7 @@
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "case/shifted_case.h"
-#include "numerics/random.h"
+#include "draws.h"
 #include "predictability/support.h"
 #include "study/parallel.h"
 #include "subimpact/study/match.h"

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "numerics/random.h"
+#include "draws.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/case_file.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "case/problem.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact::scenes {
 namespace {

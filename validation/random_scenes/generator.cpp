@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "numerics/random.h"
+#include "draws.h"
 #include "random_scenes/cost.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/simulate/method_tables.h"
+#include "subimpact/simulate/options.h"
 
 namespace subimpact::scenes {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "case/problem.h"
-#include "numerics/random.h"
+#include "draws.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/other_mesh.h"
 

@@ -59,15 +59,13 @@ struct ModelOptions {
   SymmetryUse symmetry = SymmetryUse::automatic;
 };
 
-/// User-defined parts that replace those named by keys of the case. A case file cannot contain
-/// them.
+/// User-defined parts in place of those that keys of the case name. No case file can contain them.
 struct CaseParts {
   /// Null: the mesh of model.mesh. Otherwise the keys of meshes and supports have no effect.
   std::shared_ptr<const BeamMesh> mesh;
   /// Null: the law of scene.contact, whose keys otherwise have no effect.
   std::shared_ptr<const ContactLaw> contact_law;
-  /// Empty: the section of model.section; otherwise that key only decides whether the section may
-  /// yield.
+  /// Empty: the section of model.section; otherwise that key only decides whether it may yield.
   std::optional<Fibres> section;
 };
 

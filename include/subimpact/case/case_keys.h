@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -65,6 +66,7 @@ struct CaseKey {
 
   std::string table() const;  ///< "beam"; empty for a key outside all tables
   std::string leaf() const;   ///< "length"
+  std::vector<std::string> choice_names() const;
 };
 
 /// All keys, in the order in which they are written and listed.
@@ -88,6 +90,17 @@ void assign(Case& target, const CaseKey& key, const KeyValue& value);
 /// Checks every key of a case, and those that must go together. Throws InvalidCase for the first
 /// one that is not allowed. What depends on the mesh is checked by resolve() and simulate().
 void check(const Case& input);
+
+/// The keys that a user gave, in the file and on the command line.
+struct GivenKeys {
+  std::set<std::string> in_file;
+  std::set<std::string> in_settings;  ///< of the command line, which override the file
+};
+
+/// Keys that were given but have no effect beside another key: one sentence per key, such as
+/// 'model.layers = 40 has no effect with model.section = "exact"'. None for a key of the file that
+/// has no effect because of a setting on the command line: files are often run with other choices.
+std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given);
 
 /// A value as a case file writes it.
 std::string to_text(const KeyValue& value);

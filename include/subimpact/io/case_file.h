@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "subimpact/case/case.h"
-#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 
 namespace subimpact {

@@ -8,8 +8,7 @@
 /// files, one that is killed after it the newer ones; readers find each file under one of two names
 /// by its checksum (ResultFiles). So there is no instant at which a reader takes a mixture.
 ///
-/// A lock keeps other writers out, of other hosts too if the file system has locks for them
-/// (flock).
+/// A lock (flock) keeps other writers out, of other hosts too if the file system can lock for them.
 
 #include <filesystem>
 #include <memory>

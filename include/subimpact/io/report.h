@@ -6,9 +6,10 @@
 #include <string>
 
 #include "subimpact/case/case.h"
-#include "subimpact/case/cost.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
+#include "subimpact/study/sensitivity.h"
 
 namespace subimpact {
 
@@ -23,8 +24,7 @@ std::string error_words(const Case& input, const Result& result);
 /// ", 9 certain", ", all certain": continues a number of sub-impacts. Empty without error estimate.
 std::string certain_words(const Result& result);
 
-/// What became of a wished accuracy, in one line: wish, horizon, error reached, reason and the key
-/// to free.
+/// What became of a wished accuracy, in one line: wish, horizon, error, reason and the key to free.
 std::string wish_words(const WishOutcome& wish, const Result& result);
 
 /// What bending theory leaves out, in one line: how far shear moves the end of the first contact.
@@ -36,13 +36,11 @@ std::string neglected_shear_words(const NeglectedShear& shear);
 /// have question marks. `fold`: three and more of these in succession are one line with their sums.
 std::string sub_impact_table(const Result& result, bool fold = true);
 
-/// Of a case with scatter, in one line: up to where its sub-impacts can be predicted, how well, and
-/// why no further.
+/// Of a case with scatter, in one line: how far it can be predicted, how well, why no further.
 std::string predictability_words(const Result& result);
 
 /// One line per sub-impact and one per zone: starts and ends with their standard deviations, where
-/// numbers of the case scatter; a line with the reason stands where sub-impacts can no longer be
-/// predicted.
+/// numbers of the case scatter; a line gives the reason where sub-impacts cannot be predicted.
 std::string scatter_table(const Result& result);
 
 /// Whether striker and beam are proven never to touch again; if not, their closest approach.
@@ -65,6 +63,10 @@ std::string comparison_table(const Comparison& comparison);
 /// Starts and ends of every sub-impact by several theories, with their errors and how much later
 /// they come than by the first theory; then each theory in a sentence.
 std::string theory_table(const std::vector<TheoryRun>& runs);
+
+/// Starts and ends of all sub-impacts, and how much later they come per 1 % more of each key, with
+/// the digits that the errors allow.
+std::string sensitivity_table(const Sensitivity& study);
 
 /// What a case will be modelled as, and why.
 std::string explanation(const Case& input, const ResolvedSettings& used,

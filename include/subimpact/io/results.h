@@ -12,6 +12,7 @@
 #include "subimpact/io/output_directory.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
+#include "subimpact/study/sensitivity.h"
 
 namespace subimpact {
 
@@ -53,8 +54,7 @@ class ResultWriter final : public RowSink {
   void restart();
 
   /// Writes the other files and puts all in place. If the directory can no longer be written (a
-  /// full disk), all goes to a new directory for temporary files. Throws OutputError if that fails
-  /// too.
+  /// full disk), all goes to a new directory for temporary files. Throws OutputError if that fails.
   void finish(const Case& input, const Result& result);
 
   /// Where the files are, and what a user has to be told.
@@ -97,5 +97,17 @@ struct ZoneSummary {
   double peak_force = 0.0;    ///< N
 };
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts);
+
+std::string project_version();
+
+/// Name and version of every library the program is made of.
+std::vector<std::pair<std::string, std::string>> library_versions();
+
+/// sensitivity.csv: one row per number of a sub-impact, and for each key of the study its
+/// derivative by the logarithm of the key (d_<key>) and the error of that (error_<key>).
+std::string sensitivity_csv(const Sensitivity& study);
+
+/// Writes sensitivity.csv into a directory. Throws OutputError.
+void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study);
 
 }  // namespace subimpact

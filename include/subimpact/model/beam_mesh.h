@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "subimpact/model/natural_modes.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/numerics/banded_matrix.h"
 
@@ -43,6 +42,29 @@ struct SparseFunctional {
  private:
   double of_all(std::span<const double> unknowns) const;
 };
+
+class BeamMesh;
+
+/// All natural modes of a mesh, elastic: K phi = omega^2 Mass phi, phi^T Mass phi = 1.
+struct NaturalModes {
+  std::vector<double> frequencies;  ///< omega, rad/s, ascending; exactly 0 for rigid modes
+  std::vector<double> shapes;       ///< mode k in entries k n .. k n + n - 1
+
+  std::size_t size() const { return frequencies.size(); }
+  std::span<const double> shape(std::size_t mode) const {
+    return {shapes.data() + mode * size(), size()};
+  }
+  std::span<double> shape(std::size_t mode) { return {shapes.data() + mode * size(), size()}; }
+};
+
+/// Scales shapes so that phi^T Mass phi = 1.
+void normalise(NaturalModes& modes, const BandedMatrix& mass);
+
+/// By dense decomposition, for any mesh, and corrections that remove what its rounding mixes of low
+/// modes; where sections shear, frequencies grow too slowly for that to matter. Frequencies are
+/// Rayleigh quotients of B phi and the shear energy, which keeps the lowest of them accurate in
+/// spite of the highest; those below 1e-7 of the highest count as rigid.
+NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness);
 
 /// A beam cut into finitely many unknowns.
 ///
@@ -131,8 +153,7 @@ class BeamMesh {
   /// result += B^T W diag(tangents) B + K_s, N/m; `tangents` = dM/dkappa of the sections, N m2. The
   /// half bandwidth of `result` must be stiffness_bandwidth() or more.
   void add_stiffness(std::span<const double> tangents, BandedMatrix& result) const;
-  /// An upper bound, close to it, of the highest natural frequency for a bending stiffness (N m2),
-  /// rad/s.
+  /// A close upper bound of the highest natural frequency, rad/s, for a bending stiffness (N m2).
   virtual double highest_frequency(double bending_stiffness) const = 0;
   /// All natural modes while nothing flows, for a bending stiffness (N m2); normalised by the mass.
   virtual NaturalModes natural_modes(double bending_stiffness) const {

@@ -40,8 +40,7 @@ struct FibreStrip {
 /// at x = 2p/(2p - 1): properties of that law, not errors of this code.
 ///
 /// Mass and rotary inertia remain those of Beam: choose its density so that the mass per length is
-/// that of the section. Shear deformation is left out, so a core that is soft in shear is not
-/// covered.
+/// that of the section. Shear deformation is left out: a core that is soft in shear is not covered.
 class Fibres {
  public:
   struct Moments {

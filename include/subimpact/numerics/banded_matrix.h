@@ -30,8 +30,7 @@ class BandedMatrix {
 
   /// result = A x.
   void multiply(std::span<const double> x, std::span<double> result) const;
-  /// The lower triangular L of A = L L^T, read as at(i, j), i >= j; nothing if A is not positive
-  /// definite.
+  /// L of A = L L^T, lower triangular, by at(i, j), i >= j; nothing if A is not positive definite.
   std::optional<BandedMatrix> cholesky_factor() const;
   /// Overwrites b by the solution x of L L^T x = b, this matrix being such an L.
   void solve_as_factor(std::span<double> x) const;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "subimpact/io/read_results.h"
-#include "subimpact/io/read_sweep.h"
 #include "subimpact/report/figures.h"
 
 namespace subimpact {
@@ -34,8 +33,7 @@ WrittenReport write_html_report(const std::filesystem::path& directory, const Fi
                                 const std::filesystem::path& dygraphs = {});
 
 /// Runs beside each other as a page: the keys in which their cases differ, curves in common charts,
-/// and the sub-impacts of each run matched with those of the first. `names` are the runs' names,
-/// one per run.
+/// and the sub-impacts of each run matched with those of the first. `names`: one per run.
 std::string comparison_report(const std::vector<FinishedRun>& runs,
                               const std::vector<std::string>& names,
                               const std::filesystem::path& dygraphs = {});

@@ -67,8 +67,7 @@ class Observer {
 
   /// An event of the contact, once with the equations of motion before it and once with those after
   /// it; the state is the same. The first touch is one; nothing is shown before it. With
-  /// interpolated events (solver.events) both calls come before the end of the step that holds the
-  /// event.
+  /// interpolated events (solver.events) both calls come before the end of the step with the event.
   virtual void before_event(const Transition& /*event*/, const RunView& /*at*/) {}
   virtual void after_event(const Transition& /*event*/, const RunView& /*at*/) {}
 

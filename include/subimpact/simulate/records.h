@@ -56,8 +56,7 @@ enum class NearMissKind {
 std::string_view to_string(NearMissKind kind);
 
 /// A local minimum of the distance between the indentation and the residual one. A contact that
-/// nearly opens may open in truth, and be two sub-impacts; a separation that nearly closes may hold
-/// a further one.
+/// nearly opens may be two sub-impacts in truth; a separation that nearly closes may hold another.
 struct NearMiss {
   double time = 0.0;    ///< s
   double margin = 0.0;  ///< m, above 0: |indentation - residual indentation|
@@ -65,8 +64,7 @@ struct NearMiss {
 };
 
 /// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before
-/// it belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills zone and
-/// subzone.
+/// it belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills both numbers.
 void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
 
 }  // namespace subimpact

@@ -26,8 +26,7 @@ struct Problem {
   Striker striker;
   std::shared_ptr<const BeamMesh> mesh;
   std::shared_ptr<const ContactLaw> contact_law;
-  /// chi, s/m: of a contact with the force F (1 + chi lambda'), F that of the law, which must never
-  /// yield.
+  /// chi, s/m: of a contact with the force F (1 + chi lambda'), F that of a law that never yields.
   double contact_damping = 0.0;
   std::optional<Fibres> section;  ///< empty: the solid rectangle
   bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam

@@ -9,8 +9,7 @@
 
 namespace subimpact {
 
-/// A sub-impact of one run and the one of another run that corresponds to it; one of them may be
-/// missing.
+/// A sub-impact of one run and the one of another run that corresponds to it; one may be missing.
 struct MatchedPair {
   std::optional<std::size_t> first, second;  ///< indices into the two lists
 };
@@ -55,8 +54,7 @@ struct Counterparts {
   /// By number in the base run; null where contacts have merged, split or vanished. They point into
   /// the list of the other run.
   std::vector<const SubImpact*> of;
-  /// By number in the base run: whether the other run has a contact before it that the base run
-  /// lacks.
+  /// By number in the base run: whether the other run has a new contact before it.
   std::vector<bool> follows_new_one;
 };
 

@@ -22,8 +22,7 @@ struct PopulationAxis {
 ///
 /// A number p that scatters with the relative standard deviation s has the values p exp(s z), with
 /// z normal and p that of the axis or else of the base case. Seed and number of a sample determine
-/// its z for all keys, at every combination of the axes alike; values that a key does not allow are
-/// drawn again.
+/// its z for all keys, at every combination of the axes; values that a key refuses are drawn again.
 struct Population {
   std::vector<PopulationAxis> axes;       ///< the points of the last one change fastest
   std::map<std::string, double> scatter;  ///< s by key; independent of each other

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/within.h"
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,8 +27,7 @@ inline constexpr std::array event_quantities = {
 /// "striker_velocity_m_per_s".
 std::string_view to_string(EventQuantity quantity);
 
-/// The number, in the unit that to_string() names; none of a sub-impact that has not ended, its
-/// start aside.
+/// The number, in the unit that to_string() names; before the sub-impact has ended its start alone.
 std::optional<double> value_of(const SubImpact& sub_impact, EventQuantity quantity);
 
 /// df/d ln p of a number f by a key p, and its estimated error, both in the unit of f.
@@ -45,8 +43,7 @@ struct SensitivityRow {
   double value = 0.0;          ///< of the base run
   /// One per key of the study; none where shifted runs lack the sub-impact.
   std::vector<std::optional<Derivative>> by_key;
-  /// Why the number is not differentiable, or its derivatives are not reliable, in words; empty
-  /// where they are.
+  /// Why the number has no derivative, or no reliable ones, in words; empty where it has.
   std::string flag;
 };
 

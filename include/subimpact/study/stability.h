@@ -49,8 +49,7 @@ bool asked_for(const std::vector<std::string>& methods, const std::string& metho
 std::vector<CriticalStep> critical_steps(const Case& input,
                                          const std::vector<std::string>& methods = {});
 
-/// The critical step of central differences while the striker is held in contact by a linear
-/// spring.
+/// The critical step of central differences while a linear spring holds the striker in contact.
 struct StiffContact {
   double stiffness = 0.0;  ///< of the spring, N/m
   double beam_only = 0.0;  ///< s, 2/omega_max without the contact
@@ -68,8 +67,7 @@ struct Damping {
 };
 std::vector<Damping> damping_of_implicit_tables(const Case& input);
 
-/// Growth per step of the backward differentiation formulas on an undamped oscillation, from their
-/// coefficients.
+/// Growth per step of backward differentiation on an undamped oscillation, from the coefficients.
 struct MultistepGrowth {
   int order = 0;
   double angle = 0.0;   ///< omega h
@@ -96,8 +94,7 @@ struct OutcomeMap {
 /// Methods against fixed steps, from far below to far beyond what is stable, and against
 /// tolerances; backward differentiation order by order; implicit methods with steps at which high
 /// modes are damped away. Nothing is timed, so runs go on all cores. A run that takes more than
-/// `run_seconds` is left out. `progress` is called with the numbers of finished runs and of all
-/// runs.
+/// `run_seconds` is left out. `progress` is called with the numbers of finished and of all runs.
 using Count = std::function<bool(std::size_t done, std::size_t all)>;
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
                        double run_seconds = 20.0, const Count& progress = {});
@@ -114,8 +111,7 @@ struct MissedPairs {
 };
 std::vector<MissedPairs> missed_pairs(const Case& input, const Count& progress = {});
 
-/// The law of layers beside the exact one that it tends to, integrated as accurately as the
-/// reference.
+/// Layers beside the exact law that they tend to, integrated as accurately as the reference.
 struct LayerPoint {
   int layers = 0;
   EventErrors errors;  ///< against the exact law

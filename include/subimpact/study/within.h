@@ -3,10 +3,9 @@
 /// Event times within a wanted error: mesh, method and tolerance chosen by the program.
 
 #include <functional>
-#include <optional>
 #include <string>
 
-#include "subimpact/case/keys_without_effect.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement.h"
 

@@ -61,8 +61,7 @@ ButcherTablePointer allocated(int stages) {
 }
 
 // Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.10: the
-// order-8 method of DOP853 with its error estimator of order 5 as the embedded method (b_embedded =
-// b - er).
+// order-8 method of DOP853 with its error estimator of order 5 (b_embedded = b - error).
 ButcherTablePointer dop853() {
   constexpr int n = 12;
   ButcherTablePointer table = allocated(n);
@@ -124,8 +123,7 @@ ButcherTablePointer dop853() {
   return table;
 }
 
-// Appends the step's end as a last stage. Nothing is lost: that evaluation is the next step's
-// first.
+// Appends the step's end as a last stage: no loss, as that evaluation is the next step's first.
 ButcherTablePointer with_end_as_last_stage(const ARKodeButcherTableMem& from) {
   const int n = from.stages;
   ButcherTablePointer table = allocated(n + 1);

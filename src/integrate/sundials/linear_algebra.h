@@ -33,14 +33,12 @@ ContextPointer make_context();
 /// vector cloned from it) are the optimised ones compiled here.
 VectorPointer make_vector(std::size_t n, SUNContext context, VectorOperations operations);
 
-/// The entries of a serial vector.
 std::span<double> entries(N_Vector vector);
 
 /// A square sparse matrix (by columns) with the given pattern and zero entries.
 MatrixPointer make_sparse_matrix(const SparsityPattern& pattern, SUNContext context);
 /// Writes the pattern into a matrix that has room for it.
 void set_pattern(SUNMatrix matrix, const SparsityPattern& pattern);
-/// The first n entries' values.
 std::span<double> values(SUNMatrix matrix, std::size_t n);
 
 /// KLU on matrices like `matrix`; `like` is a vector of its size.

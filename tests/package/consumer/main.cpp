@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "subimpact/case/simulate.h"
-#include "subimpact/io/versions.h"
+#include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"
 #include "subimpact/report/pages.h"
 #include "subimpact/study/compare.h"
