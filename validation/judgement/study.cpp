@@ -52,11 +52,8 @@ struct Coverage {
     ratios.insert(ratios.end(), other.ratios.begin(), other.ratios.end());
   }
   std::string text() const {
-    std::vector<double> sorted = ratios;
-    std::ranges::sort(sorted);
-    const auto at = [&](double q) { return sorted.empty() ? 0.0 : 1.0 / sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size()))]; };
-    return fmt::format("{} of {} ({:.1f} %) | {:.1f} [x{:.2f} for 98, x{:.2f} for 95]", covered, n, 100.0 * covered / std::max(n, 1),
-                       median(ratios), at(0.02), at(0.05));
+    return fmt::format("{} of {} ({:.1f} %) | {:.1f}", covered, n, 100.0 * covered / std::max(n, 1),
+                       median(ratios));
   }
 };
 
@@ -67,7 +64,7 @@ struct Findings {
   Coverage times, forces, impulses, velocities;
   std::map<std::string, Coverage> totals;
   std::map<std::string, std::vector<double>> widths;  // stated errors over the values
-  std::vector<double> shares;  // certain contacts, per scene without chatter
+  std::vector<double> shares;                         // certain contacts, per scene without chatter
   std::string details;
 
   void add(const Findings& other) {
@@ -185,7 +182,6 @@ void judge_end(const DrawnScene& scene, const Result& run, Findings& outcome) {
   const bool goes_on = all.empty() || all.back().end.value_or(HUGE_VAL) > scene.input.end_time;
   outcome.over += !goes_on;
   outcome.said_over += !goes_on && run.contact_over;
-  if (!goes_on) outcome.details += fmt::format("\n    OVER {} {} vm {:.3g} R {:.3g} own {} gapfalls {}", run.contact_over, scene.input.model.section == SectionKind::elastic ? "elastic" : "yield", run.striker_velocity, run.beam_mean_velocity, run.no_more_contact.has_value(), run.closest_approach.has_value());
   outcome.wrongly_over += goes_on && run.contact_over;
   if (goes_on && run.contact_over) outcome.details += "\n    wrong: contact is not over";
 }
@@ -207,8 +203,6 @@ Findings study(const DrawnScene& scene) {
     outcome.lacking_sets += truth.fine().sub_impacts.size() != run.sub_impacts.size();
   }
   judge_end(scene, run, outcome);
-  if (run.sub_impacts.size() <= 30) for (const auto& s : run.sub_impacts) if (!*s.certain) outcome.details += "\n    DOUBT " + s.doubt;
-  outcome.details += fmt::format("\n    SHARE {}/{}", outcome.certain, outcome.contacts);
   for (std::size_t k = 0; k < run.error_estimate->totals.size(); ++k) {
     const auto& [name, total] = run.error_estimate->totals[k];
     if (total.error && total.value != 0.0) {

@@ -29,7 +29,7 @@ struct RunBeside {
 
 /// The cases beside a case that show the error of its mesh and of its integration in time
 /// together: meshes coarser by the factors 0.85 and 0.7, with the accuracy in time that goes with
-/// them. In time alone where the mesh cannot be coarser.
+/// them; finer by 1.2 and 1.45 where a strike is too near an end for coarser ones. In time alone where the mesh cannot be coarser.
 std::vector<CaseBeside> cases_beside(const Case& input);
 /// Those that show the error in time alone, on the mesh of the case.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
@@ -51,19 +51,23 @@ std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 /// time, e = gain d is an error of the time, and e |u'| one of the indentation u. The latter
 /// changes slowly from event to event; its median over the events around, delta, bounds e from
 /// below by delta/|u'|, so that a difference that happens to be small is not taken for accuracy.
-/// Stated is 3.5 times the largest e over the runs, and at least what free ends of a mesh of cells
+/// Stated is 3.2 times the largest e over the runs, and at least what free ends of a mesh of cells
 /// leave.
 ///
-/// **Values** (force, impulse ...): 7 times the largest gain |difference|.
+/// **Values** (force, impulse ...): 6 times the largest gain |difference|, and at least what delta
+/// leaves of indentations and forces.
 ///
 /// **Existence.** A sub-impact is certain if each run beside has exactly one that corresponds to
-/// it; if the indentation goes beyond the residual one by more than 2 delta, and the gap opens by
-/// more than 2 delta before and after; if its errors are below its duration and the separations
+/// it; if the indentation goes beyond the residual one by more than 1.2 delta, and the gap opens by
+/// more than 1.2 delta before and after; if its errors are below its duration and the separations
 /// next to it; and if every near miss within it stays farther from opening than 3.5 times what its
 /// depth differs by. A flight is certain to hold no other sub-impact by the same rule for near
 /// misses. What precedes plays no part but by these. `probability` is the share of the runs that
 /// have the sub-impact. On a mesh that does not resolve the waves of a contact, or whose part under
 /// the striker is as heavy as a fifth of the striker, nothing is certain, whatever runs agree on.
+///
+/// **The end.** contact_over: the proof of every run, whose velocities at the end agree within 2.5 %
+/// of that of the strike. closest_approach: the error is that of a near miss.
 ///
 /// **Parts.** Runs of several parts are judged part by part; errors are the sums.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
