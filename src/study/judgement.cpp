@@ -439,6 +439,16 @@ void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> 
   }
 }
 
+// Why the mesh does not show sub-impacts, whatever runs agree on: of the first that it does not.
+std::string first_mesh_doubt(const Case& input, const Result& run) {
+  std::string doubt = mesh_doubt(input, run.used);
+  for (std::size_t i = 0; i < run.sub_impacts.size() && doubt.empty(); ++i) {
+    doubt = unresolved_contact(input, run, i);
+    if (!doubt.empty()) doubt = fmt::format("sub-impact {}: {}", i + 1, doubt);
+  }
+  return doubt;
+}
+
 // What another mesh shows of a run whose rows do not carry the error of the mesh.
 ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
                                         const RunBeside& other) {
@@ -459,7 +469,7 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
                                    other.result.sub_impacts.size(),
                                    static_cast<std::size_t>(n_same),
                                    {},
-                                   mesh_doubt(input, run.used)};
+                                   first_mesh_doubt(input, run)};
   const std::vector<SubImpact>& there = other.result.sub_impacts;
   if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
     const double change = *there[0].end - *here.sub_impacts[0].end;

@@ -199,7 +199,10 @@ TEST(HtmlReport, StatesFirstWhatIsCertainAndWhatIsNot) {
   expect_in(page, "Certain:</b> 1 of 3 sub-impacts, each start and end within 0.017 µs.</li>");
   expect_in(page, "Not certain:</b> sub-impact 2: they part.</li>");
   EXPECT_LT(page.find("Certain:</b>"), page.find("class=\"tiles\""));
-  const std::string certain = page_with(sample_result_with_errors(3));
+  Result over = sample_result_with_errors(3);
+  over.contact_over = true;
+  const std::string certain = page_with(over);
+  expect_in(certain, "Certain:</b> the end of contact: proven");
   expect_in(certain,
             "Certain:</b> all 3 sub-impacts, each start and end within 0.3 µs, and that there are "
             "no others.</li>");
