@@ -17,7 +17,8 @@ enum class ErrorBars {
 
 struct RunRequest : WithinOptions {
   /// Empty: what a case that fixes nothing leaves open is chosen (study/within.h), with errors from
-  /// coarser meshes; where it fixes something, cases_beside_on_given_mesh(). Must be empty if the case has accuracy.event_times.
+  /// coarser meshes; where it fixes something, cases_beside_on_given_mesh(). Must be empty if the
+  /// case has accuracy.event_times.
   std::optional<ErrorBars> error_bars;
   /// The case resolved already; taken by a run without error bars.
   std::optional<ResolvedRun> resolved;
