@@ -68,10 +68,17 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, const Even
 }
 
 // Steps to the end, or to where the run is stopped.
-void run_to_end(EventLoop& loop, StruckBeam& beam, NoMoreContact& no_more_contact, StopRule stop,
-                const Progress& progress, Result& result) {
+void run_to_end(EventLoop& loop, RunParts& parts, const Progress& progress, Result& result) {
   loop.start();
-  const auto is_over = [&] { return no_more_contact.is_proven(beam, loop.state()); };
+  std::optional<NoMoreContact> no_more_contact;
+  const auto is_over = [&] {
+    if (parts.beam.contact().is_closed()) return false;
+    if (!no_more_contact) {
+      no_more_contact.emplace(parts.beam, parts.problem.beam, parts.settings.first_period);
+    }
+    return no_more_contact->is_proven(parts.beam, loop.state());
+  };
+  const StopRule stop = parts.given.stop;
   for (long n = 1; !loop.finished(); ++n) {
     loop.advance();
     if (stop == StopRule::no_more_contact && n % proof_interval == 0 && is_over()) {
@@ -164,12 +171,11 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   recorder.keep_fields(parts);
   if (observer != nullptr) recorder.show(*observer);
   EventLoop loop(beam, integrator, recorder, audit, loop_options(parts));
-  NoMoreContact no_more_contact(beam, parts.problem.beam, used.first_period);
   result.work.setup_seconds = seconds_since(start);
 
   try {
     result.outcome.message = "completed";
-    run_to_end(loop, beam, no_more_contact, parts.given.stop, progress, result);
+    run_to_end(loop, parts, progress, result);
   } catch (const RunStopped& stop) {
     fail(result.outcome, stop);
   } catch (const IntegrationFailure& failure) {

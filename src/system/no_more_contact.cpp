@@ -11,8 +11,10 @@ namespace subimpact {
 
 namespace {
 
-// Modes whose motion is followed; what they leave is bounded by its energy.
+// Modes whose motion is followed; what they leave is bounded by its energy. Of beams that may yield
+// only the rigid ones are needed.
 constexpr std::size_t n_followed = 12;
+constexpr std::size_t most_rigid = 2;
 // What rounding leaves of the bounds.
 constexpr double rounding = 1e-5;
 
@@ -27,7 +29,8 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
       moments_(beam.mesh().n_sections()) {
   const BeamMesh& mesh = beam.mesh();
   const SectionField& sections = beam.sections();
-  const auto motion = slow_motion(mesh, sections.stiffness(), first_period, n_followed);
+  const auto motion = slow_motion(mesh, sections.stiffness(), first_period,
+                                  sections.can_yield() ? most_rigid : n_followed);
   can_prove_ = motion.has_value();
   if (!can_prove_) return;
   compliance_ = compliance_of_rest_ = mesh.struck_point()(motion->response);
