@@ -16,8 +16,6 @@
 namespace subimpact {
 namespace {
 
-// --- what a member's type implies ---------------------------------------------------------------
-
 template <class T>
 struct Member {  // an enumeration
   static constexpr KeyType type = KeyType::choice;
@@ -79,8 +77,6 @@ template <class T>
 const T* held(const std::optional<T>& member) {
   return member ? &*member : nullptr;
 }
-
-// --- the parts of a row -------------------------------------------------------------------------
 
 struct Range {
   const char* words = "";
@@ -165,8 +161,6 @@ std::vector<Choice> table_choices() {
   return choices;
 }
 
-// --- defaults that differ by method --------------------------------------------------------------
-
 // "adams, bdf: "step-end"; others: "located"", for two values of which most methods take `located`.
 template <class Member>
 std::string by_method(Member member) {
@@ -197,8 +191,6 @@ std::string default_step() {
   return fmt::format("{}: {} of the critical step; others: adaptive", fmt::join(fixed, ", "),
                      default_part_of_critical);
 }
-
-// --- scatter -------------------------------------------------------------------------------------
 
 CaseKey scatter_row(const CaseKey& of) {
   CaseKey key;

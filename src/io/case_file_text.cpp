@@ -63,8 +63,6 @@ std::string case_identity(const Case& input, const GivenKeys& given, const std::
   return seal_of(stream).sha256.substr(0, n_digits);
 }
 
-// --- the JSON schema -----------------------------------------------------------------------------
-
 namespace {
 
 using Json = nlohmann::ordered_json;  // editors list the keys in the order of the table

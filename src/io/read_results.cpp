@@ -75,8 +75,6 @@ FinishedRun read_results(const fs::path& directory) {
                      [&](const SealedFiles& files) { return read_once(directory, files); });
 }
 
-// --- sweeps --------------------------------------------------------------------------------------
-
 namespace {
 
 constexpr const char* runs_name = "runs.csv";

@@ -60,8 +60,6 @@ auto used(Member member) {
   return result(&Result::used, member);
 }
 
-// --- the case ------------------------------------------------------------------------------------
-
 Json json_of_setting(const KeyValue& value) {
   if (const auto* real = std::get_if<double>(&value); real != nullptr && !std::isfinite(*real)) {
     return to_text(value);
@@ -128,8 +126,6 @@ RunEntry libraries_entry() {
   return entry;
 }
 
-// --- settings used -------------------------------------------------------------------------------
-
 // "contact_stiffness_N_per_m1.5": the exponent follows the unit, if it is not 1.
 RunEntry contact_stiffness_entry() {
   static constexpr const char* start = "contact_stiffness_N_per_m";
@@ -153,8 +149,6 @@ RunEntry contact_stiffness_entry() {
   };
   return entry;
 }
-
-// --- counts --------------------------------------------------------------------------------------
 
 const Record<ZoneSummary>& zone_record() {
   static const Record<ZoneSummary> record = {
@@ -185,8 +179,6 @@ Json count_transitions(const DescribedRun& run) {
   }
   return json;
 }
-
-// --- what a run may have -------------------------------------------------------------------------
 
 const Record<NearMiss>& near_miss_record() {
   static const Record<NearMiss> record = {

@@ -59,8 +59,6 @@ void add_sub_impacts(FigureScript& figure, const Result& result) {
   figure.set("n_uncertain", static_cast<double>(rows.size() - n_certain));
 }
 
-// --- force against indentation -------------------------------------------------------------------
-
 constexpr std::size_t most_insets = 3;
 
 // Force against indentation of the whole strike. Between two rows the indentation moves one way
@@ -134,8 +132,6 @@ void set_mark(FigureScript& figure, const std::string& name, EventKind kind, con
     return;
   }
 }
-
-// --- shapes --------------------------------------------------------------------------------------
 
 // The first rows of shapes nearest to instants that cut the run into equal parts.
 std::vector<std::size_t> shapes_drawn(const Result& result, std::size_t n_points) {

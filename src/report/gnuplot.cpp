@@ -30,8 +30,6 @@ namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
 
-// --- gnuplot as a process ------------------------------------------------------------------------
-
 /// What a process of gnuplot left behind.
 struct GnuplotRun {
   int start_error = 0;         ///< errno if gnuplot could not be started, else 0
@@ -171,8 +169,6 @@ GnuplotRun run_gnuplot(const fs::path& directory, std::vector<std::string> argum
   }
   return run;
 }
-
-// --- drawings ------------------------------------------------------------------------------------
 
 void throw_if_not_started(const std::string& figure, int error) {
   if (error == 0) return;

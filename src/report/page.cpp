@@ -17,8 +17,6 @@
 namespace subimpact {
 namespace {
 
-// --- templates -----------------------------------------------------------------------------------
-
 // The innermost field of that name.
 const Json& field(const std::vector<const Json*>& scopes, const std::string& name) {
   if (name == ".") return *scopes.back();
@@ -66,8 +64,6 @@ void fill(std::string& result, std::string_view page, std::vector<const Json*>& 
   }
   result += page;
 }
-
-// --- texts ---------------------------------------------------------------------------------------
 
 using Texts = std::pair<const char*, const char*>;
 

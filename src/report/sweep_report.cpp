@@ -53,8 +53,6 @@ Shown shown(const SweptRuns::Column& column) {
   return {column.name.c_str(), column.name.c_str(), key ? key->unit.c_str() : "", 1.0};
 }
 
-// --- data ----------------------------------------------------------------------------------------
-
 Json words_json(const std::vector<std::string>& words) {
   std::map<std::string, int> places;
   Json different = Json::array(), indices = Json::array();
@@ -105,8 +103,6 @@ Json sub_impacts_json(const SweptRuns& runs, std::size_t& n_left_out) {
           {"max_indentation", packed<float>(rows, &SubImpact::max_indentation)},
           {"striker_velocity", packed<float>(rows, &SubImpact::striker_velocity)}};
 }
-
-// --- words ---------------------------------------------------------------------------------------
 
 std::map<std::string, std::size_t> outcomes(const SweptRuns& runs) {
   std::map<std::string, std::size_t> counts;

@@ -8,8 +8,6 @@
 
 namespace subimpact {
 
-// --- ForceQuadrature -----------------------------------------------------------------------------
-
 namespace {
 
 // Halvings of a step: each takes the error down 16 times.
@@ -69,8 +67,6 @@ double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam&
   const auto [a, b] = ends_of(step);
   return between(a, b, beam);
 }
-
-// --- LossQuadrature ------------------------------------------------------------------------------
 
 namespace {
 

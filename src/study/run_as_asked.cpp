@@ -71,8 +71,6 @@ Case case_as_chosen(const Case& input, const GivenKeys& given, Jobs jobs,
   return simulate_within(without_rows, *open, how).input;
 }
 
-// --- shear that is left out ----------------------------------------------------------------------
-
 namespace {
 
 constexpr double usual_poisson = 0.3;

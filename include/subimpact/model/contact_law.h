@@ -90,8 +90,6 @@ class ContactLaw {
     return elastic_slope({indentation}, indentation);
   }
 
-  // --- what follows from these -------------------------------------------------------------------
-
   /// The branch on which `indentation` lies, given the history.
   ContactBranch branch(ContactHistory history, double indentation) const;
   double branch_force(ContactBranch branch, ContactHistory history, double indentation) const;
