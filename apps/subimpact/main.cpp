@@ -44,7 +44,6 @@ std::optional<std::string> unknown_command(const CLI::App& program, int argc, ch
                      near.empty() ? "see subimpact --help" : "did you mean \"" + near + "\"?");
 }
 
-// One line, and where to read more.
 std::string usage_error(const CLI::App* program, const CLI::Error& error) {
   std::string command = "subimpact";
   for (const CLI::App* used : program->get_subcommands()) command += " " + used->get_name();

@@ -37,7 +37,6 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// The text with three dots: what is going on.
   void show(const std::string& text) { write(text + " ..."); }
   void write(const std::string& text);
   void clear();
@@ -46,7 +45,6 @@ class StatusLine {
   bool is_dirty_ = false;
 };
 
-/// How far a run has come, on a status line.
 class ProgressDisplay {
  public:
   ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)

@@ -23,7 +23,6 @@ struct Member {  // an enumeration
   static KeyValue to_value(T x) { return std::string(name_of(x)); }
   static T from_value(const KeyValue& v) { return value_of<T>(std::get<std::string>(v)); }
 };
-// A member of a type that a KeyValue holds.
 template <class T, KeyType key_type>
 struct HeldMember {
   static constexpr KeyType type = key_type;
@@ -68,7 +67,6 @@ struct Member<std::array<T, 2>> {
   }
 };
 
-// What a member holds that may be left open.
 template <class T>
 const T* held(const T& member) {
   return &member;
@@ -213,7 +211,6 @@ CaseKey scatter_row(const CaseKey& of) {
   return key;
 }
 
-// One for each number of the scene.
 std::vector<CaseKey> with_scatter(std::vector<CaseKey> keys) {
   std::vector<CaseKey> rows;
   for (const CaseKey& key : keys) {

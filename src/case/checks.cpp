@@ -1,5 +1,3 @@
-// Checks of a case across its keys.
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,13 +16,11 @@ namespace {
 // Squares and quotients of two such numbers are finite, on the finest mesh too.
 constexpr double most_decades = 60.0;
 
-/// A key to a power.
 struct Factor {
   const char* key;
   double power;
 };
 
-/// A product of powers of keys.
 struct Quantity {
   const char* name;
   const char* unit;

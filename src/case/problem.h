@@ -1,7 +1,5 @@
 #pragma once
 
-/// The parts that a case stands for.
-
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,7 +35,6 @@ std::optional<double> step_of(const Case& input);
 /// The largest step that is left a margin to the critical step of the case, whatever its own step.
 double largest_stable_step(Case input);
 
-/// The way in which a case gives a law its constants.
 const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law);
 bool uses_key(const ContactConstants& way, const char* key);
 

@@ -107,7 +107,6 @@ std::optional<KeyValue> to_key_value(const toml::node& node) {
   return std::nullopt;
 }
 
-// "a date", "a table".
 std::string describe_type(const toml::node& node) {
   static constexpr const char* types[] = {
       "nothing",        "a table",        "a list of things of several types",

@@ -159,7 +159,6 @@ std::string final_velocities_text(const Case& input, const Result& result) {
       total_text(result, "restitution", restitution, 1.0, 6, ""));
 }
 
-// The entry of the envelope where a value is largest.
 template <class Value>
 const EnvelopeRow& where_largest(const Result& result, Value value) {
   return *std::max_element(

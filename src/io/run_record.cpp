@@ -86,7 +86,6 @@ KeyValue setting_of(const CaseKey& key, const Json& json) {
   throw std::logic_error("setting_of: a key of unknown type");
 }
 
-// One object per table of the case file; a key that was left open is null.
 RunEntry case_entry() {
   RunEntry entry("case", "keys of the case as asked for");
   entry.write = [](Json& object, const DescribedRun& run) {

@@ -36,7 +36,6 @@ inline constexpr const char* manifest_name = "manifest.json";
 
 /// Where the files of a commit wait for being put in place.
 std::filesystem::path staging_of(const std::filesystem::path& directory, const std::string& commit);
-/// Whether this is the name of such a directory.
 bool is_staging(const std::string& name);
 
 /// Nothing if the directory has no manifest.json. Throws ResultsError if that is no manifest.

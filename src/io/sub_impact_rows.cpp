@@ -42,7 +42,6 @@ Number duration_error(const SubImpact& s) {
   return s.start_error && s.end_error ? Number((*s.start_error + *s.end_error) * us) : std::nullopt;
 }
 
-// The member of a sub-impact in a unit.
 template <auto member, double factor = 1.0>
 Number in(const SubImpact& s) {
   return scaled(s.*member, factor);
@@ -130,7 +129,6 @@ void align(std::vector<std::string>& texts) {
   }
 }
 
-// The cells of a column, of equal width, and that width.
 std::pair<std::vector<std::string>, std::size_t> column_texts(const std::vector<Cell>& cells,
                                                               const char* plus_minus) {
   std::vector<std::string> values, errors;

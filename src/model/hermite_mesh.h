@@ -43,7 +43,6 @@ class HermiteMesh final : public BeamMesh {
   bool prefers_modes() const override;
   std::string description() const override;
 
-  /// Of the elements from left to right, m.
   std::span<const double> element_lengths() const { return nodes_.lengths; }
 
  private:

@@ -34,7 +34,6 @@ class ModalMesh final : public BeamMesh {
   SparseFunctional curvature_functional(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
-  /// That of the last mode.
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override { return physical_->has_closed_modes(); }

@@ -39,7 +39,6 @@ class SpectralMesh final : public BeamMesh {
   /// Polynomials of degree 4 in each element.
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
-  /// The highest frequency of a single element.
   double highest_frequency(double bending_stiffness) const override;
   std::string description() const override;
 

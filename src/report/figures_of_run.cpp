@@ -26,7 +26,6 @@ void add_line(NumberRows& rows, std::size_t number, const std::vector<Point>& po
   for (const Point& p : points) rows.push_back({static_cast<double>(number), p.x, p.y});
 }
 
-// The sub-impacts after the first in which the contact yielded further.
 std::vector<std::size_t> yielding_again(const Result& result) {
   std::vector<std::size_t> found;
   const auto& hits = result.sub_impacts;

@@ -28,7 +28,6 @@ std::string filled(std::string_view page, const Json& fields);
 /// Text as HTML shows it literally.
 std::string escaped(std::string_view text);
 
-/// A list of entry(x) for each x.
 template <class Range, class Entry>
 Json list_of(const Range& range, Entry entry) {
   Json list = Json::array();

@@ -50,7 +50,6 @@ class NearMissSearch {
     }
   }
 
-  /// The nearest of the present contact or separation.
   const NearMiss* nearest() const { return n_ > 0 ? kept_.data() : nullptr; }
 
   /// Appends the near misses of the contact or separation that ends, in order of time: those whose

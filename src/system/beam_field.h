@@ -43,7 +43,6 @@ class BeamField {
   double position(std::size_t station) const { return stations_[station].position; }
   double mirrored_position(std::size_t station) const { return length_ - position(station); }
 
-  /// Reads curvatures, moments and displacements of a state.
   void read(const State& y, Accounts& accounts);
   double displacement(std::size_t i) const { return displacements_[i]; }
   double curvature(std::size_t i) const { return curvatures_[i]; }

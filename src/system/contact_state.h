@@ -55,7 +55,6 @@ class ContactState {
   bool is_damped() const { return damping_ > 0.0; }
   /// Whether the striker has left a surface that is still indented, in damped contacts.
   bool is_recovering() const { return recovering_; }
-  /// The events that end the branch in force.
   std::span<const EventFunction> event_functions() const;
 
   const ContactLaw& law() const { return *law_; }
@@ -100,7 +99,6 @@ class ContactState {
   }
   /// Advances the history to this indentation.
   void commit(double indentation);
-  /// Changes the branch at an event of the contact.
   void pass(const EventFunction& event, double indentation);
   /// For schemes that do not locate events: the branch on which the indentation lies.
   void follow(double indentation) { branch_ = law_->branch(history_, indentation); }

@@ -14,7 +14,6 @@
 
 namespace subimpact {
 
-/// What a struck beam is made of.
 struct StruckBeamParts {
   std::shared_ptr<const BeamMesh> mesh;
   SectionField sections;
@@ -144,7 +143,6 @@ class StruckBeam final : public MechanicalSystem {
   }
   /// Rounding of the indentation at y, m.
   double displacement_rounding(std::span<const double> y) const;
-  /// Curvatures and their rates at y.
   void read_motion(const State& y, SectionMotion& motion) const;
 
   /// Value and rate of an event function at y; for contact_unloads at the cost of an acceleration.

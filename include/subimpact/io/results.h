@@ -1,7 +1,5 @@
 #pragma once
 
-/// The files of a finished run.
-
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -86,7 +84,6 @@ std::string matches_csv(const Comparison& comparison);
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);
 
-/// Summary of the sub-impacts of one zone.
 struct ZoneSummary {
   int zone = 0;
   int n_sub_impacts = 0;

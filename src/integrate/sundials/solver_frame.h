@@ -98,7 +98,6 @@ class RootFinder {
     if (flag >= 0 && !root_) root_ = risen_function(y);
     return flag;
   }
-  /// The root that ended the last step.
   const std::optional<Integrator::Root>& root() const { return root_; }
 
   /// After a step that a root ended: clears the flag that ARKODE keeps of the root, which costs
@@ -147,10 +146,8 @@ class SolverFrame {
   void reset(double t, const State& y);
   /// One step, to its end or to the first event in it; returns the time reached.
   double step();
-  /// The state where the last step ended.
   void read(State& y) const;
   const std::optional<Integrator::Root>& root() const { return roots_.root(); }
-  /// See RootFinder::drain.
   void drain_root() {
     double reached = time_;
     roots_.drain(memory(), reached, [&] { return evolve(reached); });

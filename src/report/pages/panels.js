@@ -118,7 +118,6 @@ class TimeChart {
   }
 }
 
-// Stripes in the colour of bands.
 function hatching() {
   const tile = document.createElement('canvas');
   tile.width = tile.height = 8;
@@ -279,7 +278,6 @@ class Timeline {
     return [...values, ...bars.filter((value) => value > least)];
   }
 
-  // Where the strike can no longer be predicted.
   drawHorizon(axes, draw) {
     const {horizon, time_unit: unit} = this.strike;
     if (typeof horizon !== 'number') return;
