@@ -12,19 +12,10 @@
 
 namespace subimpact {
 
-/// Acceleration of the beam due to the moment of one section: for a moment M of 1 N m at section i,
-///
-///     c_i = Mass^-1 (-B^T W e_i)   (accelerations of the unknowns, 1/s2 per N m),   B c_i.
-///
-/// Mass is symmetric, so the same numbers give the response of one section's curvature to all
-/// moments M_j (N m) and the contact force F (N), without a mass solve:
-///
-///     kappa_i'' = (sum_j W_j (B c_i)_j M_j - F S.c_i - c_i.f_s)/W_i,
-///
-/// with the shear forces f_s = -K_s q where sections shear.
-///
-/// With or without rotary inertia c_i decays within a few thicknesses, or a few unknowns, of the
-/// section; entries below rounding are left out. Its first use computes it, with one mass solve.
+/// Acceleration c_i = Mass^-1 (-B^T W e_i) of the unknowns (1/s2 per N m) due to a moment of 1 N m
+/// at section i, and B c_i, by which the section's curvature responds to all moments and forces
+/// without a mass solve (docs/theory.md, "Section events"). Entries below rounding are left out.
+/// Its first use computes it, with one mass solve.
 class SectionInfluence {
  public:
   SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
