@@ -22,7 +22,6 @@ class InterruptListener {
   bool interrupted() const { return signal() != 0; }
   /// The number of the signal that came first; 0: none came.
   int signal() const;
-  /// The exit status by which shells report it.
   int exit_status() const { return 128 + signal(); }
 
   /// From here on a second Ctrl-C does not end the program: results are being written.

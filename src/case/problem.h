@@ -26,7 +26,6 @@ bool may_yield(const Case& input);
 
 /// Whether the scene is its own mirror image about mid-span, where it is struck.
 bool is_symmetric(const Case& input);
-/// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
 
 /// The fixed step of a run of the case, s; nothing for adaptive steps. Builds the model of the case

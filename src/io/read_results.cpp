@@ -98,7 +98,6 @@ Columns<SweptSubImpact> sub_impact_columns() {
   return columns;
 }
 
-// As numbers, if every cell is a number or empty.
 std::optional<std::vector<double>> as_numbers(const std::vector<std::string>& cells) {
   std::vector<double> numbers;
   for (const std::string& cell : cells) {

@@ -122,7 +122,6 @@ std::string first_failure_text(const Outcome& outcome) {
       failure.from * us, failure.from * us, failure.to * us);
 }
 
-// "0.226056 kg", "226.1 t".
 std::string mass_text(double mass) {
   if (mass >= 1e4) return fmt::format("{:.6g} t", 1e-3 * mass);
   if (mass < 1e-3) return fmt::format("{:.6g} g", 1e3 * mass);

@@ -23,7 +23,6 @@ Seal seal_of(std::istream& file);
 /// std::system_error if the file cannot be opened.
 std::optional<Seal> seal_of(const std::filesystem::path& file);
 
-/// What manifest.json holds.
 struct Manifest {
   std::string kind;                      ///< "run", "figures", "compare" ...
   std::string identity;                  ///< of the run or study

@@ -40,7 +40,6 @@ class ModalMesh final : public BeamMesh {
   std::span<const double> modal_stiffness() const override { return stiffness_; }
   std::string description() const override;
 
-  /// q = sum z_k phi_k.
   void to_physical(std::span<const double> modal, std::span<double> physical) const;
   /// z_k = phi_k^T Mass q/(m_beam/n).
   void to_modal(std::span<const double> physical, std::span<double> modal) const;

@@ -62,7 +62,6 @@ class SectionLaw {
   /// M of a section outside its window, N m.
   double flowing_moment(const SectionHistory& history, double curvature) const;
 
-  /// The branch of a section that continues to flow from the edge of its history.
   SectionBranch branch_from_edge(const SectionHistory& history) const;
   double moment_on(const SectionBranch& branch, double curvature) const;   ///< M, N m
   double tangent_on(const SectionBranch& branch, double curvature) const;  ///< dM/dkappa, N m2

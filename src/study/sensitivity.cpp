@@ -195,7 +195,6 @@ class Differences {
   std::vector<bool> of_beam_;
 };
 
-/// One row of the study and what there is to flag in it.
 SensitivityRow row_of(const Differences& differences, EventQuantity quantity, std::size_t i,
                       double value, const std::vector<std::string>& keys) {
   SensitivityRow row{quantity, i, value, {}, {}};

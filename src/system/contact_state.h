@@ -79,12 +79,10 @@ class ContactState {
     return branch_ == ContactBranch::plastic || evaluation_ == Evaluation::switching;
   }
   void set_evaluation(Evaluation how) { evaluation_ = how; }
-  /// Sets a branch and a history, as at the start of a run.
   void set(ContactBranch branch, ContactHistory history) {
     branch_ = branch;
     history_ = history;
   }
-  /// Advances the history to this indentation.
   void commit(double indentation);
   void pass(const EventFunction& event, double indentation);
   /// For schemes that do not locate events: the branch on which the indentation lies.

@@ -90,7 +90,6 @@ class DefectResponse {
 /// path between the ends of the step without section events, and what events change in it.
 class SectionPath {
  public:
-  /// Starts anew with a path without events.
   void reset(const HermiteSeptic& undisturbed) {
     undisturbed_ = undisturbed;
     others_.clear();
@@ -107,7 +106,6 @@ class SectionPath {
   double value(double s) const { return undisturbed_(s) + change(s).value; }
   double slope(double s) const { return undisturbed_.slope(s) + change(s).slope; }
 
-  /// By the events of other sections.
   CurvatureChange change_by_others(double s) const {
     CurvatureChange sum;
     for (const DefectResponse& response : others_) response.add_to(sum, s);

@@ -55,7 +55,6 @@ class ResultWriter final : public RowSink {
   /// full disk), all goes to a new directory for temporary files. Throws OutputError if that fails.
   void finish(const Case& input, const Result& result);
 
-  /// Where the files are, and what a user has to be told.
   const OutputDirectory& directory() const { return directory_; }
 
  private:

@@ -101,7 +101,6 @@ class ContactLaw {
   /// The branch on which a contact begins that closes with this history.
   ContactBranch first_branch(ContactHistory history) const;
 
-  /// The history after the indentation has been reached.
   static ContactHistory commit(ContactHistory history, double indentation) {
     return {indentation > history.max_indentation ? indentation : history.max_indentation};
   }

@@ -36,7 +36,6 @@ struct Derivative {
   double error = 0.0;
 };
 
-/// The derivatives of one number of one sub-impact.
 struct SensitivityRow {
   EventQuantity quantity = EventQuantity::start;
   std::size_t sub_impact = 0;  ///< from 0
@@ -79,7 +78,6 @@ struct SensitivityOptions {
 /// at an end of their range, and with an effect.
 std::vector<std::string> sensitivity_keys(const Case& input);
 
-/// The relative shifts of the differences.
 inline constexpr std::array sensitivity_shifts = {1e-5, 1e-6};
 
 /// The case of the base run: that of `input`, at rtol 1e-13 or less, without history rows. Where
