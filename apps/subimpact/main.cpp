@@ -16,7 +16,6 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/figures.h"
 
 namespace {
 

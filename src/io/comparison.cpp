@@ -6,7 +6,7 @@
 #include "case/case_choices.h"
 #include "case/counted.h"
 #include "io/study_columns.h"
-#include "io/sub_impact_rows.h"
+#include "io/uncertain.h"
 #include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"

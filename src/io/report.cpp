@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "case/counted.h"
 #include "case/meshes.h"
 #include "io/printable.h"
-#include "io/sub_impact_rows.h"
 #include "io/uncertain.h"
+#include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/results.h"
@@ -19,9 +18,6 @@
 namespace subimpact {
 namespace {
 
-constexpr double us = 1e6;  // per second
-constexpr double mm = 1e3;  // per metre
-constexpr double um = 1e6;
 constexpr double share_of_contact = 0.1;  // of the shortest ones, an error that serves them
 
 std::string time_or_never(const std::optional<double>& time) {

@@ -9,7 +9,6 @@
 #include "io/sealed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
-#include "report/page_data.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"

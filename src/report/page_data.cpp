@@ -1,4 +1,4 @@
-#include "report/page_data.h"
+#include "report/page.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "case/problem.h"
 #include "io/row_thinning.h"
 #include "report/figure_script.h"
-#include "report/page.h"
 
 namespace subimpact {
 namespace {

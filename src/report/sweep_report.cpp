@@ -11,7 +11,6 @@
 #include "io/sealed_files.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
 
 namespace subimpact {
 namespace {

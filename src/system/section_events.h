@@ -178,14 +178,10 @@ struct SectionLoads {
         shear_force_rates(shear_forces.size()) {}
 };
 
-/// The section events of a step.
-///
-/// A section that begins to flow, reverses or closes a loop leaves the smooth piece of its law on
-/// which the step began (SectionField::smooth_moments). Paths are polynomials through both ends of
-/// the step: cubic where sides are distinguished, of degree seven where the height of a reversal,
-/// which enters the section's history, is read off. Events are found in their order, each on the
-/// path that the earlier ones leave (docs/theory.md, "Section events"). A path that changes its
-/// direction twice is not followed: such a step must be cut.
+/// The section events of a step (docs/theory.md, "Section events"). Paths are polynomials through
+/// both ends of the step: cubic where sides are distinguished, of degree seven where the height of
+/// a reversal is read off. A path that changes its direction twice is not followed: such a step
+/// must be cut.
 class SectionEvents {
  public:
   SectionEvents(const SectionField& sections, SectionInfluence& influence)

@@ -3,7 +3,6 @@
 
 const byId = (id) => document.getElementById(id);
 
-// Does what a key stands for: actions by the names of keys.
 function actOn(event, actions) {
   const action = actions[event.key];
   if (event.ctrlKey || event.altKey || event.metaKey || !action) return;
