@@ -13,7 +13,6 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
-#include "subimpact/report/figures.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/study/sweep.h"
 

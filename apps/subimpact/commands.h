@@ -1,7 +1,5 @@
 #pragma once
 
-/// What the commands share: exit statuses, printing, options.
-
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -29,7 +27,6 @@ enum ExitStatus : int {
   failed = 3    ///< the solver failed, or its results could not be written
 };
 
-/// The exit status of a run that ended so.
 ExitStatus status_of(OutcomeKind outcome);
 
 /// Prints a text without control characters, for it may come from files, paths and arguments. A
@@ -75,7 +72,6 @@ auto with_places(const LoadedCase& loaded, Body body) {
 /// Prints on stderr which of the keys given have no effect, unless `quiet`, and which values are
 /// doubtful, which it returns.
 std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet = false);
-/// Prints warnings on stderr, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
 
 /// Writes files and puts them in place, once their content has been printed: without room for them
@@ -97,11 +93,9 @@ struct StudyOptions {
 /// other text; a number alone has no unit.
 std::optional<double> seconds_of(const std::string& text);
 
-/// An option that takes such a time.
 CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,
                              const std::string& meaning);
 
-/// An option that is a time in seconds and has a default.
 CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, double& seconds,
                                 const std::string& meaning);
 
@@ -146,7 +140,6 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& program, int& status, const
   return {*command, *options};
 }
 
-/// Each adds a command, or several of one subject.
 using AddCommands = void(CLI::App& program, int& status);
 AddCommands add_run, add_compare, add_work_precision, add_stability, add_plan, add_sensitivity,
     add_explain, add_plot_and_report, add_listings;

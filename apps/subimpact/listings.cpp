@@ -1,5 +1,3 @@
-// Commands that print and run nothing.
-
 #include "commands.h"
 #include "subimpact/io/report.h"
 #include "subimpact/study/within.h"

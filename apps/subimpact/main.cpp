@@ -16,7 +16,6 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
-#include "subimpact/report/figures.h"
 
 namespace {
 
@@ -44,7 +43,6 @@ std::optional<std::string> unknown_command(const CLI::App& program, int argc, ch
                      near.empty() ? "see subimpact --help" : "did you mean \"" + near + "\"?");
 }
 
-// One line, and where to read more.
 std::string usage_error(const CLI::App* program, const CLI::Error& error) {
   std::string command = "subimpact";
   for (const CLI::App* used : program->get_subcommands()) command += " " + used->get_name();

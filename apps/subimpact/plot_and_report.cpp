@@ -1,5 +1,3 @@
-// Commands that draw finished runs and write them up.
-
 #include <system_error>
 
 #include "commands.h"

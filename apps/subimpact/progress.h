@@ -22,7 +22,6 @@ class InterruptListener {
   bool interrupted() const { return signal() != 0; }
   /// The number of the signal that came first; 0: none came.
   int signal() const;
-  /// The exit status by which shells report it.
   int exit_status() const { return 128 + signal(); }
 
   /// From here on a second Ctrl-C does not end the program: results are being written.
@@ -37,7 +36,6 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// The text with three dots: what is going on.
   void show(const std::string& text) { write(text + " ..."); }
   void write(const std::string& text);
   void clear();
@@ -46,7 +44,6 @@ class StatusLine {
   bool is_dirty_ = false;
 };
 
-/// How far a run has come, on a status line.
 class ProgressDisplay {
  public:
   ProgressDisplay(double end_time, bool quiet, const InterruptListener& listener)

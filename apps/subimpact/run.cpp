@@ -20,7 +20,6 @@ struct RunOptions {
   bool quiet = false;
 };
 
-// Nothing: those that a run has by default.
 std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOptions& options) {
   if (options.error_bars.empty()) return std::nullopt;
   if (loaded.value.accuracy.event_times) {

@@ -16,8 +16,6 @@
 namespace subimpact {
 namespace {
 
-// --- what a member's type implies ---------------------------------------------------------------
-
 template <class T>
 struct Member {  // an enumeration
   static constexpr KeyType type = KeyType::choice;
@@ -25,7 +23,6 @@ struct Member {  // an enumeration
   static KeyValue to_value(T x) { return std::string(name_of(x)); }
   static T from_value(const KeyValue& v) { return value_of<T>(std::get<std::string>(v)); }
 };
-// A member of a type that a KeyValue holds.
 template <class T, KeyType key_type>
 struct HeldMember {
   static constexpr KeyType type = key_type;
@@ -70,7 +67,6 @@ struct Member<std::array<T, 2>> {
   }
 };
 
-// What a member holds that may be left open.
 template <class T>
 const T* held(const T& member) {
   return &member;
@@ -79,8 +75,6 @@ template <class T>
 const T* held(const std::optional<T>& member) {
   return member ? &*member : nullptr;
 }
-
-// --- the parts of a row -------------------------------------------------------------------------
 
 struct Range {
   const char* words = "";
@@ -165,8 +159,6 @@ std::vector<Choice> table_choices() {
   return choices;
 }
 
-// --- defaults that differ by method --------------------------------------------------------------
-
 // "adams, bdf: "step-end"; others: "located"", for two values of which most methods take `located`.
 template <class Member>
 std::string by_method(Member member) {
@@ -198,8 +190,6 @@ std::string default_step() {
                      default_part_of_critical);
 }
 
-// --- scatter -------------------------------------------------------------------------------------
-
 CaseKey scatter_row(const CaseKey& of) {
   CaseKey key;
   key.name = "scatter." + of.name;
@@ -221,7 +211,6 @@ CaseKey scatter_row(const CaseKey& of) {
   return key;
 }
 
-// One for each number of the scene.
 std::vector<CaseKey> with_scatter(std::vector<CaseKey> keys) {
   std::vector<CaseKey> rows;
   for (const CaseKey& key : keys) {

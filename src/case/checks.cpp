@@ -1,5 +1,3 @@
-// Checks of a case across its keys.
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,18 +13,14 @@
 namespace subimpact {
 namespace {
 
-// --- scales: numbers that are possible one by one but not together ------------------------------
-
 // Squares and quotients of two such numbers are finite, on the finest mesh too.
 constexpr double most_decades = 60.0;
 
-/// A key to a power.
 struct Factor {
   const char* key;
   double power;
 };
 
-/// A product of powers of keys.
 struct Quantity {
   const char* name;
   const char* unit;
@@ -97,8 +91,6 @@ void check_scales(const Case& input) {
   }
 }
 
-// --- contact: what its law needs is there, and nothing is given that the law would not use ------
-
 // The keys of which a law may be given more than it uses. The nose's radius describes the striker,
 // whether or not the law depends on it.
 constexpr const char* keys_of_contact[] = {"contact.stiffness", "contact.striker_modulus",
@@ -139,8 +131,6 @@ void check_contact(const Case& input) {
                                   way.why_unused));
   }
 }
-
-// --- output --------------------------------------------------------------------------------------
 
 // A row takes some 345 bytes in the file.
 constexpr double most_history_rows = 5e6;
@@ -200,8 +190,6 @@ void check_gaps(const Case& input) {
                                 "allowed: above 0, up to output.zone_gap; reduce it",
                                 input.output.subzone_gap, input.output.zone_gap));
 }
-
-// --- the rest ------------------------------------------------------------------------------------
 
 void check_shear(const Case& input) {
   const Beam& beam = input.scene.beam;

@@ -183,8 +183,6 @@ class Doubts {
   bool is_rigid_;
 };
 
-// --- what a run shows ----------------------------------------------------------------------------
-
 constexpr double thickest_without_shear = 0.1;  // thickness over length
 constexpr double thickest_with_shear = 1.0 / 3.0;
 constexpr double largest_rotation = 0.1;     // rad

@@ -1,5 +1,3 @@
-// Descriptions of case keys, and messages about refused values.
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -13,8 +13,6 @@
 namespace subimpact {
 namespace {
 
-// --- what makes a key idle -----------------------------------------------------------------------
-
 bool is_rigid(const Case& c) { return !descriptor_of(c.model.mesh).bends; }
 bool has_elastic_sections(const Case& c) { return c.model.section == SectionKind::elastic; }
 bool never_yields(const Case& c) { return std::isinf(c.scene.beam.yield_stress); }

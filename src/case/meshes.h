@@ -39,7 +39,6 @@ struct MeshDescriptor {
   std::optional<Refinement> refinement = {};
 };
 
-/// All meshes, in the order in which they are listed.
 std::span<const MeshDescriptor> meshes();
 const MeshDescriptor& descriptor_of(MeshKind kind);
 

@@ -1,7 +1,5 @@
 #pragma once
 
-/// The parts that a case stands for.
-
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,7 +26,6 @@ bool may_yield(const Case& input);
 
 /// Whether the scene is its own mirror image about mid-span, where it is struck.
 bool is_symmetric(const Case& input);
-/// Whether the case is modelled by one half.
 bool uses_symmetry(const Case& input);
 
 /// The fixed step of a run of the case, s; nothing for adaptive steps. Builds the model of the case
@@ -37,7 +34,6 @@ std::optional<double> step_of(const Case& input);
 /// The largest step that is left a margin to the critical step of the case, whatever its own step.
 double largest_stable_step(Case input);
 
-/// The way in which a case gives a law its constants.
 const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law);
 bool uses_key(const ContactConstants& way, const char* key);
 

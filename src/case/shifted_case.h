@@ -8,7 +8,6 @@
 
 namespace subimpact {
 
-/// Whether a key is a number of beam, striker or contact.
 bool is_number_of_scene(const CaseKey& key);
 
 /// Why results have no derivative by the logarithm of a key of the case, as a message that begins

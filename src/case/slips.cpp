@@ -153,8 +153,6 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return best;
 }
 
-// --- decimal commas ------------------------------------------------------------------------------
-
 std::string_view leading_decimal_comma(std::string_view text) {
   const auto fraction = after_digits(after_any_of("+-", text));
   if (!fraction || !fraction->starts_with(',')) return {};
@@ -172,8 +170,6 @@ std::string decimal_comma_hint(std::string_view text) {
   number[number.find(',')] = '.';
   return "; TOML writes a decimal point: " + number;
 }
-
-// --- names ---------------------------------------------------------------------------------------
 
 std::string own_name(std::string_view key, std::string_view name) {
   const std::string wanted = spelt_alike(name);

@@ -17,7 +17,6 @@ std::string decimal_comma_hint(std::string_view text);
 /// What a choice of a key is called here, for its name elsewhere ("fixed": "clamped"); else empty.
 std::string own_name(std::string_view key, std::string_view name);
 
-/// Whether case files have a table of that name, or tables within it.
 bool is_case_table(const std::string& name);
 
 /// "table.leaf"; the leaf alone outside all tables, where `table` is empty.

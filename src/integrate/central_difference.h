@@ -11,11 +11,9 @@ namespace subimpact {
 ///
 /// written with the velocity, so that the scheme is self-starting and can take a partial step (the
 /// same positions to rounding): v[n+1/2] = v[n] + dt/2 a[n], q[n+1] = q[n] + dt v[n+1/2], v[n+1] =
-/// v[n+1/2] + dt/2 a[n+1]. One acceleration per step. Stable for dt * omega_max < 2.
-///
-/// The last position may be advanced by a force that is constant over the step instead, of first
-/// order in dt: q[n+1] = q[n] + dt u[n] + dt^2/2 a[n], u[n+1] = u[n] + dt a[n]. With the velocity
-/// v[n] = u[n] + dt/2 a[n], that of the central differences, this is q[n+1] = q[n] + dt v[n].
+/// v[n+1/2] + dt/2 a[n+1]. One acceleration per step. Stable for dt * omega_max < 2. The last
+/// position may be advanced by a force that is constant over the step instead (docs/theory.md,
+/// "Central differences").
 class CentralDifference final : public Integrator {
  public:
   /// `step` in s; the caller must keep it below the critical step.

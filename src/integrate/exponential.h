@@ -14,21 +14,8 @@ namespace subimpact {
 ///
 /// The error estimate, the defect at the step's two ends times the response of lambda to a constant
 /// unit force over the step, is held below rtol times the displacement scale. Step lengths are
-/// unit/2^level.
-///
-/// An event search uses the step's ends and a cubic in lambda through them. So a step is also
-/// halved until that cubic resolves the side of the critical displacement on which lambda lies, or
-/// shows a single crossing with a rate above the error of the cubic's rate. In contact the cubic's
-/// uncertainty comes from its distance to lambda at the Gauss points; in free motion it has a
-/// bound, |lambda''''| <= sum |c_i| A_i omega_i^4 with the constant amplitudes A_i, so that the
-/// cubic is off by at most h^4/384 times that. With damping A_i omega_i falls, and (q', omega q)
-/// changes at most at the rate delta + sqrt(omega^2 + delta^2) of its size, which stands for the
-/// other three factors; far beyond critical damping the two exponentials are bounded one by one.
-/// The bound then falls from step to step.
-///
-/// state_at gives the flow under the step's force: exact but for the cubic. So the order is eight
-/// at the ends of steps and six within them, and for event times: a cubic misses the force by
-/// O(h^4), and lambda is its second integral.
+/// unit/2^level. state_at gives the flow under the step's force: of order eight at the ends of
+/// steps, and of order six within them and for event times.
 class Exponential final : public Integrator {
  public:
   Exponential(std::unique_ptr<ForcedOscillators> oscillators, const IntegratorOptions& options);

@@ -25,15 +25,8 @@ class ForcePolynomial {
 };
 
 /// Tables of a step of one length h of forced oscillators (ForcedOscillators): all that can be
-/// computed before the state is known. With the force a cubic through F_j at the Gauss points s_i
-/// h,
-///
-///     lambda(s_i h) = free_i . [q, q'] + sum_j G_ij F_j,
-///     q(h)  = q cos(omega h) + q' sin(omega h)/omega + sum_j P_j F_j,
-///     q'(h) = -q omega sin(omega h) + q' cos(omega h) + sum_j V_j F_j
-///
-/// in closed form for every omega h (variation of constants, Stumpff's functions; with damping:
-/// DampedOscillator).
+/// computed before the state is known, for a force that is a cubic through its values at the Gauss
+/// points (docs/theory.md, "The exponential method"). With damping: DampedOscillator.
 class OscillatorStep {
  public:
   OscillatorStep(const ForcedOscillators& oscillators, double length);

@@ -1,7 +1,5 @@
 #pragma once
 
-/// What SUNDIALS and KLU are used for.
-
 #include <memory>
 #include <string>
 #include <vector>

@@ -26,8 +26,6 @@ constexpr std::size_t most_problems = 100;       // reported at once
 constexpr std::size_t deepest_nesting = 32;
 constexpr const char* by_default = "default";  // as if the file did not have the key
 
-// --- TOML ----------------------------------------------------------------------------------------
-
 // The index after the string that begins at `at`. A string in three quotes may hold one or two
 // quotes, and those at its end belong to it.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
@@ -109,7 +107,6 @@ std::optional<KeyValue> to_key_value(const toml::node& node) {
   return std::nullopt;
 }
 
-// "a date", "a table".
 std::string describe_type(const toml::node& node) {
   static constexpr const char* types[] = {
       "nothing",        "a table",        "a list of things of several types",
@@ -131,8 +128,6 @@ std::string decimal_comma_in(std::string_view text, std::size_t line_number) {
   }
   return {};
 }
-
-// --- values, and what is wrong with them ---------------------------------------------------------
 
 // On a command line quotes are a nuisance: what is no TOML is a text where one is wanted.
 std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& text) {

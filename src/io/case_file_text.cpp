@@ -30,43 +30,6 @@ bool is_empty_list(const KeyValue& value) {
   return numbers != nullptr && numbers->empty();
 }
 
-}  // namespace
-
-std::string case_file_text(const Case& input) {
-  std::string text, table;
-  for (const CaseKey& key : case_keys()) {
-    const std::optional<KeyValue> value = key.get(input);
-    if (!value || is_empty_list(*value)) continue;
-    if (key.table() != table) {
-      table = key.table();
-      text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
-    }
-    const auto* words = std::get_if<std::string>(&*value);
-    text += fmt::format("{} = {}{}\n", key.leaf(), words ? toml_text(*words) : to_text(*value),
-                        key.unit.empty() ? "" : "  # " + key.unit);
-  }
-  return text;
-}
-
-std::string case_identity(const Case& input, const GivenKeys& given, const std::string& how) {
-  constexpr std::size_t n_digits = 32;
-  std::string text = project_version() + '\n';
-  for (const CaseKey& key : case_keys()) {
-    if (key.name == "title") continue;
-    const auto value = key.get(input);
-    text += key.name + '=' + (value ? to_text(*value) : std::string()) + '\n';
-  }
-  const OpenChoices open = open_choices(given);
-  text +=
-      fmt::format("open: {} {} {} {}\n{}", open.mesh, open.size, open.method, open.tolerance, how);
-  std::istringstream stream(text);
-  return seal_of(stream).sha256.substr(0, n_digits);
-}
-
-// --- the JSON schema -----------------------------------------------------------------------------
-
-namespace {
-
 using Json = nlohmann::ordered_json;  // editors list the keys in the order of the table
 
 Json number_schema(const char* type, const Limits& limits) {
@@ -156,6 +119,37 @@ Json& object_of(Json& outer, const std::string& table) {
 }
 
 }  // namespace
+
+std::string case_file_text(const Case& input) {
+  std::string text, table;
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(input);
+    if (!value || is_empty_list(*value)) continue;
+    if (key.table() != table) {
+      table = key.table();
+      text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
+    }
+    const auto* words = std::get_if<std::string>(&*value);
+    text += fmt::format("{} = {}{}\n", key.leaf(), words ? toml_text(*words) : to_text(*value),
+                        key.unit.empty() ? "" : "  # " + key.unit);
+  }
+  return text;
+}
+
+std::string case_identity(const Case& input, const GivenKeys& given, const std::string& how) {
+  constexpr std::size_t n_digits = 32;
+  std::string text = project_version() + '\n';
+  for (const CaseKey& key : case_keys()) {
+    if (key.name == "title") continue;
+    const auto value = key.get(input);
+    text += key.name + '=' + (value ? to_text(*value) : std::string()) + '\n';
+  }
+  const OpenChoices open = open_choices(given);
+  text +=
+      fmt::format("open: {} {} {} {}\n{}", open.mesh, open.size, open.method, open.tolerance, how);
+  std::istringstream stream(text);
+  return seal_of(stream).sha256.substr(0, n_digits);
+}
 
 std::string case_schema() {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},

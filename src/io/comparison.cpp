@@ -6,7 +6,7 @@
 #include "case/case_choices.h"
 #include "case/counted.h"
 #include "io/study_columns.h"
-#include "io/sub_impact_rows.h"
+#include "io/uncertain.h"
 #include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
@@ -67,7 +67,6 @@ std::string later(const std::optional<double>& time, const std::optional<double>
   return time && first ? fmt::format("{:+.2f}", us * (*time - *first)) : std::string("-");
 }
 
-// One line per sub-impact of a run.
 void add_rows(const TheoryRun& run, const TheoryRun& first, std::string& text) {
   const SubImpactRows table = sub_impact_rows(run.result);
   text +=

@@ -89,7 +89,6 @@ bool read_cell(std::string_view cell, Enum& value) {
   return found != names.end();
 }
 
-/// A column of a table whose rows are objects of type Row.
 template <class Row>
 struct Column {
   /// `value`: a pointer to a member of the row; or a function of the row that returns a reference
@@ -153,7 +152,6 @@ void append_row(std::string& text, const Columns<Row>& columns, const Row& row,
   text.push_back('\n');
 }
 
-/// The table: a heading, then one line per row.
 template <class Row>
 std::string csv_text(const Columns<Row>& columns, const std::vector<Row>& rows) {
   std::string text = csv_heading(columns);

@@ -275,7 +275,6 @@ void OutputDirectory::commit() {
   }
 }
 
-// Makes the staged files the valid ones.
 void OutputDirectory::seal() {
   const std::optional<Manifest> present = manifest_for_writing(path_);
   Manifest next{kind_, identity_, commit_, {}, {}};

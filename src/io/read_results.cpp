@@ -61,24 +61,6 @@ FinishedRun read_once(const fs::path& directory, const SealedFiles& files) {
   return run;
 }
 
-}  // namespace
-
-FinishedRun read_results(const fs::path& directory) {
-  std::error_code ignored;
-  if (!fs::is_directory(directory, ignored)) {
-    throw ResultsError(
-        fmt::format("{}: is not a directory; give the output directory of "
-                    "`subimpact run` (--out)",
-                    directory.string()));
-  }
-  return read_sealed(directory,
-                     [&](const SealedFiles& files) { return read_once(directory, files); });
-}
-
-// --- sweeps --------------------------------------------------------------------------------------
-
-namespace {
-
 constexpr const char* runs_name = "runs.csv";
 constexpr const char* sub_impacts_name = "sub_impacts.csv";
 constexpr const char* remedy = "run the sweep again, which takes what it has from its store";
@@ -100,7 +82,6 @@ Columns<SweptSubImpact> sub_impact_columns() {
   return columns;
 }
 
-// As numbers, if every cell is a number or empty.
 std::optional<std::vector<double>> as_numbers(const std::vector<std::string>& cells) {
   std::vector<double> numbers;
   for (const std::string& cell : cells) {
@@ -173,6 +154,18 @@ void read_sub_impacts(const SealedFiles& files, const fs::path& path, SweptRuns&
 }
 
 }  // namespace
+
+FinishedRun read_results(const fs::path& directory) {
+  std::error_code ignored;
+  if (!fs::is_directory(directory, ignored)) {
+    throw ResultsError(
+        fmt::format("{}: is not a directory; give the output directory of "
+                    "`subimpact run` (--out)",
+                    directory.string()));
+  }
+  return read_sealed(directory,
+                     [&](const SealedFiles& files) { return read_once(directory, files); });
+}
 
 const SweptRuns::Column* SweptRuns::find(std::string_view name) const {
   const auto found = std::ranges::find(columns, name, &Column::name);

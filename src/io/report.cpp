@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "case/counted.h"
 #include "case/meshes.h"
 #include "io/printable.h"
-#include "io/sub_impact_rows.h"
 #include "io/uncertain.h"
+#include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/results.h"
@@ -19,9 +18,6 @@
 namespace subimpact {
 namespace {
 
-constexpr double us = 1e6;  // per second
-constexpr double mm = 1e3;  // per metre
-constexpr double um = 1e6;
 constexpr double share_of_contact = 0.1;  // of the shortest ones, an error that serves them
 
 std::string time_or_never(const std::optional<double>& time) {
@@ -122,7 +118,6 @@ std::string first_failure_text(const Outcome& outcome) {
       failure.from * us, failure.from * us, failure.to * us);
 }
 
-// "0.226056 kg", "226.1 t".
 std::string mass_text(double mass) {
   if (mass >= 1e4) return fmt::format("{:.6g} t", 1e-3 * mass);
   if (mass < 1e-3) return fmt::format("{:.6g} g", 1e3 * mass);
@@ -159,7 +154,6 @@ std::string final_velocities_text(const Case& input, const Result& result) {
       total_text(result, "restitution", restitution, 1.0, 6, ""));
 }
 
-// The entry of the envelope where a value is largest.
 template <class Value>
 const EnvelopeRow& where_largest(const Result& result, Value value) {
   return *std::max_element(

@@ -42,7 +42,6 @@ class RowThinning {
   }
 
  private:
-  // Moves what is kept of a span to rows_.
   void reduce() {
     std::vector<std::size_t> kept = {0};  // index of the first row of each group
     for (std::size_t member = 0; member < std::min(group_, pending_.size()); ++member) {

@@ -60,8 +60,6 @@ auto used(Member member) {
   return result(&Result::used, member);
 }
 
-// --- the case ------------------------------------------------------------------------------------
-
 Json json_of_setting(const KeyValue& value) {
   if (const auto* real = std::get_if<double>(&value); real != nullptr && !std::isfinite(*real)) {
     return to_text(value);
@@ -88,7 +86,6 @@ KeyValue setting_of(const CaseKey& key, const Json& json) {
   throw std::logic_error("setting_of: a key of unknown type");
 }
 
-// One object per table of the case file; a key that was left open is null.
 RunEntry case_entry() {
   RunEntry entry("case", "keys of the case as asked for");
   entry.write = [](Json& object, const DescribedRun& run) {
@@ -128,8 +125,6 @@ RunEntry libraries_entry() {
   return entry;
 }
 
-// --- settings used -------------------------------------------------------------------------------
-
 // "contact_stiffness_N_per_m1.5": the exponent follows the unit, if it is not 1.
 RunEntry contact_stiffness_entry() {
   static constexpr const char* start = "contact_stiffness_N_per_m";
@@ -153,8 +148,6 @@ RunEntry contact_stiffness_entry() {
   };
   return entry;
 }
-
-// --- counts --------------------------------------------------------------------------------------
 
 const Record<ZoneSummary>& zone_record() {
   static const Record<ZoneSummary> record = {
@@ -185,8 +178,6 @@ Json count_transitions(const DescribedRun& run) {
   }
   return json;
 }
-
-// --- what a run may have -------------------------------------------------------------------------
 
 const Record<NearMiss>& near_miss_record() {
   static const Record<NearMiss> record = {

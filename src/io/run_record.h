@@ -24,7 +24,6 @@ struct DescribedRun {
   std::vector<std::pair<std::string, std::string>> libraries;  // name and version
 };
 
-/// All members of summary.json, in their order there.
 const Record<DescribedRun>& run_record();
 
 /// Reads what summary.json holds of a run; `path` is for messages. Throws ResultsError, also for

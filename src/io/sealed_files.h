@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -23,7 +22,6 @@ Seal seal_of(std::istream& file);
 /// std::system_error if the file cannot be opened.
 std::optional<Seal> seal_of(const std::filesystem::path& file);
 
-/// What manifest.json holds.
 struct Manifest {
   std::string kind;                      ///< "run", "figures", "compare" ...
   std::string identity;                  ///< of the run or study
@@ -36,7 +34,6 @@ inline constexpr const char* manifest_name = "manifest.json";
 
 /// Where the files of a commit wait for being put in place.
 std::filesystem::path staging_of(const std::filesystem::path& directory, const std::string& commit);
-/// Whether this is the name of such a directory.
 bool is_staging(const std::string& name);
 
 /// Nothing if the directory has no manifest.json. Throws ResultsError if that is no manifest.

@@ -48,7 +48,6 @@ std::string scattered(const std::optional<double>& time, const std::optional<dou
   return fmt::format("{} +- {}", with_decimals(us * *time, rounding->decimals), rounding->error);
 }
 
-// Another number, in its own unit.
 std::string with_scatter(double value, const std::optional<double>& scatter) {
   const auto rounding = rounding_of(scatter.value_or(HUGE_VAL), most_decimals_of_scatter + 2);
   if (!rounding) return with_digits(value, 2) + " ?";

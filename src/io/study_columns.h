@@ -12,7 +12,6 @@ constexpr auto member = [](auto& row) -> auto& {
   return (row.*....*members);
 };
 
-/// How a column is printed.
 struct Print {
   std::string heading;      ///< in one line or in two
   std::string width = {};   ///< alignment and width, as in format strings: ">13"

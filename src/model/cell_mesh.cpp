@@ -81,7 +81,6 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
   }
 }
 
-// The displacement of a cell's centre.
 SparseFunctional CellMesh::cell(std::size_t i) const {
   const std::size_t slaved = is_clamped(ends_[0]) ? 1 : 0;
   if (i < slaved) return {{{0, clamped_share}}, {}};

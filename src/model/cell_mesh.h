@@ -7,12 +7,8 @@
 
 namespace subimpact {
 
-/// N equal cells of length dx = l/N with the displacement at their centres, second order in dx
-/// (docs/theory.md, "Cells"). At a free end the end cell has no section; at a clamped end w[0] =
-/// w[1]/9 is not an unknown. With the spacing `points`, for free ends, dx = l/(N - 1): the
-/// outermost centres are the ends of the beam.
-///
-/// A strike between two centres is shared between them by linear weights. In the symmetric half
+/// N equal cells of length dx = l/N with the displacement at their centres, second order in dx, or
+/// of dx = l/(N - 1) with the spacing `points` (docs/theory.md, "Cells"). In the symmetric half
 /// model (strike at mid-span, N odd, ends alike) the last unknown is the struck cell, N/2.
 class CellMesh final : public BeamMesh {
  public:

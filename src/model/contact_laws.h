@@ -62,7 +62,6 @@ class PowerContact final : public ContactLaw {
   std::string name_;
 };
 
-/// One way to give a law its constants.
 struct ContactConstants {
   std::span<const char* const> keys;  ///< of the case file, all needed
   const char* remedy;                 ///< where one is missing

@@ -48,7 +48,6 @@ struct WaveOf {
   Number with_sin, with_cos;
 };
 
-/// The two waves of one frequency.
 template <class Kind>
 struct WavesOf {
   using Number = typename Kind::Number;

@@ -170,8 +170,6 @@ double HermiteElement::highest_frequency_squared(const ElementRule& rule,
   return solver.eigenvalues()(3);
 }
 
-// --- nodes ---------------------------------------------------------------------------------------
-
 double ElementGrading::elements_within(double d) const {
   if (refinement == 1.0) return d;
   const double growth = (1.0 - 1.0 / refinement) / refined_length;  // of the size, a metre

@@ -9,14 +9,11 @@
 
 namespace subimpact {
 
-/// Cubic Hermite elements: displacement and slope at the nodes, fourth order in the element length
-/// (docs/theory.md, "Hermite elements"). The sections are 2 to 4 Gauss points per element; the mass
-/// is consistent and banded with three entries beside the diagonal.
+/// Cubic Hermite elements: displacement and slope at the nodes, fourth order in their length,
+/// 2 to 4 Gauss points per element as sections (docs/theory.md, "Hermite elements").
 ///
-/// Unknowns, node by node (HermiteNodes): w and h t, both in m, with h = l/n. A node with a hinge
-/// has a slope on either side, t_- and t_+, and a section of length L between them, kappa = (t_+ -
-/// t_-)/L, L = hinge_share (a_- + a_+), which is taken from the elements beside it
-/// (rule_beside_hinges). Unknowns there: h t_-, w, h t_+.
+/// Unknowns, node by node (HermiteNodes): w and h t, both in m, with h = l/n. At a node with a
+/// hinge, whose section is taken from the elements beside it (rule_beside_hinges): h t_-, w, h t_+.
 class HermiteMesh final : public BeamMesh {
  public:
   static constexpr std::size_t fewest_elements = HermiteNodes::fewest_elements;
@@ -43,7 +40,6 @@ class HermiteMesh final : public BeamMesh {
   bool prefers_modes() const override;
   std::string description() const override;
 
-  /// Of the elements from left to right, m.
   std::span<const double> element_lengths() const { return nodes_.lengths; }
 
  private:

@@ -25,12 +25,8 @@ constexpr bool has_closed_modes(std::array<EndSupport, 2> ends) {
   return ends[0] == ends[1] || ends[0] == EndSupport::pinned || ends[1] == EndSupport::pinned;
 }
 
-/// Its natural modes in closed form, without decomposing a matrix; work n^2 for n shapes.
-///
-/// See docs/theory.md, "Hermite elements", for the waves from node to node, with their acoustic
-/// and optical branches, and the conditions on even and odd modes. A free end is taken as no force
-/// on and no couple on a further element into which the waves go on. A pinned end has theta m =
-/// (k - 1/2) pi or k pi; next to another kind of end it is the middle of an odd mode.
+/// Its natural modes in closed form (docs/theory.md, "Hermite elements"); work n^2 for n shapes. A
+/// free end is taken as no force on and no couple on a further element into which the waves go on.
 ///
 /// Frequencies ascend, rigid modes first; shapes have the unknowns of a HermiteMesh and are not
 /// normalised. Empty if one end is free and the other clamped, or if the number of modes found

@@ -34,14 +34,12 @@ class ModalMesh final : public BeamMesh {
   SparseFunctional curvature_functional(std::size_t section) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
-  /// That of the last mode.
   double highest_frequency(double bending_stiffness) const override;
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override { return physical_->has_closed_modes(); }
   std::span<const double> modal_stiffness() const override { return stiffness_; }
   std::string description() const override;
 
-  /// q = sum z_k phi_k.
   void to_physical(std::span<const double> modal, std::span<double> physical) const;
   /// z_k = phi_k^T Mass q/(m_beam/n).
   void to_modal(std::span<const double> physical, std::span<double> modal) const;

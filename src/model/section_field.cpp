@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "numerics/lanes.h"
-
 namespace subimpact {
 namespace {
 

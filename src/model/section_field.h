@@ -26,7 +26,6 @@ class SectionField {
   /// Largest slope dM/dkappa of any section in any state, N m2.
   double stiffness() const { return stiffness_; }
 
-  /// A section outside its window, 1/m.
   struct Outside {
     std::size_t section;
     double curvature;

@@ -36,15 +36,10 @@ struct SectionBranch {
   double limit;  ///< 1/m: curvature at which the branch ends on an older one; infinite: nowhere
 };
 
-/// Moment of a section whose fibres are elastic-perfectly plastic, with memory.
-///
-/// The virgin curve is that of the fibres (Fibres); after reversals Masing's rule holds, which is
-/// exact for such fibres (docs/theory.md, "Bending with yield"). After flow in one sense has ended
-/// at `edge`, no fibre flows within 2 x_1 of the edge on the side of unloading (x_1: first yield).
-///
-/// Bending moment M in N m, with the sign of the curvature (1/m). All functions are const in the
-/// history; `commit` alone advances it, at accepted states. Curvature is taken to move
-/// monotonically between two commits.
+/// Moment of a section whose fibres are elastic-perfectly plastic, with memory (docs/theory.md,
+/// "Bending with yield"). Bending moment M in N m, with the sign of the curvature (1/m). All
+/// functions are const in the history; `commit` alone advances it, at accepted states. Curvature is
+/// taken to move monotonically between two commits.
 class SectionLaw {
  public:
   /// `fibres` of a section of `beam`; the yield stress must be finite.
@@ -62,7 +57,6 @@ class SectionLaw {
   /// M of a section outside its window, N m.
   double flowing_moment(const SectionHistory& history, double curvature) const;
 
-  /// The branch of a section that continues to flow from the edge of its history.
   SectionBranch branch_from_edge(const SectionHistory& history) const;
   double moment_on(const SectionBranch& branch, double curvature) const;   ///< M, N m
   double tangent_on(const SectionBranch& branch, double curvature) const;  ///< dM/dkappa, N m2

@@ -8,13 +8,8 @@
 namespace subimpact {
 
 /// Elements of a beam whose sections shear, with polynomials of degree 4 for displacement w and
-/// rotation phi of the sections, both by their values at the Gauss-Lobatto points.
-///
-///     gamma = w' - phi,  kappa = phi'      at the 4 Gauss points of an element (the sections)
-///     Mass  by Gauss-Lobatto quadrature, diagonal
-///
-/// (docs/theory.md, "Spectral elements"). A node lies under the strike: elements on both sides of
-/// it have lengths of their own.
+/// rotation phi of the sections (docs/theory.md, "Spectral elements"). A node lies under the
+/// strike: elements on both sides of it have lengths of their own.
 ///
 /// Unknowns, from left to right: w and r phi of every node, in m, with the radius of gyration r;
 /// those that supports hold, and the rotation at mid-span under symmetry, are left out.
@@ -39,7 +34,6 @@ class SpectralMesh final : public BeamMesh {
   /// Polynomials of degree 4 in each element.
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
-  /// The highest frequency of a single element.
   double highest_frequency(double bending_stiffness) const override;
   std::string description() const override;
 

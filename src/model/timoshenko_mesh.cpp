@@ -7,7 +7,6 @@
 namespace subimpact {
 namespace {
 
-// Cells before the strike, for a node under it.
 std::size_t cells_before(double position, std::size_t n_cells) {
   const double nodes = position * static_cast<double>(n_cells) - 0.5;
   return static_cast<std::size_t>(

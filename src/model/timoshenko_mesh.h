@@ -69,7 +69,6 @@ class TimoshenkoMesh final : public BeamMesh {
   void place_unknowns();
   double node_position(std::size_t i) const;
   double length() const;  // of the whole beam, m
-  // The face of a supported end.
   struct EndFace {
     std::size_t node, rotation;  // unknowns; the rotation of a pinned end only
     double rise, turn;           // gamma = rise w + turn (r phi), 1/m

@@ -7,15 +7,11 @@
 namespace subimpact {
 
 /// A proven lower bound for the time until one of many event functions of free oscillators reaches
-/// its limits:
+/// its limits (docs/theory.md, "Free flight"):
 ///
 ///     z_k'' + omega_k^2 z_k = 0,   low_i < x_i < high_i,   x_i = sum_k g_ik z_k.
 ///
-/// omega_k = 0 is a body moving uniformly. Each x_i is sampled every tau from the slow oscillators
-/// alone, omega_k tau < sqrt(8); between two samples it exceeds the larger of them by no more than
-/// the margin sum_k |g_ik| A_k min(1, (omega_k tau)^2/8), with the amplitudes A_k = |(z_k,
-/// z_k'/omega_k)|. Functions that do not keep their margins from the limits are sampled again with
-/// tau/4. See docs/theory.md, "Free flight", for the derivation.
+/// omega_k = 0 is a body moving uniformly.
 class EventFreeHorizon {
  public:
   /// `frequencies`: omega, n of them, rad/s, ascending, the last above 0; `functions`: rows of g.

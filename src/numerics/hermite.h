@@ -23,7 +23,6 @@ class HermiteCubic {
   double operator()(double s) const { return c0_ + s * (c1_ + s * (c2_ + s * c3_)); }
   double slope(double s) const { return c1_ + s * (2.0 * c2_ + s * 3.0 * c3_); }
 
-  /// The least slope in [0, 1].
   double least_slope() const {
     const double s = -c2_ / (3.0 * c3_);
     const double ends = std::min(slope(0.0), slope(1.0));

@@ -9,7 +9,6 @@
 #include "io/sealed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
-#include "report/page_data.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -54,7 +53,6 @@ Json run_row(const FinishedRun& run, const std::string& name, std::size_t i) {
           {"wall", duration_text(result.work.wall_seconds)}};
 }
 
-// A number with its sign, as it is set in print.
 std::string signed_text(double x, const char* format) {
   std::string text = fmt::format(fmt::runtime(format), x);
   if (text.front() == '-') text.replace(0, 1, "−");

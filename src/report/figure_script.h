@@ -81,7 +81,6 @@ double HistoryRow::*history_member(std::string_view column);
 /// The figures of a run for which it has data, marked if the run did not complete.
 std::vector<FigureScript> figure_scripts(const Case& input, const Result& result);
 
-// The figures; each is a function of a run.
 FigureScript response_figure(const Case& input, const Result& result);
 FigureScript first_sub_impact_figure(const Case& input, const Result& result);
 FigureScript indentation_figure(const Case& input, const Result& result);

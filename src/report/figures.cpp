@@ -15,7 +15,6 @@
 namespace subimpact {
 namespace {
 
-// The sections for which the figure `bending` has no space.
 std::string sections_left_out(const std::vector<double>& sections) {
   return fmt::format(
       "bending: sections {} to {} of output.sections ({:g}): the figure has room for {}; run the "

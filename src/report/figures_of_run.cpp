@@ -26,12 +26,15 @@ void add_line(NumberRows& rows, std::size_t number, const std::vector<Point>& po
   for (const Point& p : points) rows.push_back({static_cast<double>(number), p.x, p.y});
 }
 
-// The sub-impacts after the first in which the contact yielded further.
+double growth_of_residual(std::size_t i, const Result& result) {
+  return result.sub_impacts[i].residual_indentation -
+         result.sub_impacts[i - 1].residual_indentation;
+}
+
 std::vector<std::size_t> yielding_again(const Result& result) {
   std::vector<std::size_t> found;
-  const auto& hits = result.sub_impacts;
-  for (std::size_t i = 1; i < hits.size(); ++i) {
-    if (hits[i].residual_indentation > hits[i - 1].residual_indentation) found.push_back(i);
+  for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
+    if (growth_of_residual(i, result) > 0.0) found.push_back(i);
   }
   return found;
 }
@@ -58,8 +61,6 @@ void add_sub_impacts(FigureScript& figure, const Result& result) {
   figure.set("end", result.outcome.time);
   figure.set("n_uncertain", static_cast<double>(rows.size() - n_certain));
 }
-
-// --- force against indentation -------------------------------------------------------------------
 
 constexpr std::size_t most_insets = 3;
 
@@ -93,11 +94,6 @@ Loop loop_of(const ContactLaw& law, const std::vector<HistoryRow>& rows) {
     history = law.commit(history, row.indentation);
   }
   return loop;
-}
-
-double growth_of_residual(std::size_t i, const Result& result) {
-  return result.sub_impacts[i].residual_indentation -
-         result.sub_impacts[i - 1].residual_indentation;
 }
 
 // As many as insets can show, the deepest ones, in order of time.
@@ -134,8 +130,6 @@ void set_mark(FigureScript& figure, const std::string& name, EventKind kind, con
     return;
   }
 }
-
-// --- shapes --------------------------------------------------------------------------------------
 
 // The first rows of shapes nearest to instants that cut the run into equal parts.
 std::vector<std::size_t> shapes_drawn(const Result& result, std::size_t n_points) {

@@ -10,7 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -29,8 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
-
-// --- gnuplot as a process ------------------------------------------------------------------------
 
 /// What a process of gnuplot left behind.
 struct GnuplotRun {
@@ -171,8 +168,6 @@ GnuplotRun run_gnuplot(const fs::path& directory, std::vector<std::string> argum
   }
   return run;
 }
-
-// --- drawings ------------------------------------------------------------------------------------
 
 void throw_if_not_started(const std::string& figure, int error) {
   if (error == 0) return;

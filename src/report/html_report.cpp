@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "case/counted.h"
 #include "io/sealed_files.h"
-#include "io/sub_impact_rows.h"
 #include "io/uncertain.h"
 #include "report/page.h"
-#include "report/page_data.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"

@@ -17,9 +17,6 @@
 namespace subimpact {
 namespace {
 
-// --- templates -----------------------------------------------------------------------------------
-
-// The innermost field of that name.
 const Json& field(const std::vector<const Json*>& scopes, const std::string& name) {
   if (name == ".") return *scopes.back();
   for (auto scope = scopes.rbegin(); scope != scopes.rend(); ++scope) {
@@ -32,7 +29,6 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// Takes a page up to a mark, and the mark.
 std::string_view take(std::string_view& page, const std::string& mark) {
   const std::size_t at = page.find(mark);
   if (at == page.npos) throw std::logic_error("a page without " + mark);
@@ -66,8 +62,6 @@ void fill(std::string& result, std::string_view page, std::vector<const Json*>& 
   }
   result += page;
 }
-
-// --- texts ---------------------------------------------------------------------------------------
 
 using Texts = std::pair<const char*, const char*>;
 

@@ -13,6 +13,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "subimpact/case/case.h"
+#include "subimpact/simulate/result.h"
+
 namespace subimpact {
 
 /// What a page is made of: the fields of its template, and the data that its scripts draw.
@@ -28,7 +31,6 @@ std::string filled(std::string_view page, const Json& fields);
 /// Text as HTML shows it literally.
 std::string escaped(std::string_view text);
 
-/// A list of entry(x) for each x.
 template <class Range, class Entry>
 Json list_of(const Range& range, Entry entry) {
   Json list = Json::array();
@@ -89,5 +91,21 @@ Json packed_i24(const std::vector<double>& values);
 
 /// JSON within a script element, where the text would end at "</script": without <, > and &.
 std::string within_script(const Json& json);
+
+/// What the scripts of a page draw, and what was left out to keep the page small.
+struct PageData {
+  std::string json;          ///< to stand within a script element: without <, > and &
+  std::string history_note;  ///< one sentence; empty if every row is there
+  std::string shapes_note;   ///< one or two sentences
+};
+
+/// The data of a run. Columns are packed as above: a value is exact to 6e-8 of itself (f32) or
+/// of the largest of its column (i24). Of long histories the rows with the extremes of equal spans
+/// are kept, of many or fine shapes those at events and every n-th.
+PageData page_data(const Case& input, const Result& result);
+
+/// The data of several runs for a page that compares them: named columns of their histories.
+std::string comparison_data(const std::vector<std::string>& names,
+                            const std::vector<const Result*>& results);
 
 }  // namespace subimpact

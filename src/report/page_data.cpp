@@ -1,4 +1,4 @@
-#include "report/page_data.h"
+#include "report/page.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "case/problem.h"
 #include "io/row_thinning.h"
 #include "report/figure_script.h"
-#include "report/page.h"
 
 namespace subimpact {
 namespace {
@@ -24,8 +23,6 @@ constexpr std::size_t most_shape_rows = 240'000;  // of all shapes
 constexpr const char* drawn_columns[] = {"force_N",     "indentation_m", "w_c_m", "w_m_m", "f_c_m",
                                          "v_m_m_per_s", "U_m_J",         "U_k_J", "U_e_J", "U_p_J",
                                          "U_c_J",       "D_c_J",         "D_b_J"};
-
-// --- history -------------------------------------------------------------------------------------
 
 std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::size_t most_rows) {
   std::vector<double HistoryRow::*> drawn;
@@ -42,8 +39,6 @@ Json history_json(const std::vector<HistoryRow>& rows) {
   for (const char* name : drawn_columns) json[name] = packed<float>(rows, history_member(name));
   return json;
 }
-
-// --- shapes --------------------------------------------------------------------------------------
 
 using Indices = std::set<std::size_t>;
 
@@ -163,8 +158,6 @@ void add_shapes(Json& json, PageData& data, const Case& input, const Result& res
                     kept.shapes.size(), n_shapes, kept.points.size(), result.used.n_shape_points);
   }
 }
-
-// --- events --------------------------------------------------------------------------------------
 
 Json number_or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);

@@ -17,7 +17,6 @@ namespace {
 template <auto number>
 constexpr auto errors = [](const auto& row) { return row.errors.*number; };
 
-// Of a measured step from the predicted one.
 std::string difference(const auto& row) {
   return fmt::format("{:.2f} %", 100.0 * (row.measured / row.predicted - 1.0));
 }
@@ -42,7 +41,6 @@ std::vector<DampingOfMethod> by_method(const std::vector<Damping>& rows) {
   return methods;
 }
 
-// A study of which one table holds all: printed, as a file, and drawn.
 template <class Row>
 StabilityPart part_of(const char* name, const StudyColumns<Row>& columns,
                       const std::vector<Row>& rows) {

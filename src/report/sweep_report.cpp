@@ -11,7 +11,6 @@
 #include "io/sealed_files.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
 
 namespace subimpact {
 namespace {
@@ -52,8 +51,6 @@ Shown shown(const SweptRuns::Column& column) {
   const CaseKey* key = column.is_key ? find_case_key(column.name) : nullptr;
   return {column.name.c_str(), column.name.c_str(), key ? key->unit.c_str() : "", 1.0};
 }
-
-// --- data ----------------------------------------------------------------------------------------
 
 Json words_json(const std::vector<std::string>& words) {
   std::map<std::string, int> places;
@@ -105,8 +102,6 @@ Json sub_impacts_json(const SweptRuns& runs, std::size_t& n_left_out) {
           {"max_indentation", packed<float>(rows, &SubImpact::max_indentation)},
           {"striker_velocity", packed<float>(rows, &SubImpact::striker_velocity)}};
 }
-
-// --- words ---------------------------------------------------------------------------------------
 
 std::map<std::string, std::size_t> outcomes(const SweptRuns& runs) {
   std::map<std::string, std::size_t> counts;

@@ -37,7 +37,6 @@ class Audit {
 
   /// Judges the accepted state y at time t (s).
   void check(double t, const State& y) { check(t, y, accounts_.energies(y)); }
-  /// The same with energies that are already computed.
   void check(double t, const State& y, const Energies& energies);
   /// A cheap look at the struck point, for every step: throws if its indentation (m) or rate (m/s)
   /// is not finite; returns whether the striker's speed is suspicious enough for a full check.
@@ -50,7 +49,6 @@ class Audit {
   double tolerated_loss() const { return share_of_losses * limits_.energy * initial_energy_; }
   /// By how much impulse and integrated force may differ, N s.
   double tolerated_impulse() const { return limits_.energy * initial_momentum_; }
-  /// Throws RunStopped for a failed check at t.
   [[noreturn]] void fail(double t, OutcomeKind kind, const std::string& what) const;
 
   /// Whether the last check found the energy above what is tolerated.

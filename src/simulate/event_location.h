@@ -14,12 +14,9 @@ namespace subimpact {
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at);
 
-/// Finds the end of a step: its first event of the contact, or where its section correction stops
-/// being valid, or its own end.
-///
-/// Events are located on the method's own trajectory to rounding, the earliest by estimate first,
-/// after which what remains of the step is searched again (docs/theory.md, "Events"). If sections
-/// leave their smooth pieces before the event, it is located again on the corrected trajectory.
+/// Finds the end of a step: its first event of the contact (docs/theory.md, "Events"), or where its
+/// section correction stops being valid, or its own end. If sections leave their smooth pieces
+/// before the event, it is located again on the corrected trajectory.
 ///
 /// With EventHandling::library the event is the root at which the integrator has ended the step
 /// (Integrator::root); one behind the end of the section correction is left to later steps.

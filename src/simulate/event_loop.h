@@ -74,7 +74,6 @@ class EventLoop {
   double time() const { return time_; }
   const State& state() const { return *state_; }
   long n_events() const { return n_events_; }
-  /// Mass solves of the section correction.
   long n_correction_solves() const { return corrector_.n_mass_solves(); }
 
  private:
@@ -90,9 +89,7 @@ class EventLoop {
   void watch_for_chattering(double time);
   // Of every step's end, before anything is looked for in the step.
   void check_step_end();
-  // The indentation at the state that the next step starts from.
   void read_indentation();
-  // The same at the ends of the last step or of a piece of it.
   IndentationStep indentation_of(const StepEnds& piece) const;
   // Of the state accepted at the step's end, at every audit_interval-th step and where required.
   void check_accepted(bool now);

@@ -20,7 +20,6 @@ class FieldRecorder {
   /// `rows` takes the rows. All must outlive this.
   FieldRecorder(const RunParts& parts, Result& result, RowSink& rows);
 
-  /// Whether there is anything to record.
   bool is_needed() const { return has_shapes() || !points_.empty() || reactions_; }
 
   /// Of the next shape, s; infinite: none.

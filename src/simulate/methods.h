@@ -67,7 +67,6 @@ struct MethodDescriptor {
   std::function<std::unique_ptr<Integrator>(StruckBeam&, const IntegratorOptions&)> make = {};
 };
 
-/// All methods, in the order in which they are listed.
 const std::vector<MethodDescriptor>& methods();
 const MethodDescriptor& descriptor_of(Method method);
 

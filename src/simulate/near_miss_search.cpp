@@ -78,7 +78,6 @@ void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam,
 }
 
 void NearMissSearch::keep(const NearMiss& near_miss) {
-  // In order of margin.
   if (n_ < most_kept) ++n_;
   std::size_t i = n_ - 1;
   for (; i > 0 && near_miss.margin < kept_[i - 1].margin; --i) kept_[i] = kept_[i - 1];

@@ -12,22 +12,8 @@
 
 namespace subimpact {
 
-/// Finds the near misses of one contact or separation after the other, step by step.
-///
-/// The gap g = |lambda - lambda_r| is how far the indentation lies from the residual one, on the
-/// side of the present contact or separation. Within a step lambda is the cubic through its values
-/// and rates at both ends. The cubic has a local minimum of g if g falls at the start and rises at
-/// the end; also if g falls at both ends or rises at both and the cubic turns twice in between, for
-/// which
-///
-///     h |g0' + g1'| > 3 |g1 - g0|
-///
-/// is necessary. A step costs these comparisons. A minimum costs a root and, where the cubic alone
-/// leaves its margin uncertain, up to three states within the step.
-///
-/// Of each contact or separation the nearest few are kept, in an array of fixed size. A step that
-/// is proven free of events (StepEnds::event_free) may span many periods, of which its ends show
-/// nothing: it is searched where the samples of its proof are nearest (EventFreeHorizon).
+/// Finds the near misses of one contact or separation after the other, step by step
+/// (docs/theory.md, "Events"). Of each the nearest few are kept, in an array of fixed size.
 class NearMissSearch {
  public:
   /// A contact (`opening`) or a separation (`closing`) begins.
@@ -50,7 +36,6 @@ class NearMissSearch {
     }
   }
 
-  /// The nearest of the present contact or separation.
   const NearMiss* nearest() const { return n_ > 0 ? kept_.data() : nullptr; }
 
   /// Appends the near misses of the contact or separation that ends, in order of time: those whose

@@ -27,7 +27,6 @@ class ObservedStep {
   const State& y0() const { return ends_.y0; }
   const State& y1() const { return ends_.y1; }
   const StepEnds& ends() const { return ends_; }
-  /// The indentation and its rate at both ends.
   const IndentationStep& indentation() const { return indentation_; }
 
   /// The method's state at a time (s) within the step, without the section correction.
@@ -38,11 +37,9 @@ class ObservedStep {
       integrator_.state_at(t, y);
     }
   }
-  /// See Integrator::around_largest.
   std::optional<std::pair<double, double>> around_largest() const {
     return integrator_.around_largest();
   }
-  /// See Integrator::integrate_squared_velocities.
   bool integrate_squared_velocities(double t, std::span<double> result) const {
     return integrator_.integrate_squared_velocities(t, result);
   }

@@ -8,14 +8,53 @@
 
 namespace subimpact {
 
-// --- ForceQuadrature -----------------------------------------------------------------------------
-
 namespace {
 
 // Halvings of a step: each takes the error down 16 times.
 constexpr int most_halvings_of_force = 8;
 
 double fifth_power(double h) { return h * h * h * h * h; }
+
+constexpr int most_halvings_of_loss = 6;
+constexpr std::size_t n_points = 4;
+
+// Weights of the positions, velocities and accelerations at both ends in position and velocity of a
+// Hermite polynomial, at s in [0, 1] of a step of length h.
+struct HermiteWeights {
+  double position[2][3], velocity[2][3];
+};
+
+HermiteWeights cubic_weights(double s, double h) {
+  const double r = 1.0 - s;
+  const double slope = 6.0 * s * r / h;
+  return {{{r * r * (1.0 + 2.0 * s), h * r * r * s, 0.0},
+           {s * s * (1.0 + 2.0 * r), -h * s * s * r, 0.0}},
+          {{-slope, r * (1.0 - 3.0 * s), 0.0}, {slope, s * (1.0 - 3.0 * r), 0.0}}};
+}
+
+HermiteWeights quintic_weights(double s, double h) {
+  HermiteWeights weights{};
+  for (int end = 0; end < 2; ++end) {
+    const double x = end == 0 ? s : 1.0 - s;
+    const double sign = end == 0 ? 1.0 : -1.0;
+    const double r = 1.0 - x;
+    const double r2 = r * r;
+    const double r3 = r2 * r;
+    weights.position[end][0] = r3 * (1.0 + 3.0 * x + 6.0 * x * x);
+    weights.position[end][1] = sign * h * r3 * (x + 3.0 * x * x);
+    weights.position[end][2] = h * h * r3 * 0.5 * x * x;
+    weights.velocity[end][0] = -sign * 30.0 * x * x * r2 / h;
+    weights.velocity[end][1] = r2 * (1.0 + 2.0 * x - 15.0 * x * x);
+    weights.velocity[end][2] = sign * h * r2 * (x - 2.5 * x * x);
+  }
+  return weights;
+}
+
+bool needs_halving(double quintic, double cubic, double tolerance) {
+  if (!(std::abs(quintic) > tolerance)) return false;
+  const double share = std::abs((quintic - cubic) / quintic);
+  return share * std::sqrt(share) * std::abs(quintic) > tolerance;
+}
 
 }  // namespace
 
@@ -69,53 +108,6 @@ double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam&
   const auto [a, b] = ends_of(step);
   return between(a, b, beam);
 }
-
-// --- LossQuadrature ------------------------------------------------------------------------------
-
-namespace {
-
-constexpr int most_halvings_of_loss = 6;
-constexpr std::size_t n_points = 4;
-
-// Weights of the positions, velocities and accelerations at both ends in position and velocity of a
-// Hermite polynomial, at s in [0, 1] of a step of length h.
-struct HermiteWeights {
-  double position[2][3], velocity[2][3];
-};
-
-HermiteWeights cubic_weights(double s, double h) {
-  const double r = 1.0 - s;
-  const double slope = 6.0 * s * r / h;
-  return {{{r * r * (1.0 + 2.0 * s), h * r * r * s, 0.0},
-           {s * s * (1.0 + 2.0 * r), -h * s * s * r, 0.0}},
-          {{-slope, r * (1.0 - 3.0 * s), 0.0}, {slope, s * (1.0 - 3.0 * r), 0.0}}};
-}
-
-HermiteWeights quintic_weights(double s, double h) {
-  HermiteWeights weights{};
-  for (int end = 0; end < 2; ++end) {
-    const double x = end == 0 ? s : 1.0 - s;
-    const double sign = end == 0 ? 1.0 : -1.0;
-    const double r = 1.0 - x;
-    const double r2 = r * r;
-    const double r3 = r2 * r;
-    weights.position[end][0] = r3 * (1.0 + 3.0 * x + 6.0 * x * x);
-    weights.position[end][1] = sign * h * r3 * (x + 3.0 * x * x);
-    weights.position[end][2] = h * h * r3 * 0.5 * x * x;
-    weights.velocity[end][0] = -sign * 30.0 * x * x * r2 / h;
-    weights.velocity[end][1] = r2 * (1.0 + 2.0 * x - 15.0 * x * x);
-    weights.velocity[end][2] = sign * h * r2 * (x - 2.5 * x * x);
-  }
-  return weights;
-}
-
-bool needs_halving(double quintic, double cubic, double tolerance) {
-  if (!(std::abs(quintic) > tolerance)) return false;
-  const double share = std::abs((quintic - cubic) / quintic);
-  return share * std::sqrt(share) * std::abs(quintic) > tolerance;
-}
-
-}  // namespace
 
 void LossQuadrature::read_acceleration(Node& node, StruckBeam& beam) {
   node.acceleration.resize(beam.n_positions());

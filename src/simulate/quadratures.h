@@ -9,13 +9,7 @@
 namespace subimpact {
 
 /// Integral of the contact force over time, from the indentation alone: independent of the
-/// striker's velocity, whose change it must equal.
-///
-/// Over a step the indentation is taken as the cubic through its values and rates at both ends and
-/// the force at that indentation is integrated by Gauss' rule, with an error c h^5. The constant c
-/// follows from two neighbouring steps taken as one; it corrects the step's integral. Where no
-/// neighbour is known yet, or where c h^5 is above the tolerance, the step is halved, with states
-/// that the integrator gives for times within it.
+/// striker's velocity, whose change it must equal (docs/theory.md, "Accounts").
 class ForceQuadrature {
  public:
   /// `tolerance` of a step's integral, N s.
@@ -56,21 +50,8 @@ class ForceQuadrature {
   State state_;
 };
 
-/// Energy that velocity-dependent forces dissipate, integrated over time along the trajectory:
-///
-///     contact closed      chi F_0 lambda'^2
-///     contact recovering  -F_0 lambda', the law's elastic energy, which recovers without a force
-///     beam                v^T C v
-///
-/// independently of the energies, whose balance it closes.
-///
-/// Over a step positions are taken as the quintics through positions, velocities and accelerations
-/// at both ends; powers are integrated by Gauss' rule. The difference D from the same with cubics,
-/// without accelerations, estimates the error: cubics and quintics miss an oscillation of omega h
-/// by (omega h)^4/384 and (omega h)^6/46080, so that the quintics' share of the integral I is below
-/// (D/I)^(3/2). Where that is above the tolerance the step is halved, with states that the
-/// integrator gives for times within it. Integrators that have a closed form
-/// (Integrator::integrate_squared_velocities) give the beam's part.
+/// Energy that velocity-dependent forces dissipate, integrated along the trajectory: independently
+/// of the energies, whose balance it closes (docs/theory.md, "Accounts").
 class LossQuadrature {
  public:
   /// `tolerance` of a step's integral, J.

@@ -61,7 +61,6 @@ class Recorder final : public RunObserver {
   void follow_displacement(double of_struck_point);
   void close_sub_impact(const State& y, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
-  // A history row, a shape, or both.
   void add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts);
   void integrate_force(const ObservedStep& step, const StruckBeam& beam);
   void follow_peak(double indentation, const StruckBeam& beam);

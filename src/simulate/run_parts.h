@@ -13,7 +13,6 @@
 
 namespace subimpact {
 
-/// In which unknowns a beam is integrated.
 enum class Coordinates {
   chosen,  ///< natural modes for an elastic beam where the method needs them or they are cheaper
   of_mesh  ///< the mesh's own
@@ -42,7 +41,6 @@ struct RunParts {
   double setup_seconds = 0.0;
 };
 
-/// What the loop over steps needs of them.
 LoopOptions loop_options(const RunParts& parts);
 
 /// Runs the parts with an integrator: the lower half of simulate(ResolvedRun). Result::given and

@@ -1,5 +1,3 @@
-// What callers read of a run: while it goes on, and of its result.
-
 #include <fmt/format.h>
 
 #include <algorithm>

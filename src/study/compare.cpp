@@ -9,7 +9,6 @@
 #include "case/counted.h"
 #include "study/method_choice.h"
 #include "subimpact/study/judgement.h"
-#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {

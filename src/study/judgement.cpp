@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "numerics/richardson.h"
+#include "numerics/units.h"
 #include "study/mesh_resolution.h"
 #include "study/totals.h"
 #include "subimpact/study/match.h"
@@ -17,8 +18,6 @@
 namespace subimpact {
 namespace {
 
-constexpr double us = 1e6;  // per second
-constexpr double um = 1e6;  // per metre
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 // Measured on random scenes (validation/judgement).

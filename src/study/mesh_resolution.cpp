@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
+#include "numerics/units.h"
 #include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
@@ -14,7 +14,6 @@ namespace {
 
 constexpr double cells_per_wave = 8.0;
 constexpr double fewest_cells = 64.0;
-constexpr double us = 1e6;  // per second
 
 double cells_of_a_part(const Case& input) {
   switch (input.model.mesh) {

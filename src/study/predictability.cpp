@@ -19,7 +19,6 @@ constexpr double deviations = 2.0;        // within which a graze is possible
 
 using ByKey = std::vector<std::optional<Derivative>>;
 
-// a - b, key by key.
 ByKey difference(const ByKey& a, const ByKey& b) {
   ByKey result(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -28,7 +27,6 @@ ByKey difference(const ByKey& a, const ByKey& b) {
   return result;
 }
 
-/// Standard deviations of the numbers of a study.
 class Deviations {
  public:
   Deviations(const Sensitivity& study, const Scatter& scatter) : study_(study), scatter_(scatter) {}

@@ -39,8 +39,6 @@ struct {
     {"striker_velocity_m_per_s", [](const SubImpact& s) { return s.striker_velocity; }}};
 static_assert(std::size(quantities) == event_quantities.size());
 
-// --- the runs -----------------------------------------------------------------------------------
-
 // A run of another accuracy in time, and the error of the base run as a share of the difference.
 struct CheckRun {
   Case input;
@@ -106,8 +104,6 @@ std::vector<Case> shifted_cases(const Case& base, const std::vector<const CaseKe
   }
   return cases;
 }
-
-// --- differences of runs ------------------------------------------------------------------------
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -199,7 +195,6 @@ class Differences {
   std::vector<bool> of_beam_;
 };
 
-/// One row of the study and what there is to flag in it.
 SensitivityRow row_of(const Differences& differences, EventQuantity quantity, std::size_t i,
                       double value, const std::vector<std::string>& keys) {
   SensitivityRow row{quantity, i, value, {}, {}};
@@ -232,8 +227,6 @@ SensitivityRow row_of(const Differences& differences, EventQuantity quantity, st
   }
   return row;
 }
-
-// --- near misses --------------------------------------------------------------------------------
 
 std::vector<NearMissSensitivity> near_misses_of(const Result& base,
                                                 const std::vector<Result>& shifted_runs,

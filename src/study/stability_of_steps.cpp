@@ -5,7 +5,6 @@
 #include <limits>
 #include <random>
 
-#include "case/problem.h"
 #include "integrate/central_difference.h"
 #include "integrate/stability.h"
 #include "numerics/bracketed_root.h"

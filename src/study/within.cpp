@@ -43,7 +43,6 @@ struct Level {
   std::vector<RunBeside> beside;
 };
 
-// Runs a case on finer and finer meshes.
 class Search {
  public:
   Search(const Case& input, const OpenChoices& open, const WithinOptions& options)

@@ -15,7 +15,6 @@ constexpr double reference_share = 0.1;
 // A tolerance ten times tighter costs up to this many times more (order 3: 2.2).
 constexpr double growth_of_a_decade = 2.2;
 
-/// A run and how long it takes.
 struct TimedRun {
   Result result;
   double seconds = 0.0;  ///< wall time, set-up included: the shortest of the repeats

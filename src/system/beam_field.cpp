@@ -28,8 +28,6 @@ std::optional<EndSupport> support_at(const BeamMesh& mesh, double x) {
   return rotation->is_zero() || has_hinge ? EndSupport::clamped : EndSupport::pinned;
 }
 
-// --- BeamField ---------------------------------------------------------------------------------
-
 BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_stations)
     : beam_(beam),
       length_(length),
@@ -109,8 +107,6 @@ void BeamField::read(const State& y, Accounts& accounts) {
     moments_[i] = of_sections(bending.moments);
   }
 }
-
-// --- the whole beam ------------------------------------------------------------------------------
 
 std::vector<PlacedSection> sections_of_whole_beam(const BeamMesh& mesh, double length) {
   std::vector<PlacedSection> sections;

@@ -43,7 +43,6 @@ class BeamField {
   double position(std::size_t station) const { return stations_[station].position; }
   double mirrored_position(std::size_t station) const { return length_ - position(station); }
 
-  /// Reads curvatures, moments and displacements of a state.
   void read(const State& y, Accounts& accounts);
   double displacement(std::size_t i) const { return displacements_[i]; }
   double curvature(std::size_t i) const { return curvatures_[i]; }
@@ -90,14 +89,8 @@ struct PlacedSection {
 std::vector<PlacedSection> sections_of_whole_beam(const BeamMesh& mesh, double length);
 
 /// The displacement w_p(x) (m) of a beam at rest with the plastic curvatures of its sections (1/m),
-/// against its own chord: their double integral, each section with its weight,
-///
-///     w_p(x) = sum over x_j < x of kappa_p,j W_j (x - x_j) - (the chord's value).
-///
-/// Hinges are sections. In that shape all moments are gone. A beam clamped at one end and held at
-/// the other keeps residual moments M = E I (a + b x) at rest; there a x^2/2 + b x^3/6 - s b x is
-/// added, with the a and b that the supports require, as long as these moments make nothing yield.
-/// `shear_flexibility` is s = E I/(k G A), m2, zero where sections do not shear.
+/// against its own chord (docs/theory.md, "Accounts"). `shear_flexibility` is s = E I/(k G A), m2,
+/// zero where sections do not shear.
 class PermanentSet {
  public:
   PermanentSet(const BeamMesh& mesh, double length, double shear_flexibility,

@@ -26,7 +26,6 @@ struct Crossing {
   bool unresolved = false;
 };
 
-/// What find_crossing looks for.
 struct CrossingSearch {
   /// Event functions that are left out, because their events in this step have been treated.
   const std::vector<EventFunction>& without;
@@ -41,7 +40,6 @@ struct CrossingSearch {
 std::optional<Crossing> find_crossing(const ContactState& contact, const IndentationStep& step,
                                       const CrossingSearch& search);
 
-/// An event whose time is interpolated within a step.
 struct InterpolatedEvent {
   EventKind kind;
   double time;  ///< s

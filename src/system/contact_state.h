@@ -31,21 +31,8 @@ struct EventFunction {
 };
 
 /// The contact between striker and beam in one run: the law, the branch in force and the history.
-/// Force and event functions depend on the indentation lambda (m) and its rate (m/s) alone.
-///
-/// See docs/theory.md, "Events", for the event functions of the branches.
-///
-/// A damped contact (Hunt and Crossley 1975), for laws that never yield, has the force
-///
-///     F = F_0(lambda) (1 + chi lambda'),   F_0 the law's own,
-///
-/// and ends, before lambda reaches lambda_r, where F would become tensile. Its surface then
-/// recovers by itself, without a force, and the contact may begin again (docs/theory.md,
-/// "Contact"):
-///
-///     elastic                  contact_ends     lambda_r - lambda, or by rate: -(lambda' + 1/chi)
-///     separated, recovering    contact_begins   by rate: lambda' + 1/chi
-///                              contact_ends     lambda_r - lambda: the surface has recovered
+/// Force and event functions depend on the indentation lambda (m) and its rate (m/s) alone
+/// (docs/theory.md, "Events"; of a damped contact, for laws that never yield: "Contact").
 class ContactState {
  public:
   /// `damping`: chi, s/m.
@@ -55,7 +42,6 @@ class ContactState {
   bool is_damped() const { return damping_ > 0.0; }
   /// Whether the striker has left a surface that is still indented, in damped contacts.
   bool is_recovering() const { return recovering_; }
-  /// The events that end the branch in force.
   std::span<const EventFunction> event_functions() const;
 
   const ContactLaw& law() const { return *law_; }
@@ -93,14 +79,11 @@ class ContactState {
     return branch_ == ContactBranch::plastic || evaluation_ == Evaluation::switching;
   }
   void set_evaluation(Evaluation how) { evaluation_ = how; }
-  /// Sets a branch and a history, as at the start of a run.
   void set(ContactBranch branch, ContactHistory history) {
     branch_ = branch;
     history_ = history;
   }
-  /// Advances the history to this indentation.
   void commit(double indentation);
-  /// Changes the branch at an event of the contact.
   void pass(const EventFunction& event, double indentation);
   /// For schemes that do not locate events: the branch on which the indentation lies.
   void follow(double indentation) { branch_ = law_->branch(history_, indentation); }

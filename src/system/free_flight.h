@@ -11,12 +11,8 @@
 namespace subimpact {
 
 /// Another integrator, spared the free flight of a struck beam: stretches without contact in which
-/// no section flows.
-///
-/// The beam then vibrates in its elastic modes Phi about the shape w_e that past flow causes, and
-/// the striker moves uniformly: w = w_e + Phi z (docs/theory.md, "Free flight"). A free flight is
-/// one step in closed form, up to the event-free horizon (EventFreeHorizon); from there the other
-/// integrator goes on.
+/// no section flows (docs/theory.md, "Free flight"). A free flight is one step in closed form, up
+/// to the event-free horizon (EventFreeHorizon); from there the other integrator goes on.
 class FreeFlight final : public Integrator {
  public:
   /// `beam` must outlive this; its mesh is not a ModalMesh. `max_step`: longest step, s.

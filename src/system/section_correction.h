@@ -64,7 +64,6 @@ class SectionCorrector {
   long n_mass_solves_ = 0;
 };
 
-/// When the first section begins to flow.
 class FirstFlow {
  public:
   explicit FirstFlow(std::size_t n_sections) : start_(n_sections), end_(n_sections) {}

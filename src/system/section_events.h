@@ -12,19 +12,10 @@
 
 namespace subimpact {
 
-/// Acceleration of the beam due to the moment of one section: for a moment M of 1 N m at section i,
-///
-///     c_i = Mass^-1 (-B^T W e_i)   (accelerations of the unknowns, 1/s2 per N m),   B c_i.
-///
-/// Mass is symmetric, so the same numbers give the response of one section's curvature to all
-/// moments M_j (N m) and the contact force F (N), without a mass solve:
-///
-///     kappa_i'' = (sum_j W_j (B c_i)_j M_j - F S.c_i - c_i.f_s)/W_i,
-///
-/// with the shear forces f_s = -K_s q where sections shear.
-///
-/// With or without rotary inertia c_i decays within a few thicknesses, or a few unknowns, of the
-/// section; entries below rounding are left out. Its first use computes it, with one mass solve.
+/// Acceleration c_i = Mass^-1 (-B^T W e_i) of the unknowns (1/s2 per N m) due to a moment of 1 N m
+/// at section i, and B c_i, by which the section's curvature responds to all moments and forces
+/// without a mass solve (docs/theory.md, "Section events"). Entries below rounding are left out.
+/// Its first use computes it, with one mass solve.
 class SectionInfluence {
  public:
   SectionInfluence(const BeamMesh& mesh, const MassSolver& mass_solver);
@@ -99,7 +90,6 @@ class DefectResponse {
 /// path between the ends of the step without section events, and what events change in it.
 class SectionPath {
  public:
-  /// Starts anew with a path without events.
   void reset(const HermiteSeptic& undisturbed) {
     undisturbed_ = undisturbed;
     others_.clear();
@@ -116,7 +106,6 @@ class SectionPath {
   double value(double s) const { return undisturbed_(s) + change(s).value; }
   double slope(double s) const { return undisturbed_.slope(s) + change(s).slope; }
 
-  /// By the events of other sections.
   CurvatureChange change_by_others(double s) const {
     CurvatureChange sum;
     for (const DefectResponse& response : others_) response.add_to(sum, s);
@@ -189,14 +178,10 @@ struct SectionLoads {
         shear_force_rates(shear_forces.size()) {}
 };
 
-/// The section events of a step.
-///
-/// A section that begins to flow, reverses or closes a loop leaves the smooth piece of its law on
-/// which the step began (SectionField::smooth_moments). Paths are polynomials through both ends of
-/// the step: cubic where sides are distinguished, of degree seven where the height of a reversal,
-/// which enters the section's history, is read off. Events are found in their order, each on the
-/// path that the earlier ones leave (docs/theory.md, "Section events"). A path that changes its
-/// direction twice is not followed: such a step must be cut.
+/// The section events of a step (docs/theory.md, "Section events"). Paths are polynomials through
+/// both ends of the step: cubic where sides are distinguished, of degree seven where the height of
+/// a reversal is read off. A path that changes its direction twice is not followed: such a step
+/// must be cut.
 class SectionEvents {
  public:
   SectionEvents(const SectionField& sections, SectionInfluence& influence)

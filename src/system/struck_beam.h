@@ -14,7 +14,6 @@
 
 namespace subimpact {
 
-/// What a struck beam is made of.
 struct StruckBeamParts {
   std::shared_ptr<const BeamMesh> mesh;
   SectionField sections;
@@ -82,11 +81,9 @@ class BeamJacobian {
 ///     kappa = B w,   lambda = w_m - S.w,
 ///
 /// with M (N m) of the sign of the curvature and K_s the stiffness of shear, if any. With damping
-/// the forces depend on velocities too:
-/// -(alpha Mass + beta K) v on the beam, K = B^T W k B + K_s with the elastic stiffness k of the
-/// sections, in natural modes -2 zeta omega Mass v also; and F = F(lambda, lambda') (ContactState).
-/// Other classes treat changes of branch within a step: ContactState and find_crossing for the
-/// contact, SectionCorrector for the sections. Accounts computes energies and momenta.
+/// the forces depend on velocities too (docs/theory.md, "Beam"). Other classes treat changes of
+/// branch within a step: ContactState and find_crossing for the contact, SectionCorrector for the
+/// sections. Accounts computes energies and momenta.
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
@@ -144,7 +141,6 @@ class StruckBeam final : public MechanicalSystem {
   }
   /// Rounding of the indentation at y, m.
   double displacement_rounding(std::span<const double> y) const;
-  /// Curvatures and their rates at y.
   void read_motion(const State& y, SectionMotion& motion) const;
 
   /// Value and rate of an event function at y; for contact_unloads at the cost of an acceleration.

@@ -9,21 +9,8 @@
 
 namespace subimpact {
 
-/// The forces of the supports on the beam, N, positive in the direction of the strike.
-///
-/// They follow from the balances of momentum and of moment of momentum about x = 0,
-///
-///     R_0 + R_l = p.(w'' + alpha w') - F,   R_l l = d.(w'' + alpha w') - F x_s + M(0) - M(l),
-///
-/// with p and d the functionals of momentum and moment of momentum (BeamMesh), F at x_s, the
-/// moments M at clamped ends (zero at others), and the damping by mass alpha, a force from outside
-/// that is spread over the beam. All other damping is inside the beam: it adds to the moments. The
-/// accelerations w'' = Mass^-1 (-B^T W M - K_s w - C w' + S F) are eliminated once, so that a state
-/// costs one sum over the sections:
-///
-///     p.w'' = -sum W_j (B g)_j M_j - (K_s g).w - (C g).w' + F S.g,   Mass g = p.
-///
-/// With the moments of the equations of motion R_0 + R_l closes their momentum to rounding.
+/// The forces of the supports on the beam, N, positive in the direction of the strike, from the
+/// balances of momentum and of moment of momentum about x = 0 (docs/theory.md, "Beam").
 class SupportReactions {
  public:
   /// `struck_at`: x_s, m. `beam` must outlive this.

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <vector>
 
-#include "report/page_data.h"
+#include "report/page.h"
 #include "sample_result.h"
 #include "subimpact/io/case_file.h"
 #include "temporary_directory.h"

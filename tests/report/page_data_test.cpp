@@ -1,4 +1,4 @@
-#include "report/page_data.h"
+#include "report/page.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "report/page_data.h"
+#include "report/page.h"
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"

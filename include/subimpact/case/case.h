@@ -16,7 +16,6 @@
 
 namespace subimpact {
 
-/// Bending law of the sections.
 enum class SectionKind {
   elastic,  ///< never yields
   layers,   ///< `layers` elastic-perfectly plastic layers over the thickness

@@ -48,7 +48,6 @@ struct Limits {
   bool hold(double x) const;
 };
 
-/// One key of the case file.
 struct CaseKey {
   std::string name;  ///< with its table: "beam.length"
   KeyType type;

@@ -40,7 +40,6 @@ class OutputDirectory {
   OutputDirectory& operator=(const OutputDirectory&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Where new files are to be written.
   const std::filesystem::path& staging() const { return staging_; }
 
   /// Puts all files of staging() in place; more may follow and be committed in turn. Files of

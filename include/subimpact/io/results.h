@@ -1,7 +1,5 @@
 #pragma once
 
-/// The files of a finished run.
-
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -57,7 +55,6 @@ class ResultWriter final : public RowSink {
   /// full disk), all goes to a new directory for temporary files. Throws OutputError if that fails.
   void finish(const Case& input, const Result& result);
 
-  /// Where the files are, and what a user has to be told.
   const OutputDirectory& directory() const { return directory_; }
 
  private:
@@ -86,7 +83,6 @@ std::string matches_csv(const Comparison& comparison);
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);
 
-/// Summary of the sub-impacts of one zone.
 struct ZoneSummary {
   int zone = 0;
   int n_sub_impacts = 0;

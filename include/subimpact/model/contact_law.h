@@ -90,8 +90,6 @@ class ContactLaw {
     return elastic_slope({indentation}, indentation);
   }
 
-  // --- what follows from these -------------------------------------------------------------------
-
   /// The branch on which `indentation` lies, given the history.
   ContactBranch branch(ContactHistory history, double indentation) const;
   double branch_force(ContactBranch branch, ContactHistory history, double indentation) const;
@@ -103,7 +101,6 @@ class ContactLaw {
   /// The branch on which a contact begins that closes with this history.
   ContactBranch first_branch(ContactHistory history) const;
 
-  /// The history after the indentation has been reached.
   static ContactHistory commit(ContactHistory history, double indentation) {
     return {indentation > history.max_indentation ? indentation : history.max_indentation};
   }

@@ -14,7 +14,6 @@ namespace subimpact {
 /// keeps it and lets sections shear, elastically.
 enum class BeamTheory { rayleigh, euler_bernoulli, timoshenko };
 
-/// Support of one end of the beam.
 enum class EndSupport {
   free,    ///< neither moment nor shear force
   pinned,  ///< neither displacement nor moment
@@ -91,7 +90,6 @@ struct Striker {
   double first_touch() const { return gap > 0.0 ? gap / velocity : 0.0; }  ///< s
 };
 
-/// Which relation holds between contact force and indentation.
 enum class ContactKind {
   foundation,  ///< elasto-plastic columns under a cylinder (see ContactLaw)
   hertz,       ///< F = K lambda^1.5, never yields

@@ -1,7 +1,5 @@
 #pragma once
 
-/// Figures of a finished run, drawn by gnuplot.
-
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -41,7 +41,6 @@ struct SolverOptions {
   std::optional<int> max_order;               ///< adams and bdf; empty: default of the method
 };
 
-/// Accuracy that results must have.
 struct AccuracyOptions {
   /// s: wished bound on the error of every event time, for simulate_within() (see study/within.h);
   /// simulate() takes no notice of it.
@@ -54,7 +53,6 @@ struct AccuracyOptions {
   std::optional<double> energy;
 };
 
-/// When a run ends.
 enum class StopRule {
   end_time,        ///< at the end time
   no_more_contact  ///< sooner, once it is proven that no contact can follow
@@ -87,7 +85,6 @@ struct OutputOptions {
   }
 };
 
-/// Solver of systems with the mass matrix.
 enum class MassSolverKind { banded, klu };
 
 enum class VectorOperationsKind { project, library };

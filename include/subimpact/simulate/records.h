@@ -52,7 +52,6 @@ enum class NearMissKind {
   closing   ///< within a separation: a local minimum of the gap
 };
 
-/// "opening", "closing".
 std::string_view to_string(NearMissKind kind);
 
 /// A local minimum of the distance between the indentation and the residual one. A contact that

@@ -1,8 +1,5 @@
 #pragma once
 
-/// What a simulation returns.
-
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -108,7 +105,6 @@ class RowSink {
   virtual void add(const ShapeRow& /*row*/) {}
 };
 
-/// How a simulation ended.
 enum class OutcomeKind {
   completed,      ///< the end was reached, and energy, momentum and events were right all the way
   stopped,        ///< the caller's progress function returned false

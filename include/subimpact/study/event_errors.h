@@ -75,7 +75,6 @@ enum class Verdict {
   not_run       ///< not run: it would have taken longer than allowed
 };
 
-/// "right", "wrong count", ...
 std::string_view to_string(Verdict verdict);
 
 /// The verdict on a run that was accepted.

@@ -44,32 +44,10 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 
 /// Judges `run` by the runs beside it: sets certain, probability, doubt and errors of its
-/// sub-impacts, and Result::error_estimate with the totals. Errors are meant to cover 95 of 100
-/// true ones, those of times 98 (validation/judgement).
-///
-/// **Times.** Sub-impacts are matched with those of every run beside. With d the difference of a
-/// time, e = gain d is an error of the time, and e |u'| one of the indentation u. The latter
-/// changes slowly from event to event; its median over the events around, delta, bounds e from
-/// below by delta/|u'|, so that a difference that happens to be small is not taken for accuracy.
-/// Stated is 3.2 times the largest e over the runs, and at least what free ends of a mesh of cells
-/// leave.
-///
-/// **Values** (force, impulse ...): 6 times the largest gain |difference|, and at least what delta
-/// leaves of indentations and forces.
-///
-/// **Existence.** A sub-impact is certain if each run beside has exactly one that corresponds to
-/// it; if the indentation goes beyond the residual one by more than 1.2 delta, and the gap opens by
-/// more than 1.2 delta before and after; if its errors are below its duration and the separations
-/// next to it; and if every near miss within it stays farther from opening than 3.5 times what its
-/// depth differs by. A flight is certain to hold no other sub-impact by the same rule for near
-/// misses. What precedes plays no part but by these. `probability` is the share of the runs that
-/// have the sub-impact. On a mesh that does not resolve the waves of a contact, or whose part under
-/// the striker is as heavy as a fifth of the striker, nothing is certain, whatever runs agree on.
-///
-/// **The end.** contact_over: the proof of every run, whose velocities at the end agree within 2.5 %
-/// of that of the strike. closest_approach: the error is that of a near miss.
-///
-/// **Parts.** Runs of several parts are judged part by part; errors are the sums.
+/// sub-impacts, and Result::error_estimate with the totals, by the rules of docs/theory.md, "Error
+/// estimates". Errors are meant to cover 95 of 100 true ones, those of times 98
+/// (validation/judgement). `probability` is the share of the runs that have the sub-impact. Runs of
+/// several parts are judged part by part; errors are the sums.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Threads that a function may use for runs beside one another; results do not depend on it.

@@ -7,7 +7,6 @@
 
 namespace subimpact {
 
-/// A case that differs from another one, and in words how.
 struct RefinedRun {
   Case input;
   std::string description;

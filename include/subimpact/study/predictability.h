@@ -21,18 +21,8 @@ std::optional<double> deviation_of(const std::vector<std::optional<Derivative>>&
                                    const std::vector<std::string>& keys, const Scatter& scatter);
 
 /// Sets the standard deviations of starts and ends of a result, and Result::predictability, from a
-/// study of the same case by the keys that scatter.
-///
-/// The first sub-impact that cannot be predicted is the first one
-///
-///   - of which contacts merge, split or vanish within the shifts of the study,
-///   - whose start or end has a standard deviation of more than half its duration or half of the
-///     separation before or after it,
-///   - whose duration, or the separation before it, has a standard deviation of more than a quarter
-///     of itself: both shrink as the root of the distance from the graze at which they vanish, so
-///     that a change of twice the scatter may reach it,
-///   - whose peak force is within two of its standard deviations, or
-///   - that a near miss leaves in doubt whose margin is within two of its standard deviations.
+/// study of the same case by the keys that scatter. docs/theory.md, "Derivatives and
+/// predictability", lists what makes a sub-impact unpredictable.
 void set_predictability(Result& result, const Sensitivity& study, const Scatter& scatter);
 
 /// The keys of a case that scatter and by which results have a derivative.

@@ -36,7 +36,6 @@ struct Derivative {
   double error = 0.0;
 };
 
-/// The derivatives of one number of one sub-impact.
 struct SensitivityRow {
   EventQuantity quantity = EventQuantity::start;
   std::size_t sub_impact = 0;  ///< from 0
@@ -79,7 +78,6 @@ struct SensitivityOptions {
 /// at an end of their range, and with an effect.
 std::vector<std::string> sensitivity_keys(const Case& input);
 
-/// The relative shifts of the differences.
 inline constexpr std::array sensitivity_shifts = {1e-5, 1e-6};
 
 /// The case of the base run: that of `input`, at rtol 1e-13 or less, without history rows. Where
@@ -89,21 +87,14 @@ Case sensitivity_case(const Case& input);
 
 /// Derivatives by the logarithms of keys, from central differences of whole runs: a base run, one
 /// with ten times its tolerance, and four runs per key, with the key times exp(+-h) for the two
-/// shifts h of sensitivity_shifts. All have mesh, method and symmetry of the base run.
-///
-/// With D1 and D2 the differences of the larger and the smaller shift, q their ratio and e the
-/// error of one run, D1 is off by some |D1 - D2| + e/h1. Where no section yields, numbers are
-/// smooth and D2 + (D2 - D1)/(q^2 - 1) is off by |D1 - D2|/(q^2 - 1) + e/h2 at most. Where sections
-/// yield, D2 is off by |D1 - D2|/(sqrt(q) - 1) + e/h2: a section that begins to flow for one value
-/// of the key and does not for another adds an error that grows as the root of the shift. The value
-/// with the smaller error is stated, with three times that error. e is the larger of what the base
-/// run of ten times the tolerance shows and of the scatter of the second differences, over the
-/// sub-impact and its neighbours; it is larger for numbers of the beam, which change matrices.
+/// shifts h of sensitivity_shifts. All have mesh, method and symmetry of the base run. Stated is
+/// the slope with the smaller error, by which shift it may be, with three times that error
+/// (docs/theory.md, "Derivatives and predictability").
 ///
 /// A sub-impact is flagged where a shifted run has it merged, split or lost, where one appears
 /// before it, where a near miss is within its change over the shifts, where the slopes to either
-/// side differ (a kink), where D1 and D2 differ by a twentieth of the largest derivative of the row
-/// (about to merge, split or vanish), or where an error is a tenth of that derivative.
+/// side differ (a kink) or those over both shifts (about to merge, split or vanish), or where an
+/// error is a tenth of the largest derivative of the row.
 ///
 /// Throws InvalidCase, also for a key that has no derivative. If the base run does not complete, no
 /// shifted run is made, and there are no keys and no rows.

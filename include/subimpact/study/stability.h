@@ -75,7 +75,6 @@ struct MultistepGrowth {
 };
 std::vector<MultistepGrowth> bdf_growths();
 
-/// One run and its verdict.
 struct OutcomePoint {
   std::string group;  ///< "fixed step" or "tolerance"
   std::string row;    ///< method, and what else sets the row apart

@@ -16,7 +16,6 @@ struct MethodName {
 };
 MethodName parse_method_name(const std::string& name);
 
-/// One setting of one method.
 struct Setting {
   std::string method;       ///< "erk:dop853"; a method without tables alone
   bool fixed_step = false;  ///< else it is rtol

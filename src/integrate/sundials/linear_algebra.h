@@ -37,7 +37,6 @@ std::span<double> entries(N_Vector vector);
 
 /// A square sparse matrix (by columns) with the given pattern and zero entries.
 MatrixPointer make_sparse_matrix(const SparsityPattern& pattern, SUNContext context);
-/// Writes the pattern into a matrix that has room for it.
 void set_pattern(SUNMatrix matrix, const SparsityPattern& pattern);
 std::span<double> values(SUNMatrix matrix, std::size_t n);
 

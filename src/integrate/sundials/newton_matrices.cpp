@@ -32,8 +32,6 @@ void NewtonMatrices::add_counts(WorkCounts& counts) const {
   counts.pattern_analyses += analyses_;
 }
 
-// --- BlockSystem ---------------------------------------------------------------------------------
-
 BlockSystem::BlockSystem(MechanicalSystem& system, MechanicalSystem::Part part, N_Vector like,
                          SUNContext context)
     : NewtonMatrices(system, part) {
@@ -100,8 +98,6 @@ void BlockSystem::assemble(double gamma) {
   }
   for (const std::size_t at : gamma_at_) all[at] = -gamma;
 }
-
-// --- ReducedNewton -------------------------------------------------------------------------------
 
 ReducedNewton::ReducedNewton(MechanicalSystem& system, SUNContext context)
     : NewtonMatrices(system, MechanicalSystem::Part::all),

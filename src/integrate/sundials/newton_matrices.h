@@ -55,7 +55,6 @@ class BlockSystem final : public NewtonMatrices {
   SUNMatrix newton_matrix() const { return newton_matrix_.get(); }
   SUNLinearSolver newton_solver() const { return klu_.get(); }
 
-  /// Fills M, pattern and all.
   void fill_mass(SUNMatrix mass) const;
 
  private:

@@ -95,8 +95,6 @@ bool RootFinder::is_at_end(void* memory, double reached) const {
   return std::abs(time - reached) <= tolerance(memory);
 }
 
-// --- SolverFrame ---------------------------------------------------------------------------------
-
 SolverFrame::SolverFrame(SecondOrderOde& ode, const IntegratorOptions& options,
                          const LibraryCalls& calls, ContextPointer context)
     : ode_(ode),

@@ -57,21 +57,8 @@ struct LibraryCalls {
         prefix##GetCurrentTime, prefix##GetLastStep SUBIMPACT_MESSAGE_HANDLER(prefix)      \
   }
 
-/// The root-finding of one SUNDIALS solver, on the library's dense output. What this class adds:
-///
-/// - An event function g that rises through zero and falls back within one step has the same sign
-///   at both ends. Where its rate is known, the library also searches for the roots of -g', the
-///   maxima of g, and examines g there.
-/// - The library takes an exact zero for a root, ignores a function that is zero at a restart until
-///   the function has moved, and fails where one stays at zero ("Root found at and very near t").
-///   It never receives an exact zero: zero counts as negative.
-/// - All functions are searched for rising values only. The function of the event just passed,
-///   which is near zero and falls, is not found again.
-/// - A function that is positive at a restart and still rises has no sign change to come: its event
-///   is at the restart itself. One that is positive and rises at the end of a step without a root
-///   has its event there: late, for the caller to refuse.
-/// - What the library keeps of the last root survives a restart. Functions are declared anew each
-///   time, and drain() clears ARKODE's flag.
+/// The root-finding of one SUNDIALS solver, on the library's dense output, and what it misses or
+/// fails at by itself (docs/theory.md, "Events").
 class RootFinder {
  public:
   /// `functions` may be null: no root-finding.
@@ -98,7 +85,6 @@ class RootFinder {
     if (flag >= 0 && !root_) root_ = risen_function(y);
     return flag;
   }
-  /// The root that ended the last step.
   const std::optional<Integrator::Root>& root() const { return root_; }
 
   /// After a step that a root ended: clears the flag that ARKODE keeps of the root, which costs
@@ -147,10 +133,8 @@ class SolverFrame {
   void reset(double t, const State& y);
   /// One step, to its end or to the first event in it; returns the time reached.
   double step();
-  /// The state where the last step ended.
   void read(State& y) const;
   const std::optional<Integrator::Root>& root() const { return roots_.root(); }
-  /// See RootFinder::drain.
   void drain_root() {
     double reached = time_;
     roots_.drain(memory(), reached, [&] { return evolve(reached); });

@@ -3,7 +3,6 @@
 
 const byId = (id) => document.getElementById(id);
 
-// Does what a key stands for: actions by the names of keys.
 function actOn(event, actions) {
   const action = actions[event.key];
   if (event.ctrlKey || event.altKey || event.metaKey || !action) return;
@@ -105,7 +104,6 @@ class Strike {
     return {displacement: between(displacement, n), moment: between(moment, n), plasticCurvature};
   }
 
-  // The mean over the length of a field along the beam.
   mean(field) {
     const x = this.shapes.positions;
     let sum = 0;
@@ -113,12 +111,10 @@ class Strike {
     return sum / (x[x.length - 1] - x[0]);
   }
 
-  // Index of the sub-impact at a time, or -1.
   subImpactAt(time) {
     return this.sub_impacts.findIndex((s) => time >= s.start && time < s.end);
   }
 
-  // The event at a time, or undefined.
   eventAt(time) { return this.events.find((event) => event.time === time); }
 
   // The next event after a time (sense 1), or the one before it (sense -1), or undefined.

@@ -118,7 +118,6 @@ class TimeChart {
   }
 }
 
-// Stripes in the colour of bands.
 function hatching() {
   const tile = document.createElement('canvas');
   tile.width = tile.height = 8;
@@ -166,7 +165,6 @@ class Loop {
     yielding: {colour: 'line2', name: 'yielding', width: 3},
   };
 
-  // Rows of a piece within the part of the strike that is shown.
   shown({rows}) {
     const {from, to} = this.view;
     return rows.filter((i) => this.strike.times[i] >= from && this.strike.times[i] <= to);
@@ -279,7 +277,6 @@ class Timeline {
     return [...values, ...bars.filter((value) => value > least)];
   }
 
-  // Where the strike can no longer be predicted.
   drawHorizon(axes, draw) {
     const {horizon, time_unit: unit} = this.strike;
     if (typeof horizon !== 'number') return;
@@ -332,7 +329,6 @@ class Timeline {
   }
 }
 
-// Extremes along the beam, and its shape at rest.
 function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
   const all = lines.flatMap(({values}) => Array.from(values));
   const most = Math.max(...all, 0), least = Math.min(...all, 0);

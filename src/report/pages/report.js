@@ -144,7 +144,6 @@ class Page {
     }
   }
 
-  // What there is at the present time, in words.
   words() {
     const {strike, view: {time}} = this;
     const {per_second, name} = strike.time_unit;

@@ -1,7 +1,6 @@
 'use strict';
 // The run of a sweep that is chosen: its row, the command that makes it, its sub-impacts.
 
-// Cells of a row of a table.
 function cellsOf(texts) {
   return texts.map((text) => {
     const cell = document.createElement('td');
@@ -35,7 +34,6 @@ class RunPanel {
     return String(key.values[run]).replace('Infinity', 'inf');
   }
 
-  // A word of a command line.
   static quoted(text) {
     return /^[\w.,=+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
   }

@@ -5,7 +5,6 @@
 const shadeStops = [[68, 1, 84], [62, 74, 137], [38, 130, 142], [53, 183, 121], [180, 222, 44], [253, 231, 37]];
 const wordColours = ['line1', 'line2', 'line3', 'line4', 'line5', 'line6'];
 
-// Colours over a column.
 class Shade {
   constructor(column) {
     this.column = column;

@@ -92,7 +92,6 @@ class SweepPage {
     byId('run').focus({preventScroll: true});
   }
 
-  // Prints in the colours for paper.
   printing(begins) {
     const {dataset} = document.documentElement;
     if (begins) this.themeBefore = dataset.theme;

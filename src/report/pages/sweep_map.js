@@ -87,8 +87,6 @@ class SweepMap {
       + '.';
   }
 
-  // --- drawing -------------------------------------------------------------------------------------
-
   draw() {
     const {x, y} = this;
     const range = (axis) => (this.isGrid ? axis.range : axis.wideRange);
@@ -204,8 +202,6 @@ class SweepMap {
     if (this.hovered >= 0) ring(this.hovered, 1.5);
     if (this.chosen >= 0) ring(this.chosen, 2.5);
   }
-
-  // --- pointing and keys ---------------------------------------------------------------------------
 
   runAt(x, y) {
     return this.nearest(15, ({isPoint, left, top, width, height}, dx, dy) => {
