@@ -29,7 +29,8 @@ struct RunBeside {
 
 /// The cases beside a case that show the error of its mesh and of its integration in time
 /// together: meshes coarser by the factors 0.85 and 0.7, with the accuracy in time that goes with
-/// them; finer by 1.2 and 1.45 where a strike is too near an end for coarser ones. In time alone where the mesh cannot be coarser.
+/// them; finer by 1.2 and 1.45 where a strike is too near an end for coarser ones. In time alone
+/// where the mesh cannot be coarser.
 std::vector<CaseBeside> cases_beside(const Case& input);
 /// Those that show the error in time alone, on the mesh of the case.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
