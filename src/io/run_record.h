@@ -26,6 +26,14 @@ struct DescribedRun {
 
 const Record<DescribedRun>& run_record();
 
+/// A member of summary.json that is a number, a word or a text.
+struct NamedScalar {
+  std::string name, meaning, value;
+};
+
+/// All that summary.json holds of a run, but for lists and what does not apply, in its order.
+std::vector<NamedScalar> scalars_of(const FinishedRun& run);
+
 /// Reads what summary.json holds of a run; `path` is for messages. Throws ResultsError, also for
 /// numbers that no run can have written.
 void read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run);

@@ -30,6 +30,14 @@ void check_layout(const Json& json) {
                   layout.dump(), summary_layout));
 }
 
+// Entries reach what they hold by pointers that serve reading too; writing changes nothing.
+Json json_of_run(const Case& input, const Result& result, const std::string& version,
+                 const std::vector<std::pair<std::string, std::string>>& libraries) {
+  const DescribedRun run = {const_cast<Case*>(&input), const_cast<Result*>(&result), version,
+                            libraries};
+  return json_of(run_record(), run);
+}
+
 }  // namespace
 
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
@@ -51,11 +59,24 @@ std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impac
 }
 
 std::string summary_json(const Case& input, const Result& result) {
-  // Entries reach what they hold by pointers that serve reading too; writing changes nothing.
-  const DescribedRun run = {const_cast<Case*>(&input), const_cast<Result*>(&result),
-                            project_version(), library_versions()};
   // A title may hold bytes that are no UTF-8; they are replaced rather than the file lost.
-  return json_of(run_record(), run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const Json json = json_of_run(input, result, project_version(), library_versions());
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<NamedScalar> scalars_of(const FinishedRun& run) {
+  const Json flat =
+      json_of_run(run.input, run.result, run.program_version, run.libraries).flatten();
+  std::vector<NamedScalar> scalars;
+  for (const auto& [name, meaning] : listing_of(run_record())) {
+    std::string path = '/' + name;
+    std::ranges::replace(path, '.', '/');
+    const auto found = flat.find(path);
+    if (found == flat.end() || found->is_null() || found->is_structured()) continue;
+    scalars.push_back(
+        {name, meaning, found->is_string() ? found->get<std::string>() : found->dump()});
+  }
+  return scalars;
 }
 
 void read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "case/counted.h"
+#include "io/run_record.h"
 #include "io/sealed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
@@ -109,24 +110,9 @@ void add_sub_impacts(Json& page, const Result& result) {
   page["sub_impacts"] = list;
 }
 
-Json method_rows(const FinishedRun& run) {
-  const ResolvedSettings& used = run.result.used;
-  const Work& work = run.result.work;
-  const std::pair<const char*, std::string> rows[] = {
-      {"mesh", fmt::format("{}; {} of the beam, {}", used.mesh, counted(used.n_unknowns, "unknown"),
-                           counted(used.n_sections, "section"))},
-      {"method", fmt::format("{}{}", to_string(run.input.solver.method),
-                             used.table ? ", table " + *used.table : "")},
-      {"step", used.step ? duration_text(*used.step) + ", fixed"
-                         : fmt::format("adaptive, to {:.2g} m and {:.2g} m/s",
-                                       used.position_tolerance, used.velocity_tolerance)},
-      {"events", std::string(to_string(used.events))},
-      {"first bending period", in_print(duration_text(used.first_period))},
-      {"work", fmt::format("{}, {} rejected, {}, {} located; {}", counted(work.steps, "step"),
-                           work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
-                           counted(work.roots, "event"), duration_text(work.wall_seconds))}};
-  return list_of(rows, [](const auto& row) -> Json {
-    return {{"name", row.first}, {"words", row.second}};
+Json numbers_of(const FinishedRun& run) {
+  return list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
+    return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
   });
 }
 
@@ -215,7 +201,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"left_out", figures.left_out},
       {"failed", figures.failed},
       {"error_bars", error_bars(result)},
-      {"method", method_rows(run)},
+      {"numbers", numbers_of(run)},
       {"no_error_bars", !result.error_estimate}};
   add_sub_impacts(page, result);
   add_conservation(page, result);

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <ranges>
 #include <set>
+#include <variant>
 
 #include "case/problem.h"
 #include "io/row_thinning.h"
-#include "report/figure_script.h"
+#include "io/run_tables.h"
 
 namespace subimpact {
 namespace {
@@ -20,13 +22,16 @@ constexpr std::size_t most_history_rows = 22'000;
 constexpr std::size_t most_points = 600;          // of a shape
 constexpr std::size_t most_shape_rows = 240'000;  // of all shapes
 
-constexpr const char* drawn_columns[] = {"force_N",     "indentation_m", "w_c_m", "w_m_m", "f_c_m",
-                                         "v_m_m_per_s", "U_m_J",         "U_k_J", "U_e_J", "U_p_J",
-                                         "U_c_J",       "D_c_J",         "D_b_J"};
+using HistoryColumn = Column<HistoryRow>;
+
+// Of the history, but the time.
+auto value_columns() { return std::views::drop(run_table<HistoryRow>().columns, 1); }
 
 std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::size_t most_rows) {
   std::vector<double HistoryRow::*> drawn;
-  for (const char* name : drawn_columns) drawn.push_back(history_member(name));
+  for (const HistoryColumn& column : value_columns()) {
+    if (column.member != nullptr) drawn.push_back(column.member);
+  }
   RowThinning<HistoryRow> rows(history.size(), 1, drawn, most_rows);
   for (const HistoryRow& row : history) rows.add(row);
   return rows.take();
@@ -36,7 +41,19 @@ Json history_json(const std::vector<HistoryRow>& rows) {
   Json json = Json::object();
   if (rows.empty()) return json;
   json["time_s"] = packed<double>(rows, &HistoryRow::time);
-  for (const char* name : drawn_columns) json[name] = packed<float>(rows, history_member(name));
+  for (const HistoryColumn& column : value_columns()) {
+    json[column.name] = packed<float>(rows, [&](const HistoryRow& row) -> std::optional<double> {
+      const Cell cell = column.cell(row, 0);
+      const double* value = std::get_if<double>(&cell);
+      return value != nullptr ? std::optional(*value) : std::nullopt;
+    });
+  }
+  return json;
+}
+
+Json meanings_of_columns() {
+  Json json = Json::object();
+  for (const HistoryColumn& column : value_columns()) json[column.name] = column.meaning;
   return json;
 }
 
@@ -226,7 +243,8 @@ PageData page_data(const Case& input, const Result& result) {
                [](const PlasticZone& zone) -> Json {
                  return {{"from", zone.from}, {"to", zone.to}, {"rotation", zone.rotation}};
                })},
-      {"history", history_json(history)}};
+      {"history", history_json(history)},
+      {"meanings", meanings_of_columns()}};
   add_shapes(json, data, input, result);
   data.json = within_script(json);
   return data;

@@ -42,6 +42,18 @@ class ReportPage(PageTestCase):
             for line in range(1, lines + 1):
                 self.assertGreater(self.js(COUNT, canvas, f"line{line}"), 100, f"line {line} in {chart}")
 
+    def test_any_column_of_the_history_can_be_drawn(self):
+        names = self.js("return Object.keys(page.strike.meanings)")
+        offered = self.js("return Array.from(document.querySelectorAll('#column option'), (o) => o.value)")
+        self.assertEqual(offered, [name for name in names if name not in ("R_0_N", "R_l_N")])
+        for name in offered:
+            self.js("const s = byId('column'); s.value = arguments[0]; s.dispatchEvent(new Event('change'))", name)
+            self.assertEqual(self.js("return page.charts.at(-1).chart.getLabels()[1]"), name)
+            same = self.js("const {chart} = page.charts.at(-1), rows = page.strike.history[arguments[0]];"
+                           "return rows.every((value, i) => Object.is(value, chart.getValue(i, 1)))", name)
+            self.assertTrue(same, name)
+        self.assertEqual(self.js("return document.querySelectorAll('#chart-any .cursor').length"), 1)
+
     def test_dragging_across_a_chart_zooms_all_of_them(self):
         before = self.view()
         self.drag(self.find("#chart-force .plot"), 0.3, 0.6)
@@ -138,6 +150,9 @@ class ReportPage(PageTestCase):
                        ".map(([name, values]) => [name, Array.from(values)]))")
         self.assertEqual(data["time_s"], [float(row["time_s"]) for row in rows])
         for name, values in data.items():
+            if rows[0][name] == "":  # an empty column
+                self.assertEqual(set(values), {None}, name)
+                continue
             expected = [float(row[name]) for row in rows]
             extent = max(expected) - min(expected)
             error = max(abs(a - b) for a, b in zip(values, expected))

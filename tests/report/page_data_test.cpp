@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/run_tables.h"
 #include "sample_result.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/case_file.h"
@@ -74,6 +75,25 @@ TEST(PageData, HoldsTheHistoryToTheDigitsOfFloats) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     ASSERT_EQ(times[i], result.history[i].time);
     ASSERT_NEAR(forces[i], result.history[i].force, 6e-8 * result.max_force);
+  }
+}
+
+TEST(PageData, HoldsEveryColumnOfTheHistoryWithItsMeaning) {
+  const Case input = short_case({parse_override("beam.ends=[\"pinned\", \"free\"]")});
+  const Result result = simulate(input);
+  const Json json = Json::parse(page_data(input, result).json);
+  for (const auto& column : run_table<HistoryRow>().columns) {
+    ASSERT_TRUE(json.at("history").contains(column.name)) << column.name;
+    if (column.name == "time_s") continue;
+    EXPECT_EQ(json.at("meanings").at(column.name), column.meaning);
+  }
+  const auto reactions = numbers_of<float>(json.at("history").at("R_0_N").at("f32"));
+  const auto absent = numbers_of<float>(json.at("history").at("R_l_N").at("f32"));
+  ASSERT_EQ(reactions.size(), result.history.size());
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    const double reaction = result.history[i].first_reaction.value();
+    ASSERT_NEAR(reactions[i], reaction, 6e-8 * std::abs(reaction));
+    ASSERT_TRUE(std::isnan(absent[i]));
   }
 }
 

@@ -129,13 +129,13 @@ int multiply(SUNMatrix matrix, N_Vector x, N_Vector product) {
   const sunindextype* starts = SUNSparseMatrix_IndexPointers(matrix);
   const sunindextype* rows = SUNSparseMatrix_IndexValues(matrix);
   const double* all = SUNSparseMatrix_Data(matrix);
-  const auto in = entries(x);
-  const auto out = entries(product);
-  std::fill(out.begin(), out.end(), 0.0);
-  for (std::size_t j = 0; j < in.size(); ++j) {
-    for (sunindextype k = starts[j]; k < starts[j + 1]; ++k) {
-      out[static_cast<std::size_t>(rows[k])] += all[k] * in[j];
-    }
+  const double* in = NV_DATA_S(x);
+  double* out = NV_DATA_S(product);
+  const auto n = static_cast<sunindextype>(size(x));
+  std::fill_n(out, n, 0.0);
+  for (sunindextype j = 0; j < n; ++j) {
+    const double factor = in[j];  // out does not overlap in
+    for (sunindextype k = starts[j]; k < starts[j + 1]; ++k) out[rows[k]] += all[k] * factor;
   }
   return 0;
 }

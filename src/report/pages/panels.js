@@ -52,6 +52,11 @@ class TimeChart {
     this.showTime();
   }
 
+  remove() {
+    this.chart.destroy();
+    this.cursor.remove();
+  }
+
   colours(n) {
     return {
       colors: Array.from({length: n}, (_, i) => colour(lineStyles[i % lineStyles.length].colour)),

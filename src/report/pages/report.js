@@ -71,11 +71,26 @@ class Page {
       return;
     }
     for (const {id, label, columns: all} of timeCharts) {
-      const columns = all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0));
-      this.charts.push(new TimeChart(byId(id), {
-        rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel: label,
-        unit: strike.time_unit, bands: bandsOf(strike.sub_impacts, strike.time_unit), view: this.view}));
+      this.addChart(id, label, all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0)));
     }
+    const columns = Object.keys(strike.meanings).filter((name) => strike.history[name].some(Number.isFinite));
+    const select = byId('column');
+    for (const name of columns) select.append(new Option(`${name}: ${strike.meanings[name]}`, name));
+    const draw = () => this.addChart('chart-any', select.value, [{name: select.value, label: select.value}]);
+    select.addEventListener('change', () => {
+      this.charts.pop().remove();
+      draw();
+      this.charts.at(-1).showPart();
+    });
+    select.value = 'v_m_m_per_s';
+    draw();
+  }
+
+  addChart(id, valueLabel, columns) {
+    const {strike, view} = this;
+    this.charts.push(new TimeChart(byId(id), {
+      rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel,
+      unit: strike.time_unit, bands: bandsOf(strike.sub_impacts, strike.time_unit), view}));
   }
 
   // Canvases out of sight are not painted while the picture moves.
