@@ -110,28 +110,6 @@ void add_sub_impacts(Json& page, const Result& result) {
   page["sub_impacts"] = list;
 }
 
-Json numbers_of(const FinishedRun& run) {
-  return list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
-    return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
-  });
-}
-
-Json error_bars(const Result& result) {
-  if (!result.error_estimate) return nullptr;
-  const bool has_certain = *result.n_certain() > 0;
-  const auto part_row = [&](const ErrorEstimate::Part& part) -> Json {
-    const std::optional<std::size_t>& unresolved = part.first_unresolved;
-    return {{"name", part.name},
-            {"run", part.refined_run},
-            {"error", has_certain ? in_print(error_text(part.largest_error)) : ""},
-            {"valid", unresolved ? fmt::format("of certain ones; {}: {}",
-                                               place_of_doubt(result, *unresolved, part.reason),
-                                               in_print(part.reason))
-                                 : "for all sub-impacts"}};
-  };
-  return {{"parts", list_of(result.error_estimate->parts, part_row)}};
-}
-
 Json flights(const std::optional<ErrorEstimate>& estimate) {
   if (!estimate) return nullptr;
   return list_of(estimate->uncertain_flights, [](const auto& flight) -> Json {
@@ -139,22 +117,14 @@ Json flights(const std::optional<ErrorEstimate>& estimate) {
   });
 }
 
-void add_conservation(Json& page, const Result& result) {
-  page["initial_energy"] = fmt::format("{:.6g}", result.used.initial_energy);
-  page["energy_error"] = fmt::format("{:.1e}", result.max_energy_error);
-  page["momentum"] = result.max_momentum_error
-                         ? fmt::format("Total momentum is conserved to within {:.1e}, relative.",
-                                       *result.max_momentum_error)
-                         : "The supports take momentum up.";
-  page["last_row"] = nullptr;
-  if (result.history.empty()) return;
+Json final_energies(const Result& result) {
+  if (result.history.empty()) return nullptr;
   const HistoryRow& last = result.history.back();
   const double energies[] = {last.striker_energy,  last.beam_kinetic_energy, last.bending_elastic,
                              last.bending_plastic, last.contact_elastic,     last.contact_plastic,
                              last.beam_damping};
-  page["last_row"] = {
-      {"time", in_print(duration_text(last.time))},
-      {"energies", list_of(energies, [](double x) { return fmt::format("{:.5g}", x); })}};
+  return {{"time", in_print(duration_text(last.time))},
+          {"energies", list_of(energies, [](double x) { return fmt::format("{:.5g}", x); })}};
 }
 
 }  // namespace
@@ -177,7 +147,6 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
       {"outcome", to_string(result.outcome.kind)},
       {"end", in_print(duration_text(result.outcome.time))},
-      {"errors", in_print(error_words(run.input, result))},
       {"toml", case_file_text(run.input)},
       {"data", data.json},
       {"history_note", data.history_note},
@@ -200,11 +169,11 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"figures", figure_list(figures, figure_directory)},
       {"left_out", figures.left_out},
       {"failed", figures.failed},
-      {"error_bars", error_bars(result)},
-      {"numbers", numbers_of(run)},
-      {"no_error_bars", !result.error_estimate}};
+      {"final_energies", final_energies(result)},
+      {"numbers", list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
+         return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
+       })}};
   add_sub_impacts(page, result);
-  add_conservation(page, result);
   return whole_page(
       "pages/report.html", page, chart_library(dygraphs),
       {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/report.js"});
