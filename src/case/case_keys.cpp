@@ -287,7 +287,7 @@ std::vector<CaseKey> make_case_keys() {
     row("accuracy.work_limit", "", positive, "bound on the work of all runs that such a wish may cost together, in evaluations of the right-hand side times unknowns (some 5 ns each); no effect without accuracy.event_times", as_in_case, AT(accuracy.work_limit)),
     row("accuracy.energy", "", positive_share, "largest error of the energy, relative to the initial energy, with which a run counts as completed", "from method and rtol, 1e-3 at most", AT(accuracy.energy)),
 
-    row("output.interval", "s", not_negative, "time between history rows; 0: none", as_in_case, AT(output.interval)),
+    row("output.interval", "s", not_negative, "time between history rows; 0: none", "time.end/2000, and during contact wherever the force has changed by 1 % of the largest so far", AT(output.interval)),
     row("output.zone_gap", "", positive, "separation that ends a zone, in first flexural periods", as_in_case, AT(output.zone_gap)),
     row("output.subzone_gap", "", positive, "separation that ends a sub-zone, in first flexural periods", as_in_case, AT(output.subzone_gap)),
     row("output.sections", "", fraction, "positions, as fractions of the length, of sections whose curvature and moment are kept", as_in_case, AT(output.sections)),

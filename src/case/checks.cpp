@@ -145,15 +145,15 @@ std::string doubt_of_end_time(const Case& input) {
 }
 
 void check_history_size(const Case& input) {
-  const double rows = input.end_time / input.output.interval;
-  if (input.output.interval == 0.0 || rows <= most_history_rows) return;
+  const double interval = input.output.history_interval(input.end_time);
+  const double rows = input.end_time / interval;
+  if (interval == 0.0 || rows <= most_history_rows) return;
   throw InvalidCase(
       "output.interval",
       fmt::format(
           "is {} s, which gives {:.2g} history rows up to time.end = {} s; allowed: at most "
           "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
-          input.output.interval, rows, input.end_time, most_history_rows,
-          input.end_time / most_history_rows) +
+          interval, rows, input.end_time, most_history_rows, input.end_time / most_history_rows) +
           doubt_of_end_time(input));
 }
 
@@ -173,7 +173,7 @@ void check_shapes(const Case& input) {
 }
 
 void check_sections_and_points(const Case& input) {
-  if (input.output.interval > 0.0) return;
+  if (input.output.has_history()) return;
   for (const auto& [key, list] : {std::pair("output.sections", &input.output.sections),
                                   std::pair("output.points", &input.output.points)}) {
     if (list->empty()) continue;

@@ -110,11 +110,12 @@ std::string count_text(double count) {
 }
 
 std::string files_text(const Case& input, const ResolvedSettings& used) {
-  const bool has_history = input.output.interval > 0.0;
+  const bool has_history = input.output.has_history();
   const bool has_shapes = used.n_shape_points > 0;
   if (!has_history && !has_shapes) return "small: no history rows, no shapes";
   const std::string history =
-      has_history ? count_text(input.end_time / input.output.interval) + " history rows"
+      has_history ? count_text(input.end_time / input.output.history_interval(input.end_time)) +
+                        (input.output.interval ? " history rows" : " history rows and more")
                   : "no history rows";
   const std::string shapes =
       has_shapes ? fmt::format("{} shapes of {} points and one per event",

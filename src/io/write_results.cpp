@@ -114,12 +114,12 @@ double foreseen_bytes(const Case& input, std::optional<std::size_t> n_shape_poin
   const double bytes_per_shape =
       bytes_per_shape_row * static_cast<double>(n_shape_points.value_or(most_points));
   const double of_shapes = foreseen_shapes(input) * bytes_per_shape;
-  if (!(input.output.interval > 0.0)) return of_shapes;
+  if (!input.output.has_history()) return of_shapes;
   const double bytes_per_row =
       bytes_per_history_row +
       bytes_per_section_row * static_cast<double>(input.output.sections.size()) +
       bytes_per_point_row * static_cast<double>(input.output.points.size());
-  return of_shapes + input.end_time / input.output.interval * bytes_per_row;
+  return of_shapes + input.end_time / input.output.history_interval(input.end_time) * bytes_per_row;
 }
 
 ResultWriter::ResultWriter(const fs::path& directory, const Case& input)

@@ -29,7 +29,7 @@ FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& row
       envelope_(field_.size()) {
   const BeamMesh& mesh = beam_.mesh();
   const double length = material_.length;
-  if (parts.given.output.interval > 0.0) {  // history rows hold reactions
+  if (parts.given.output.has_history()) {  // history rows hold reactions
     reactions_.emplace(beam_, length, parts.problem.striker.position * length);
     if (!reactions_->exist()) reactions_.reset();
   }

@@ -30,6 +30,9 @@ double maximum_in(const Function& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
+// Of the largest force so far, between rows of a run that follows the force.
+constexpr double change_of_force = 0.01;
+
 // A tensile force is tolerated within so many roundings of displacements of the contact's end.
 constexpr double tolerated_rounding = 64.0;
 
@@ -90,6 +93,7 @@ void Recorder::keep_fields(const RunParts& parts) {
 }
 
 void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
+  if (follows_force_ && in_contact_) add_row_of_force(step, beam);
   if (interval_ > 0.0 || fields_) add_rows_within(step, beam);
   if (!result_.first_section_yield) {
     result_.first_section_yield = first_flow_.find(beam, step.ends());
@@ -102,6 +106,12 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
     look_for_peak(step, beam);
   }
   near_misses_.follow(step, beam, events_ == EventHandling::located);
+}
+
+void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam) {
+  const double change = std::abs(beam.contact_force(step.y0()) - last_row_force_);
+  if (change < change_of_force * largest_force_ || !(step.t0() > last_row_time_)) return;
+  add_row(step.t0(), step.y0(), accounts_);
 }
 
 void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
@@ -345,6 +355,7 @@ void Recorder::add_row(double time, const State& y, Accounts& accounts) {
 void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
   ++result_.n_history_rows;
   last_row_time_ = row.time;
+  last_row_force_ = row.force;
   rows_.add(row);
   add_section_rows(row.time, y, accounts);
   if (fields_) fields_->follow(row.time, y, accounts);

@@ -34,6 +34,9 @@ class Recorder final : public RunObserver {
   /// Keeps the fields along the beam and the bending of single sections that are asked for.
   void keep_fields(const RunParts& parts);
 
+  /// Adds rows during contact wherever the force has changed, as in OutputOptions::interval.
+  void follow_force() { follows_force_ = true; }
+
   /// Shows the run to a user's observer, after it has been recorded.
   void show(Observer& observer) { observer_ = &observer; }
 
@@ -60,6 +63,8 @@ class Recorder final : public RunObserver {
   void follow_deformation(const State& y);
   void follow_displacement(double of_struck_point);
   void close_sub_impact(const State& y, const StruckBeam& beam);
+  // A row at the step's start, if the force has changed since the last row.
+  void add_row_of_force(const ObservedStep& step, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   void add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts);
   void integrate_force(const ObservedStep& step, const StruckBeam& beam);
@@ -94,7 +99,9 @@ class Recorder final : public RunObserver {
   NearMissSearch near_misses_;
   double striker_mass_;
   long next_row_ = 0;
+  bool follows_force_ = false;
   double last_row_time_ = -1.0;  // s
+  double last_row_force_ = 0.0;  // N
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N

@@ -167,7 +167,9 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   StruckBeam& beam = parts.beam;
   Result result;
   Audit audit(beam, beam.initial_state(), {used.energy_tolerance, tolerated_momentum});
-  Recorder recorder(beam, output.interval, used.events, audit, result, rows);
+  Recorder recorder(beam, output.history_interval(parts.given.end_time), used.events, audit, result,
+                    rows);
+  if (!output.interval) recorder.follow_force();
   recorder.keep_fields(parts);
   if (observer != nullptr) recorder.show(*observer);
   EventLoop loop(beam, integrator, recorder, audit, loop_options(parts));

@@ -34,7 +34,8 @@ OutputOptions output_beside(const Case& input) {
   output.keep_no_rows();
   if (shapes > 0.0) {
     output.shapes = shapes;
-    output.interval = std::max(input.output.interval, input.end_time / most_rows);
+    output.interval =
+        std::max(input.output.history_interval(input.end_time), input.end_time / most_rows);
   }
   return output;
 }

@@ -59,7 +59,9 @@ enum class StopRule {
 };
 
 struct OutputOptions {
-  double interval = 1e-6;        ///< s between history rows; 0: none
+  /// s between history rows; 0: none; empty: a share of the run, with further rows during contact
+  /// wherever the force has changed by a hundredth of the largest so far.
+  std::optional<double> interval;
   double zone_gap = 0.1;         ///< in first flexural periods
   double subzone_gap = 0.02;     ///< in first flexural periods
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
@@ -69,11 +71,16 @@ struct OutputOptions {
   std::optional<double> shapes;
   int shape_points = 101;  ///< most points of a shape, along the whole beam
 
+  bool has_history() const { return interval != 0.0; }
+  /// s between history rows of a run that ends at `end_time` (s); 0: none.
+  double history_interval(double end_time) const { return interval.value_or(end_time / 2000.0); }
+
   /// s between shapes of a run that ends at `end_time` (s); 0: none. Where it is left open, shapes
   /// are of instants that have history rows, so that they cost no further states.
   double shape_interval(double end_time) const {
     if (shapes) return *shapes;
-    return interval > 0.0 ? interval * std::max(std::round(end_time / 400.0 / interval), 1.0) : 0.0;
+    const double rows = history_interval(end_time);
+    return rows > 0.0 ? rows * std::max(std::round(end_time / 400.0 / rows), 1.0) : 0.0;
   }
 
   /// For refined runs, of which only the sub-impacts matter.
