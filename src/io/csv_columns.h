@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <concepts>
 #include <cstddef>
@@ -39,20 +40,17 @@ Cell to_cell(const std::optional<Value>& value) {
   return value ? to_cell(*value) : Cell();
 }
 
-/// `digits`: of a real number. Digits that are given as text are read faster.
-inline void append_real(std::string& text, double real, int digits) {
-  const auto out = std::back_inserter(text);
-  if (digits == 17) {
-    fmt::format_to(out, "{:.17g}", real);
-  } else {
-    fmt::format_to(out, "{:.{}g}", real, digits);
-  }
+inline void append_real(std::string& text, double value, int digits) {
+  std::array<char, 32> number;  // holds 17 digits, sign, point and exponent
+  const auto end = std::to_chars(number.data(), number.data() + number.size(), value,
+                                 std::chars_format::general, digits);
+  text.append(number.data(), end.ptr);
 }
 
+/// `digits`: of a real number.
 inline void append_cell(std::string& text, const Cell& cell, int digits) {
-  const auto out = std::back_inserter(text);
   if (const auto* real = std::get_if<double>(&cell)) append_real(text, *real, digits);
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) fmt::format_to(out, "{}", *whole);
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) text += std::to_string(*whole);
   if (const auto* words = std::get_if<std::string>(&cell)) {
     for (const char c : *words) text.push_back(c == ',' ? ';' : c == '\n' ? ' ' : c);
   }

@@ -144,7 +144,8 @@ template <>
 const RunTable<HistoryRow>& run_table() {
   static const RunTable<HistoryRow> table = {
       "history.csv",
-      "rows at output.interval, and where that is left open at changes of the contact force by 1 % of "
+      "rows at output.interval, and where that is left open at changes of the contact force by 1 % "
+      "of "
       "the largest so far; two rows per event of the contact",
       {{"time_s", "time", &HistoryRow::time},
        {"force_N", "contact force", &HistoryRow::force},

@@ -50,7 +50,8 @@ TEST_F(OpenInterval, AddsRowsDuringContactAlone) {
   EXPECT_EQ(result.sub_impacts.back().start, regular.sub_impacts.back().start);
   EXPECT_EQ(result.striker_velocity, regular.striker_velocity);
   const auto in_flight = [&](const Result& of) {
-    return std::ranges::count_if(of.history, [](const HistoryRow& row) { return row.force == 0.0; });
+    return std::ranges::count_if(of.history,
+                                 [](const HistoryRow& row) { return row.force == 0.0; });
   };
   EXPECT_EQ(in_flight(result), in_flight(regular));
 }

@@ -133,9 +133,9 @@ int multiply(SUNMatrix matrix, N_Vector x, N_Vector product) {
   double* out = NV_DATA_S(product);
   const auto n = static_cast<sunindextype>(size(x));
   std::fill_n(out, n, 0.0);
-  for (sunindextype j = 0; j < n; ++j) {
+  for (sunindextype j = 0, k = 0; j < n; ++j) {
     const double factor = in[j];  // out does not overlap in
-    for (sunindextype k = starts[j]; k < starts[j + 1]; ++k) out[rows[k]] += all[k] * factor;
+    for (const sunindextype end = starts[j + 1]; k < end; ++k) out[rows[k]] += all[k] * factor;
   }
   return 0;
 }
