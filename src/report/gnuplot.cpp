@@ -4,18 +4,17 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
+#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "io/sealed_files.h"
@@ -31,9 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 /// What a process of gnuplot left behind.
 struct GnuplotRun {
-  int start_error = 0;         ///< errno if gnuplot could not be started, else 0
-  int status = 0;              ///< of its exit; minus the signal's number if one ended it
-  bool took_too_long = false;  ///< and was ended
+  int start_error = 0;  ///< errno if no process could be started, else 0
+  int status = 0;       ///< of its exit; minus the signal's number if one ended it
   std::string output, errors;
 };
 
@@ -71,118 +69,90 @@ std::vector<char*> environment() {
   return variables;
 }
 
-std::vector<char*> pointers(std::vector<std::string>& words) {
+// The process of gnuplot in a directory: ended after so many seconds with all that it started, and
+// with this process. Returns errno.
+int start(const fs::path& directory, double seconds, std::vector<std::string> arguments, int output,
+          int errors, pid_t& child) {
+  std::vector<std::string> words = {"setpriv", "--pdeathsig", "KILL", "timeout", "-k", "1"};
+  words.insert(words.end(), {fmt::format("{:.3f}", seconds), "setpriv", "--pdeathsig", "KILL"});
+  words.insert(words.end(), {"gnuplot", "-d"});
+  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> list;
   for (std::string& word : words) list.push_back(word.data());
   list.push_back(nullptr);
-  return list;
-}
-
-// Between fork() and exec: nothing here takes memory or a lock. Returns errno.
-int become_gnuplot(const char* directory, char* const* arguments, char* const* variables,
-                   int output, int errors) {
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (nothing < 0 || ::dup2(nothing, STDIN_FILENO) < 0 || ::dup2(output, STDOUT_FILENO) < 0 ||
-      ::dup2(errors, STDERR_FILENO) < 0 || ::chdir(directory) != 0) {
-    return errno;
-  }
-  ::execvpe(arguments[0], arguments, variables);
-  return errno;
-}
-
-// A group of its own, so that what gnuplot starts can be ended with it. Returns -1 if no process
-// can be made. What cannot be started leaves errno in the file `start_error`.
-pid_t start(const fs::path& directory, std::vector<std::string>& words, int output, int errors,
-            int start_error) {
-  const std::vector<char*> arguments = pointers(words);
-  const std::vector<char*> variables = environment();
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child != 0) return child;
-  ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(0);  // it ended before it could take this process with it
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+  ::posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
   const int error =
-      become_gnuplot(directory.c_str(), arguments.data(), variables.data(), output, errors);
-  [[maybe_unused]] const ssize_t n = ::write(start_error, &error, sizeof error);
-  ::_exit(127);
+      ::posix_spawnp(&child, list[0], &actions, nullptr, list.data(), environment().data());
+  ::posix_spawn_file_actions_destroy(&actions);
+  return error;
 }
 
-// Appends what can be read to a text. Returns whether that ended before the deadline.
-bool read_until(Clock::time_point deadline, int file, std::string& text) {
+// Reads what a process writes until it ends. What it started may hold the pipe for longer.
+int read_to_end(int pipe, pid_t child, std::string& text) {
   std::array<char, 1 << 14> buffer;
+  pollfd stream{pipe, POLLIN, 0};
+  int state = 0;
+  bool has_ended = false;
   for (ssize_t n = 1; n != 0;) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    pollfd stream{file, POLLIN, 0};
-    if (left.count() <= 0) return false;
-    if (::poll(&stream, 1, static_cast<int>(left.count())) <= 0) continue;  // or a signal came
-    n = ::read(file, buffer.data(), buffer.size());
-    if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
+    if (::poll(&stream, 1, 100) > 0) {
+      n = ::read(pipe, buffer.data(), buffer.size());
+      if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
+    } else if (has_ended) {
+      return state;
+    } else {
+      has_ended = ::waitpid(child, &state, WNOHANG) == child;
+    }
   }
-  return true;
-}
-
-// Whether the process ended before the deadline.
-bool ends_until(Clock::time_point deadline, pid_t child, int& state) {
-  while (true) {
-    const pid_t ended = ::waitpid(child, &state, WNOHANG);
-    if (ended == child || (ended < 0 && errno != EINTR)) return true;
-    if (Clock::now() >= deadline) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!has_ended && ::waitpid(child, &state, 0) < 0 && errno == EINTR) {
   }
-}
-
-void kill_group(pid_t child, int& state) {
-  ::kill(-child, SIGKILL);
-  while (::waitpid(child, &state, 0) < 0 && errno == EINTR) {
-  }
+  return state;
 }
 
 // Runs gnuplot in a directory, with its default settings: neither ~/.gnuplot nor the variables of
-// the environment that gnuplot obeys have an effect. It is ended at the deadline, and with this
-// process. No shell comes between, so that any name of a directory is only a name.
+// the environment that gnuplot obeys have an effect. No shell comes between, so that any name of a
+// directory is only a name.
 GnuplotRun run_gnuplot(const fs::path& directory, std::vector<std::string> arguments,
                        Clock::time_point deadline) {
-  arguments.insert(arguments.begin(), {"gnuplot", "-d"});
+  const double seconds = std::chrono::duration<double>(deadline - Clock::now()).count();
   std::array<int, 2> ends{-1, -1};
   const int failed = ::pipe2(ends.data(), O_CLOEXEC);
   const Descriptor output(failed == 0 ? ends[0] : -1);
   auto input = std::make_unique<Descriptor>(ends[1]);
-  const Descriptor errors(make_memory_file()), start_error(make_memory_file());
+  const Descriptor errors(make_memory_file());
   GnuplotRun run;
-  const pid_t child = start(directory, arguments, *input, errors, start_error);
-  if (child < 0) {
-    run.start_error = errno;
-    return run;
-  }
+  pid_t child = 0;
+  run.start_error =
+      start(directory, std::max(seconds, 1e-3), std::move(arguments), *input, errors, child);
+  if (run.start_error != 0) return run;
   input.reset();  // the end of the output is that of gnuplot
-  int state = 0;
-  run.took_too_long =
-      !read_until(deadline, output, run.output) || !ends_until(deadline, child, state);
-  if (run.took_too_long) kill_group(child, state);
+  const int state = read_to_end(output, child, run.output);
   run.status = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
   run.errors.resize(static_cast<std::size_t>(::lseek(errors, 0, SEEK_END)));
-  if (::pread(errors, run.errors.data(), run.errors.size(), 0) < 0 ||
-      ::pread(start_error, &run.start_error, sizeof run.start_error, 0) < 0) {
+  if (::pread(errors, run.errors.data(), run.errors.size(), 0) < 0) {
     throw std::system_error(errno, std::generic_category(), "a file for gnuplot");
   }
   return run;
 }
 
-void throw_if_not_started(const std::string& figure, int error) {
-  if (error == 0) return;
-  if (error == ENOENT) {
+void throw_if_not_started(const std::string& figure, const GnuplotRun& run) {
+  constexpr int not_found = 127;  // status of a command that starts another
+  if (run.start_error == ENOENT || run.status == not_found) {
     throw GnuplotMissing(
         fmt::format("{}: cannot be drawn, because gnuplot is not installed; install it (Debian: "
                     "apt-get install gnuplot-nox) and repeat the command; the other files are "
                     "complete",
                     figure));
   }
-  const std::string message = fmt::format(
-      "{}: cannot be drawn, because gnuplot cannot be started ({})", figure, std::strerror(error));
   // For want of memory or of room for a process, which the next figure may find.
-  if (error == ENOMEM || error == EAGAIN) throw FigureError(message);
-  throw GnuplotMissing(message);
+  if (run.start_error != 0) {
+    throw FigureError(fmt::format("{}: cannot be drawn, because gnuplot cannot be started ({})",
+                                  figure, std::strerror(run.start_error)));
+  }
 }
 
 // The last lines that were printed, among which is the cause: fonts alone can print hundreds.
@@ -203,8 +173,8 @@ void draw(const fs::path& directory, const std::string& name, const char* ending
   const GnuplotRun gnuplot = run_gnuplot(
       directory, {"-e", fmt::format("set terminal {}; set encoding utf8", terminal), name + ".gp"},
       end);
-  throw_if_not_started(figure, gnuplot.start_error);
-  if (gnuplot.took_too_long) {
+  throw_if_not_started(figure, gnuplot);
+  if (gnuplot.status != 0 && Clock::now() >= end) {
     throw FigureError(fmt::format(
         "{}: gnuplot was ended, because it had not drawn {}.gp within {:g} s; if the machine is "
         "busy or memory is limited (ulimit -v), lift this and repeat the command",
