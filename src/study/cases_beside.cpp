@@ -210,12 +210,4 @@ Result simulate_judged(const Case& input, const std::vector<CaseBeside>& cases, 
   return run;
 }
 
-double memory_beside(const Case& input) {
-  double sum = 0.0;
-  for (const CaseBeside& beside : cases_beside(input)) {
-    sum += resolve(beside.input).settings().memory;
-  }
-  return sum;
-}
-
 }  // namespace subimpact

@@ -65,7 +65,4 @@ std::vector<RunBeside> simulate_beside(const Case& input, const std::vector<Case
 Result simulate_judged(const Case& input, const std::vector<CaseBeside>& cases, Jobs jobs,
                        const Progress& progress = {}, RowSink* rows = nullptr);
 
-/// Bytes that cases_beside() take beside the run itself, roughly.
-double memory_beside(const Case& input);
-
 }  // namespace subimpact
