@@ -134,7 +134,7 @@ void add_error_parts(const Result& result, fmt::memory_buffer& text) {
         is_repeated ? std::string("as above")
                     : certain_text(result, part.largest_error, part.first_unresolved, part.reason);
     fmt::format_to(std::back_inserter(text), "  {:<19} {} (runs beside: {})\n",
-                   "error of " + part.name, words, part.refined_run);
+                   part.name + " error", words, part.refined_run);
   }
 }
 
@@ -208,9 +208,16 @@ std::string contact_over_words(const Result& result) {
                      us * closest->time);
 }
 
-std::string finer_meshes_words(const ErrorEstimate::FinerMeshes& finer) {
-  std::string text = fmt::format("on {} there are {}, and {} of those here are alike", finer.mesh,
-                                 finer.n_there, finer.n_same);
+std::string finer_meshes_words(const Result& result) {
+  const ErrorEstimate::FinerMeshes& finer = *result.error_estimate->finer_meshes;
+  const std::size_t n = result.sub_impacts.size();
+  std::string text =
+      fmt::format("{} have {} and ", finer.mesh, counted(finer.n_there, "sub-impact"));
+  if (n == 1) {
+    text += finer.n_same == 1 ? "confirm the one here" : "do not confirm the one here";
+  } else {
+    text += fmt::format("confirm {} of these {}", finer.n_same, n);
+  }
   if (finer.change_of_first_end) {
     const double change = *finer.change_of_first_end;
     text += fmt::format("; on finer meshes the first contact ends some {} {}",
@@ -389,7 +396,7 @@ std::string run_summary(const Case& input, const Result& result) {
   line("final velocities", final_velocities_text(input, result));
   line("error", error_words(input, result));
   if (result.error_estimate && result.error_estimate->finer_meshes) {
-    line("finer meshes", finer_meshes_words(*result.error_estimate->finer_meshes));
+    line("finer meshes", finer_meshes_words(result));
   }
   if (result.predictability) line("predictable", predictability_words(result));
   line("first yield",

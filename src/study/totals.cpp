@@ -10,9 +10,12 @@ namespace subimpact {
 namespace {
 
 // Measured on random scenes (validation/judgement).
-constexpr double usual_safety = 5.0;
-constexpr double safety_of_dissipated = 7.0;
-constexpr double of_count = 0.0;  // the difference itself
+constexpr double usual_safety = 3.3;
+constexpr double safety_of_dissipated = 4.5;
+constexpr double safety_of_beam_velocity = 5.0;
+constexpr double safety_of_restitution = 4.0;
+constexpr double of_one_run = 1.5;  // more where one run alone shows a part of the error
+constexpr double of_count = 0.0;    // the difference itself
 
 struct Quantity {
   const char* name;
@@ -69,12 +72,14 @@ const Quantity quantities[] = {
     {"striker_velocity_m_per_s",
      [](const Case&, const Result& run) { return std::optional(run.striker_velocity); }},
     {"beam_mean_velocity_m_per_s",
-     [](const Case&, const Result& run) { return std::optional(run.beam_mean_velocity); }},
+     [](const Case&, const Result& run) { return std::optional(run.beam_mean_velocity); },
+     safety_of_beam_velocity},
     {"restitution",
      [](const Case& input, const Result& run) {
        return std::optional((run.beam_mean_velocity - run.striker_velocity) /
                             input.scene.striker.velocity);
-     }},
+     },
+     safety_of_restitution},
     {"impulse_Ns", [](const Case&, const Result& run) { return std::optional(impulse(run)); }},
     {"peak_force_N", [](const Case&, const Result& run) { return std::optional(run.max_force); },
      usual_safety, &SubImpact::peak_force, &SubImpact::peak_force_error},
@@ -106,16 +111,24 @@ const Quantity quantities[] = {
 Total total_of(const Result& run, std::span<const RunBeside> beside, double safety,
                const std::function<std::optional<double>(const Result&)>& value) {
   Total total{value(run).value_or(0.0), {}};
-  std::map<std::string, double> parts;
+  struct Part {
+    double error = 0.0;
+    int n_runs = 0;
+  };
+  std::map<std::string, Part> parts;
   for (const RunBeside& other : beside) {
     const std::optional<double> there = value(other.result);
     if (!there || !other.result.outcome.completed()) return total;
-    double& error = parts[other.of.part];
+    Part& part = parts[other.of.part];
+    ++part.n_runs;
     const double difference = std::abs(total.value - *there);
-    error = std::max(error, safety == of_count ? difference : safety * other.of.gain * difference);
+    part.error = std::max(part.error, safety == of_count ? difference : other.of.gain * difference);
   }
   total.error = 0.0;
-  for (const auto& [part, error] : parts) *total.error += error;
+  for (const auto& [name, part] : parts) {
+    const double of_runs = part.n_runs > 1 ? safety : of_one_run * safety;
+    *total.error += (safety == of_count ? 1.0 : of_runs) * part.error;
+  }
   return total;
 }
 

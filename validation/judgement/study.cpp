@@ -2,7 +2,7 @@
 // scenes.
 //
 //   subimpact_judgement [--seed S] [--scenes N] [--first K] [--budget seconds] [--shear]
-//   [--verbose] [--case] [--hammer FILE]
+//   [--verbose] [--case] [--hammer FILE] [--cost FILE...]
 
 #include <fmt/format.h>
 
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "case/problem.h"
+#include "judgement/cost.h"
 #include "strikes.h"
 #include "study/parallel.h"
 #include "subimpact/io/case_file.h"
@@ -294,7 +295,13 @@ int main(int argc, char** argv) {
   app.add_option("--budget", budget.seconds, "seconds that the finest run of a scene may take");
   app.add_flag("--case", prints_case, "print the case file of the first and run nothing");
   app.add_option("--hammer", hammer, "this case at --scenes velocities instead of scenes");
+  std::vector<std::string> costs;
+  app.add_option("--cost", costs, "what these cases and three elastic scenes cost");
   CLI11_PARSE(app, argc, argv);
+  if (!costs.empty()) {
+    judgement::study_cost(costs);
+    return 0;
+  }
   if (!hammer.empty()) {
     study_hammer(hammer, n_scenes);
     return 0;

@@ -15,8 +15,8 @@ struct CaseBeside {
   Case input;
   std::string part;         ///< of the error that it shows: "mesh and time", "time", "layers" ...
   std::string description;  ///< in words: "2787 cells"
-  /// A difference d between the two runs stands for an error gain d of the judged one: 1/(r^p - 1)
-  /// for a mesh coarser by the factor r and of the order p, at most 1.
+  /// A difference d between the two runs stands for an error gain d of the judged one:
+  /// 1/|r^p - 1|, at most 2, for a mesh coarser by the factor r (finer: r < 1) and of the order p.
   double gain = 1.0;
   /// Whether sub-impacts carry this part of the error; if not, only totals do.
   bool of_rows = true;
@@ -44,11 +44,20 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 /// shows whether times converge at its order) and, where the case has layers, "layers".
 std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 
-/// Judges `run` by the runs beside it: sets certain, probability, doubt and errors of its
-/// sub-impacts, and Result::error_estimate with the totals, by the rules of docs/theory.md, "Error
-/// estimates". Errors are meant to cover 95 of 100 true ones, those of times 98
-/// (validation/judgement). `probability` is the share of the runs that have the sub-impact. Runs of
-/// several parts are judged part by part; errors are the sums.
+/// Judges `run` by the runs beside it: sets certain, probability (the share of the runs that have
+/// the sub-impact), doubt and errors of its sub-impacts, and Result::error_estimate with the totals
+/// (docs/theory.md, "Error estimates"; measured in validation/judgement).
+///
+/// e: the largest gain |difference| over the runs beside. d: the error of the indentation, median
+/// of e |indentation rate| over seven events. Errors: 2.7 max(e, d/rate) of a time, at least what
+/// free ends leave; 4 e of a value; totals: set_totals(). A sub-impact is certain if each run has
+/// exactly one that corresponds to it, if 0.85 d is less than its indentation and the openings of
+/// the gap beside it, if its errors are less than its duration and the separations beside it, and
+/// if near misses within it keep margins above 2.5 e of the margin. After an uncertain one of the
+/// same sub-zone all errors count 1.5 times. A flight is certain by the rule of near misses. All
+/// factors are 1.5 times larger where one run alone shows a part. Contact is over where that is
+/// proven for all runs and the velocities of their strikers differ by less than 2.5 % of the
+/// strike's. Several parts are judged one by one; errors are the sums.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Threads that a function may use for runs beside one another; results do not depend on it.
