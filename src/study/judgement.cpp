@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "numerics/median.h"
 #include "numerics/units.h"
 #include "study/mesh_limits.h"
 #include "study/mesh_resolution.h"
@@ -71,13 +72,6 @@ Partners partners_in(const Result& run, const Result& other) {
     found.of[*pair.first] = {&there, whole.of[*pair.first] && both_end};
   }
   return found;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // A start or an end; the error before safety.
@@ -352,10 +346,6 @@ void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const std::s
   part.reason = reason;
 }
 
-bool same_subzone(const SubImpact& a, const SubImpact& b) {
-  return a.zone == b.zone && a.subzone == b.subzone;
-}
-
 ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const RunBeside> beside,
                                ErrorEstimate& estimate) {
   const Judge judge(input, run, beside);
@@ -363,7 +353,9 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
   std::vector<std::string> doubts(run.sub_impacts.size());
   double strictness = 1.0;
   for (std::size_t i = 0; i < doubts.size(); ++i) {
-    if (i > 0 && !same_subzone(run.sub_impacts[i - 1], run.sub_impacts[i])) strictness = 1.0;
+    const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
+    const SubImpact& here = run.sub_impacts[i];
+    if (here.zone != before.zone || here.subzone != before.subzone) strictness = 1.0;
     doubts[i] = judge.doubt_of(i, strictness);
     if (!doubts[i].empty()) strictness = after_uncertain;
   }
@@ -425,12 +417,10 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
   judge_part(input, here, {&other, 1}, none);
   const auto n_same =
       std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
-  ErrorEstimate::FinerMeshes found{other.of.description,
-                                   other.result.sub_impacts.size(),
-                                   static_cast<std::size_t>(n_same),
-                                   {},
-                                   first_mesh_doubt(input, run)};
   const std::vector<SubImpact>& there = other.result.sub_impacts;
+  ErrorEstimate::FinerMeshes found{other.of.description, there.size(),
+                                   static_cast<std::size_t>(n_same), std::nullopt,
+                                   first_mesh_doubt(input, run)};
   if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
     const double change = *there[0].end - *here.sub_impacts[0].end;
     const bool is_finer = mesh_count(other.of.input) > mesh_count(input);

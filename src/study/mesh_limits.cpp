@@ -12,31 +12,19 @@ namespace {
 
 constexpr double order_uncertainty = 0.35;  // of the ratio of differences for an order
 
-// Of times on three meshes.
-class Limit {
- public:
-  Limit(const Case& coarse, const Case& middle, const Case& fine) : order_(*mesh_order(fine)) {
-    const double h = 1.0 / mesh_count(fine), middle_h = 1.0 / mesh_count(middle);
-    ratio_ = middle_h / h;
-    expected_ = ratio_of_differences(1.0 / mesh_count(coarse), middle_h, h, order_);
-  }
-
-  // None where they do not converge at the order of the mesh.
-  std::optional<double> operator()(double coarse, double middle, double fine) const {
-    const double found = (coarse - middle) / (middle - fine);
-    if (!(std::abs(found / expected_ - 1.0) <= order_uncertainty)) return std::nullopt;
-    return richardson_limit(middle, fine, ratio_, order_);
-  }
-
- private:
-  double order_, ratio_, expected_;
-};
-
 }  // namespace
 
 void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside) {
   if (beside.size() < 3 || !mesh_order(input)) return;
-  const Limit limit(beside[2].of.input, beside[1].of.input, input);
+  const double order = *mesh_order(input), h = 1.0 / mesh_count(input);
+  const double middle_h = 1.0 / mesh_count(beside[1].of.input);
+  const double expected =
+      ratio_of_differences(1.0 / mesh_count(beside[2].of.input), middle_h, h, order);
+  const auto limit = [&](double coarse, double middle, double fine) -> std::optional<double> {
+    const double found = (coarse - middle) / (middle - fine);
+    if (!(std::abs(found / expected - 1.0) <= order_uncertainty)) return std::nullopt;
+    return richardson_limit(middle, fine, middle_h / h, order);
+  };
   const Counterparts in_middle = counterparts(run.sub_impacts, beside[1].result.sub_impacts);
   const Counterparts in_coarse = counterparts(run.sub_impacts, beside[2].result.sub_impacts);
   for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {

@@ -95,8 +95,7 @@ WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest req
 
 FirstRun first_run(const Case& input, const GivenKeys& given) {
   const std::optional<OpenChoices> open = choices_left(input, given, std::nullopt);
-  ChosenModel chosen = open ? first_choice(input, *open) : ChosenModel{input, {}};
-  FirstRun run{std::move(chosen.input), std::move(chosen.reason)};
+  FirstRun run{open ? first_choice(input, *open) : ChosenModel{input, {}}};
   for (const CaseBeside& beside :
        open ? cases_beside(run.input) : cases_beside_on_given_mesh(run.input)) {
     run.memory_beside += resolve(beside.input).settings().memory;

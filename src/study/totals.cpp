@@ -111,24 +111,18 @@ const Quantity quantities[] = {
 Total total_of(const Result& run, std::span<const RunBeside> beside, double safety,
                const std::function<std::optional<double>(const Result&)>& value) {
   Total total{value(run).value_or(0.0), {}};
-  struct Part {
-    double error = 0.0;
-    int n_runs = 0;
-  };
-  std::map<std::string, Part> parts;
+  std::map<std::string, double> parts;
   for (const RunBeside& other : beside) {
     const std::optional<double> there = value(other.result);
     if (!there || !other.result.outcome.completed()) return total;
-    Part& part = parts[other.of.part];
-    ++part.n_runs;
-    const double difference = std::abs(total.value - *there);
-    part.error = std::max(part.error, safety == of_count ? difference : other.of.gain * difference);
+    const auto part_of = [](const RunBeside& run_beside) { return run_beside.of.part; };
+    const bool alone = std::ranges::count(beside, other.of.part, part_of) == 1;
+    const double factor = safety * other.of.gain * (alone ? of_one_run : 1.0);
+    double& error = parts[other.of.part];
+    error = std::max(error, (safety == of_count ? 1.0 : factor) * std::abs(total.value - *there));
   }
   total.error = 0.0;
-  for (const auto& [name, part] : parts) {
-    const double of_runs = part.n_runs > 1 ? safety : of_one_run * safety;
-    *total.error += (safety == of_count ? 1.0 : of_runs) * part.error;
-  }
+  for (const auto& [part, error] : parts) *total.error += error;
   return total;
 }
 

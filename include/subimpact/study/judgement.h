@@ -48,16 +48,15 @@ std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 /// the sub-impact), doubt and errors of its sub-impacts, and Result::error_estimate with the totals
 /// (docs/theory.md, "Error estimates"; measured in validation/judgement).
 ///
-/// e: the largest gain |difference| over the runs beside. d: the error of the indentation, median
-/// of e |indentation rate| over seven events. Errors: 2.7 max(e, d/rate) of a time, at least what
-/// free ends leave; 4 e of a value; totals: set_totals(). A sub-impact is certain if each run has
-/// exactly one that corresponds to it, if 0.85 d is less than its indentation and the openings of
-/// the gap beside it, if its errors are less than its duration and the separations beside it, and
-/// if near misses within it keep margins above 2.5 e of the margin. After an uncertain one of the
-/// same sub-zone all errors count 1.5 times. A flight is certain by the rule of near misses. All
-/// factors are 1.5 times larger where one run alone shows a part. Contact is over where that is
-/// proven for all runs and the velocities of their strikers differ by less than 2.5 % of the
-/// strike's. Several parts are judged one by one; errors are the sums.
+/// e: the largest gain |difference| over the runs beside; d: the median of e |indentation rate|
+/// over seven events. Errors: of a time 2.7 max(e, d/rate), at least what free ends leave; of a
+/// value 4 e; of totals as set_totals(). A sub-impact is certain if each run has one counterpart,
+/// if 0.85 d is below its indentation and the openings of the gap beside it, if its errors are
+/// below its duration and the separations, and near misses within it keep margins above 2.5 e;
+/// after an uncertain one of its sub-zone all this with 1.5 times the errors. A flight is certain
+/// by its near misses. Where one run alone shows a part, factors are 1.5 times as large. Contact is
+/// over where that is proven for all runs and the final velocities of their strikers differ by less
+/// than 2.5 % of the strike's. Several parts are judged one by one; errors are the sums.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Threads that a function may use for runs beside one another; results do not depend on it.

@@ -41,10 +41,8 @@ std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& r
 WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request);
 
 /// The first of the runs that run_as_asked() makes of a case, by default.
-struct FirstRun {
-  Case input;
-  std::string reason;          ///< of its mesh and method, in words; empty where the case fixes one
-  double memory_beside = 0.0;  ///< bytes, of the runs made beside it, roughly
+struct FirstRun : ChosenModel {  ///< without a reason where the case fixes mesh or method
+  double memory_beside = 0.0;    ///< bytes, of the runs made beside it, roughly
 };
 FirstRun first_run(const Case& input, const GivenKeys& given);
 
