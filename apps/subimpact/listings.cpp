@@ -1,6 +1,5 @@
 #include "commands.h"
 #include "subimpact/io/report.h"
-#include "subimpact/study/within.h"
 
 namespace subimpact::app {
 namespace {
@@ -8,16 +7,9 @@ namespace {
 int explain(CaseOptions& options) {
   const LoadedCase loaded = options.load();
   with_places(loaded, [&] {
-    const OpenChoices open = open_choices(loaded.given);
-    const bool chooses = open.all() || loaded.value.accuracy.event_times;
-    const ChosenModel chosen =
-        chooses ? first_choice(loaded.value, open) : ChosenModel{loaded.value, {}};
-    ResolvedRun run = resolve(chosen.input);
+    const std::string text = explanation(loaded.value, loaded.given);
     print_doubts(loaded);
-    ResolvedSettings settings = run.settings();
-    settings.memory += memory_beside(chosen.input);
-    print("{}", explanation(chosen.input, settings, estimate_cost(run)));
-    if (chooses) print("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);
+    print("{}", text);
   });
   return done;
 }

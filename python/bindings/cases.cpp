@@ -9,8 +9,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/judgement.h"
-#include "subimpact/study/within.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::python {
 
@@ -70,35 +69,18 @@ LoadedCase load(const std::string& text, const std::string& name,
   return read_case_text(text, name, overrides);
 }
 
-// The case that would run first, and why it is that one.
-ChosenModel first_run(const LoadedCase& loaded) {
-  const OpenChoices open = open_choices(loaded.given);
-  const bool chooses = open.all() || loaded.value.accuracy.event_times;
-  return chooses ? first_choice(loaded.value, open) : ChosenModel{loaded.value, {}};
-}
-
 std::string explain(const LoadedCase& loaded) {
-  return with_places(loaded, [&] {
-    const ChosenModel chosen = first_run(loaded);
-    ResolvedRun run = resolve(chosen.input);
-    ResolvedSettings settings = run.settings();
-    settings.memory += memory_beside(chosen.input);
-    std::string text = explanation(chosen.input, settings, estimate_cost(run));
-    if (!chosen.reason.empty()) {
-      text += fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", chosen.reason);
-    }
-    return text;
-  });
+  return with_places(loaded, [&] { return explanation(loaded.value, loaded.given); });
 }
 
 // The summary of a run that has not begun: settings given and used.
 std::string resolved_summary(const LoadedCase& loaded) {
   return with_places(loaded, [&] {
-    const ChosenModel chosen = first_run(loaded);
+    const Case input = first_run(loaded.value, loaded.given).input;
     Result result;
-    result.given = chosen.input;
-    result.used = resolve(chosen.input).settings();
-    return summary_json(chosen.input, result);
+    result.given = input;
+    result.used = resolve(input).settings();
+    return summary_json(input, result);
   });
 }
 

@@ -39,7 +39,8 @@ struct OtherUnit {
   double factor;  ///< to the case file's unit
 };
 
-// "; if MPa was meant, write 7.196e+10": units that lead to usual values, from `low` to `high`.
+// "; if MPa was meant, write 7.196e+10", for each unit in which the value is usual: `low` to
+// `high`.
 std::string proposal(double value, std::initializer_list<OtherUnit> units, double low,
                      double high) {
   std::string text;
@@ -76,7 +77,7 @@ class Doubts {
                                     proposal(value, units, low, high)));
   }
 
-  // A length out of proportion to another length of the beam, or doubtful because all lengths are.
+  // Doubts a length: out of proportion to another one, or one of lengths that are all doubtful.
   void length(const char* key, double value, bool out_of_proportion, double other,
               const char* other_name, bool because_of_all) {
     if (out_of_proportion) {
@@ -95,7 +96,7 @@ class Doubts {
         mass >= 1e4 ? fmt::format("{:.0f} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
   }
 
-  // A wrong density gives no information about lengths.
+  // The density is kept within usual values: lengths are not doubtful where it is wrong.
   bool is_too_large() const {
     const double volume = beam_.length * beam_.width * beam_.thickness;
     return volume * std::clamp(beam_.density, 1e3, heaviest) > heaviest_beam;
@@ -108,7 +109,7 @@ class Doubts {
     const bool deep = h > l;
     const bool wide = b > widest * l;
     const bool any = large || l > longest || slender || deep || wide;
-    // Beside one length in mm, another one above a metre is probably in mm too.
+    // Where one length seems to be in mm, another one above a metre is probably in mm too.
     const auto doubtful_beside = [&](double value) { return any && value > one_metre; };
     length("beam.length", l, slender, h, "thickness", large || l > longest);
     length("beam.width", b, wide, l, "length", large || doubtful_beside(b));

@@ -97,7 +97,7 @@ std::vector<std::string> leaves_of(const std::string& table) {
   return names;
 }
 
-// The keys of all tables with that name, those that a case must have first.
+// The keys of that name in all tables, required ones first.
 std::vector<std::string> keys_called(const std::string& leaf) {
   std::vector<std::string> names;
   for (const bool required : {true, false}) {
@@ -109,7 +109,8 @@ std::vector<std::string> keys_called(const std::string& leaf) {
   return names;
 }
 
-// For a key that `table` does not know: the slip meant, else the table in which the name is known.
+// For a key that `table` does not have: its key with the nearest name, else the keys of that name
+// in other tables.
 std::string suggestion(const std::string& table, const std::string& leaf) {
   const std::string near = nearest_name(leaf, leaves_of(table));
   if (!near.empty()) return fmt::format("; did you mean \"{}\"?", full_key_name(table, near));
@@ -139,7 +140,7 @@ std::string_view after_any_of(std::string_view characters, std::string_view text
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   std::string best;
-  // Further away than a third of its letters it is another word, not a slip.
+  // A name that differs in more than a third of its letters is another word, not a slip.
   const std::size_t furthest = std::max<std::size_t>(1, name.size() / 3);
   std::size_t best_distance = furthest + 1;
   for (const std::string& candidate : candidates) {

@@ -12,6 +12,7 @@
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/options.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {
@@ -125,9 +126,7 @@ std::string files_text(const Case& input, const ResolvedSettings& used) {
                      history, shapes);
 }
 
-}  // namespace
-
-std::string explanation(const Case& input, const ResolvedSettings& used,
+std::string description(const Case& input, const ResolvedSettings& used,
                         const std::optional<CostEstimate>& cost) {
   const Scene& scene = input.scene;
   std::string text;
@@ -202,6 +201,18 @@ std::string explanation(const Case& input, const ResolvedSettings& used,
   line("memory", fmt::format("about {:.2g} MB", MB * used.memory));
   line("files", files_text(input, used));
   return text;
+}
+
+}  // namespace
+
+std::string explanation(const Case& input, const GivenKeys& given) {
+  const FirstRun first = first_run(input, given);
+  ResolvedRun run = resolve(first.input);
+  ResolvedSettings settings = run.settings();
+  settings.memory += first.memory_beside;
+  const std::string text = description(first.input, settings, estimate_cost(run));
+  if (first.reason.empty()) return text;
+  return text + fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", first.reason);
 }
 
 std::string key_listing() {

@@ -40,26 +40,26 @@ std::string total_or_value(const Total& total, double factor, int decimals) {
 
 std::string zone_text(const Result& result) {
   const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
-  fmt::memory_buffer text;
+  const auto& estimate = result.error_estimate;
+  std::string text;
   for (std::size_t k = 0; k < zones.size(); ++k) {
     const ZoneSummary& zone = zones[k];
-    const std::string subzones = counted(zone.n_subzones, "sub-zone");
-    if (!result.error_estimate || result.error_estimate->zones.size() != zones.size()) {
-      fmt::format_to(std::back_inserter(text), "  zone {:<14} {} in {}, {:.1f} to {} us\n",
-                     zone.zone, counted(zone.n_sub_impacts, "sub-impact"), subzones,
-                     zone.start * us, zone.end ? fmt::format("{:.1f}", *zone.end * us) : "(open)");
-      continue;
-    }
-    const ZoneTotals& totals = result.error_estimate->zones[k];
-    fmt::format_to(
-        std::back_inserter(text), "  zone {:<14} {} in {}, {} to {} us, impulse {} N s\n",
-        zone.zone,
-        count_text(totals.sub_impacts) + (zone.n_sub_impacts == 1 ? " sub-impact" : " sub-impacts"),
-        subzones, zone.start == 0.0 ? "0" : total_or_value(totals.start, us, 4),
-        zone.end ? total_or_value(totals.end, us, 4) : "(open)",
-        total_or_value(totals.impulse, 1.0, 6));
+    const ZoneTotals* totals =
+        estimate && estimate->zones.size() == zones.size() ? &estimate->zones[k] : nullptr;
+    const auto time = [&](double value, const Total ZoneTotals::*total) {
+      if (!totals) return fmt::format("{:.1f}", value * us);
+      return value == 0.0 ? std::string("0") : total_or_value(totals->*total, us, 4);
+    };
+    text +=
+        fmt::format("  zone {:<14} {} sub-impact{} in {}, {} to {} us", zone.zone,
+                    totals ? count_text(totals->sub_impacts) : std::to_string(zone.n_sub_impacts),
+                    zone.n_sub_impacts == 1 ? "" : "s", counted(zone.n_subzones, "sub-zone"),
+                    time(zone.start, &ZoneTotals::start),
+                    zone.end ? time(*zone.end, &ZoneTotals::end) : "(open)");
+    if (totals) text += fmt::format(", impulse {} N s", total_or_value(totals->impulse, 1.0, 6));
+    text += "\n";
   }
-  return fmt::to_string(text);
+  return text;
 }
 
 // Whether the only event time is that of the first touch, which is exact.
@@ -134,7 +134,7 @@ void add_error_parts(const Result& result, fmt::memory_buffer& text) {
         is_repeated ? std::string("as above")
                     : certain_text(result, part.largest_error, part.first_unresolved, part.reason);
     fmt::format_to(std::back_inserter(text), "  {:<19} {} (runs beside: {})\n",
-                   "error of " + part.name, words, part.refined_run);
+                   part.name + " error", words, part.refined_run);
   }
 }
 
@@ -208,9 +208,16 @@ std::string contact_over_words(const Result& result) {
                      us * closest->time);
 }
 
-std::string finer_meshes_words(const ErrorEstimate::FinerMeshes& finer) {
-  std::string text = fmt::format("on {} there are {}, and {} of those here are alike", finer.mesh,
-                                 finer.n_there, finer.n_same);
+std::string finer_meshes_words(const Result& result) {
+  const ErrorEstimate::FinerMeshes& finer = *result.error_estimate->finer_meshes;
+  const std::size_t n = result.sub_impacts.size();
+  std::string text =
+      fmt::format("{} have {} and ", finer.mesh, counted(finer.n_there, "sub-impact"));
+  if (n == 1) {
+    text += finer.n_same == 1 ? "confirm the one here" : "do not confirm the one here";
+  } else {
+    text += fmt::format("confirm {} of these {}", finer.n_same, n);
+  }
   if (finer.change_of_first_end) {
     const double change = *finer.change_of_first_end;
     text += fmt::format("; on finer meshes the first contact ends some {} {}",
@@ -284,17 +291,15 @@ std::string wish_words(const WishOutcome& wish, const Result& result) {
 
 std::string neglected_shear_words(const NeglectedShear& shear) {
   const bool is_small = shear.with && std::abs(*shear.with - shear.without) < 5e-3 * shear.without;
-  const std::string change =
-      is_small ? fmt::format("moves the end of the first contact, at {:.3g} us, by less than 0.5 %",
-                             us * shear.without)
-      : shear.with ? fmt::format("moves the end of the first contact from {:.3g} to {:.3g} us",
-                                 us * shear.without, us * *shear.with)
-                   : fmt::format(
-                         "moves the end of the first contact from {:.3g} us to beyond three "
-                         "times that",
-                         us * shear.without);
-  return fmt::format("shear, which on a coarse mesh {}; beam.theory = \"timoshenko\" has it",
-                     change);
+  const std::string without = fmt::format("{:.3g}", us * shear.without);
+  const std::string change = is_small ? fmt::format(", at {} us, by less than 0.5 %", without)
+                             : shear.with
+                                 ? fmt::format(" from {} to {:.3g} us", without, us * *shear.with)
+                                 : fmt::format(" from {} us to beyond three times that", without);
+  return fmt::format(
+      "shear, which on a coarse mesh moves the end of the first contact{}; beam.theory = "
+      "\"timoshenko\" has it",
+      change);
 }
 
 // Uncertain sub-impacts in succession, in one line: their sums.
@@ -389,7 +394,7 @@ std::string run_summary(const Case& input, const Result& result) {
   line("final velocities", final_velocities_text(input, result));
   line("error", error_words(input, result));
   if (result.error_estimate && result.error_estimate->finer_meshes) {
-    line("finer meshes", finer_meshes_words(*result.error_estimate->finer_meshes));
+    line("finer meshes", finer_meshes_words(result));
   }
   if (result.predictability) line("predictable", predictability_words(result));
   line("first yield",

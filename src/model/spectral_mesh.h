@@ -8,8 +8,8 @@
 namespace subimpact {
 
 /// Elements of a beam whose sections shear, with polynomials of degree 4 for displacement w and
-/// rotation phi of the sections (docs/theory.md, "Spectral elements"). A node lies under the
-/// strike: elements on both sides of it have lengths of their own.
+/// rotation phi of the sections (docs/theory.md, "Spectral elements"). The struck
+/// point is a node; elements to its left have one length, those to its right another one.
 ///
 /// Unknowns, from left to right: w and r phi of every node, in m, with the radius of gyration r;
 /// those that supports hold, and the rotation at mid-span under symmetry, are left out.
@@ -40,7 +40,7 @@ class SpectralMesh final : public BeamMesh {
  private:
   static constexpr std::size_t n_points = degree;  // Gauss points of an element
 
-  // The unknowns of an element's nodes: w, then r phi of each; `held` for those left out.
+  // Indices of an element's unknowns, node by node: w, r phi; `held` for those left out.
   static constexpr std::size_t held = static_cast<std::size_t>(-1);
   struct Element {
     double length;  // m

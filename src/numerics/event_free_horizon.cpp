@@ -112,13 +112,14 @@ double EventFreeHorizon::event_free_time(std::size_t index, std::size_t n) {
       if (!finer) break;
       finer->functions.push_back(i);
     }
+    if (!all_pass) {
+      const double passed = finer ? event_free_time(index + 1, factor) : 0.0;
+      if (passed < level.interval) return begun + passed;
+    }
     if (index == 0 && level.values.back() > largest_) {
       largest_ = level.values.back();
       time_of_largest_ = begun + level.interval;
     }
-    if (all_pass) continue;
-    const double passed = finer ? event_free_time(index + 1, factor) : 0.0;
-    if (passed < level.interval) return begun + passed;
   }
   return static_cast<double>(n) * level.interval;
 }

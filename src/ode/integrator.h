@@ -92,7 +92,7 @@ class Integrator {
   /// events need not be looked for in it.
   virtual bool is_event_free() const { return false; }
   /// Two times (s) within such a step between which the last event function has its largest value;
-  /// nothing if that lies at an end of the step.
+  /// nothing after other steps.
   virtual std::optional<std::pair<double, double>> around_largest() const { return std::nullopt; }
 
   /// The integral of the square of each velocity from the start of the last step to t, where the

@@ -48,7 +48,7 @@ Json headlines(const Result& result) {
   }
   line(result.contact_over, "the end of contact: " + contact_over_words(result) + ".");
   if (result.error_estimate && result.error_estimate->finer_meshes) {
-    line(false, finer_meshes_words(*result.error_estimate->finer_meshes) + ".");
+    line(false, finer_meshes_words(result) + ".");
   }
   if (result.outcome.completed()) {
     line(true, fmt::format("energy is conserved to {:.1e} of its initial value, and every event "

@@ -18,7 +18,7 @@ namespace {
 constexpr double sizes[] = {0.85, 0.7};  // of the meshes beside, over that of the case
 // Where those are refused: strikes too close to an end for a coarser mesh.
 constexpr double finer_sizes[] = {1.2, 1.45};
-constexpr double most_gain = 2.0;  // of differences from finer meshes
+constexpr double most_gain = 2.0;  // of differences
 constexpr double size_for_limit = 0.5;
 constexpr double looser = 10.0;  // rtol, for a mesh of 0.7 and in time alone
 constexpr double loosest = 1e-1;
@@ -45,16 +45,10 @@ bool has_fixed_step(const Case& input) {
          input.solver.step;
 }
 
-// At orders 1 and 2 the difference of runs of nearly equal meshes would be taken many times.
-// `ratio`: of the number of parts to that of the mesh beside.
+// The difference of runs on nearly equal meshes would be taken many times. `ratio`: of the number
+// of parts to that of the mesh beside. At the order 1 a part of the difference is chance.
 double gain_of_mesh(double ratio, double order) {
-  return std::min(ratio > 1.0 ? 1.0 : most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
-}
-
-// Hinges and kinks make times converge unevenly.
-double order_expected(const Case& input) {
-  const bool uneven = may_yield(input) && input.model.mesh == MeshKind::hermite;
-  return uneven ? 1.0 : static_cast<double>(mesh_order(input).value_or(1));
+  return std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
 }
 
 std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
@@ -65,7 +59,7 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     }
     CaseBeside beside{other->input, "mesh and time", other->description};
     const double ratio = static_cast<double>(mesh_count(input)) / mesh_count(beside.input);
-    beside.gain = gain_of_mesh(ratio, order_expected(input));
+    beside.gain = gain_of_mesh(ratio, std::max(mesh_order(input).value_or(2), 2));
     beside.input.output = output_beside(input);
     resolve(beside.input);
     return beside;
@@ -209,14 +203,6 @@ Result simulate_judged(const Case& input, const std::vector<CaseBeside>& cases, 
   const std::vector<RunBeside> beside = simulate_beside(input, cases, jobs, progress, rows, run);
   judge(input, run, beside);
   return run;
-}
-
-double memory_beside(const Case& input) {
-  double sum = 0.0;
-  for (const CaseBeside& beside : cases_beside(input)) {
-    sum += resolve(beside.input).settings().memory;
-  }
-  return sum;
 }
 
 }  // namespace subimpact

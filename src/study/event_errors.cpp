@@ -7,6 +7,7 @@
 #include <future>
 
 #include "case/problem.h"
+#include "numerics/median.h"
 #include "study/method_choice.h"
 #include "subimpact/study/judgement.h"
 
@@ -49,13 +50,6 @@ std::pair<std::size_t, std::string> count_known(const Result& result, double lar
     }
   }
   return {n, {}};
-}
-
-double median_of(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -132,7 +126,7 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
     errors.first = times.front();
     errors.last = times.back();
   }
-  errors.median = median_of(times);
+  errors.median = median(std::move(times));
   return errors;
 }
 

@@ -8,8 +8,9 @@
 #include <limits>
 #include <optional>
 
-#include "numerics/richardson.h"
+#include "numerics/median.h"
 #include "numerics/units.h"
+#include "study/mesh_limits.h"
 #include "study/mesh_resolution.h"
 #include "study/totals.h"
 #include "subimpact/study/match.h"
@@ -21,21 +22,22 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 // Measured on random scenes (validation/judgement).
-constexpr double time_safety = 3.2;
-constexpr double value_safety = 6.0;
-constexpr double margin_safety = 3.5;
-constexpr double existence_safety = 1.2;
+constexpr double time_safety = 2.7;
+constexpr double value_safety = 4.0;
+constexpr double margin_safety = 2.5;
+constexpr double existence_safety = 0.85;
+// More of these where one run alone shows a part of the error; of those of existence after an
+// uncertain sub-impact of the same sub-zone.
+constexpr double of_one_run = 1.5;
+constexpr double after_uncertain = 1.5;
 constexpr double end_safety = 4.0;  // of what free ends leave
-constexpr double depth_safety = 0.35;
+constexpr double depth_safety = 0.5;
 constexpr double steepest = 1.5;  // slope of a contact law over that of the secant, at most
 // Events on either side from which the error of the indentation at an event is taken.
 constexpr std::size_t half_window = 3;
 // Near misses correspond if they are closer than this share of the contact or the flight.
 constexpr double near_share = 0.25;
-constexpr double alike = 0.025;             // velocities at the end, over that of the strike
-constexpr double order_uncertainty = 0.35;  // of the ratio of differences for an order
-
-double end_of(const SubImpact& s, const Result& run) { return s.end.value_or(run.outcome.time); }
+constexpr double alike = 0.025;  // velocities at the end, over that of the strike
 
 // Whether runs show an error of the mesh.
 bool of_mesh(std::span<const RunBeside> beside) {
@@ -46,54 +48,30 @@ bool of_mesh(std::span<const RunBeside> beside) {
 
 struct Partner {
   const SubImpact* there = nullptr;  // none: it has no counterpart
-  bool alone = true;                 // no other one overlaps either of the two
+  bool alone = true;  // no other one overlaps either of the two, and both end or neither does
 };
 
 // The counterparts of the sub-impacts of a run in another one, and those that have none here.
-struct Counterparts {
+struct Partners {
   std::vector<Partner> of;
   std::vector<const SubImpact*> extra;
 };
 
-Counterparts counterparts_in(const Result& run, const Result& other) {
-  Counterparts found;
+Partners partners_in(const Result& run, const Result& other) {
+  const Counterparts whole = counterparts(run.sub_impacts, other.sub_impacts);
+  Partners found;
   found.of.resize(run.sub_impacts.size());
-  std::vector<const SubImpact*> lost;
   for (const MatchedPair& pair : match_sub_impacts(run.sub_impacts, other.sub_impacts)) {
-    if (pair.first && pair.second) {
-      found.of[*pair.first].there = &other.sub_impacts[*pair.second];
-    } else if (pair.second) {
-      found.extra.push_back(&other.sub_impacts[*pair.second]);
-    } else {
-      lost.push_back(&run.sub_impacts[*pair.first]);
+    if (!pair.second) continue;
+    const SubImpact& there = other.sub_impacts[*pair.second];
+    if (!pair.first) {
+      found.extra.push_back(&there);
+      continue;
     }
-  }
-  const auto overlap = [](const SubImpact& a, double end_a, const SubImpact& b, double end_b) {
-    return a.start < end_b && b.start < end_a;
-  };
-  for (std::size_t i = 0; i < found.of.size(); ++i) {
-    Partner& partner = found.of[i];
-    if (!partner.there) continue;
-    const SubImpact& here = run.sub_impacts[i];
-    const SubImpact& there = *partner.there;
-    const auto overlaps_here = [&](const SubImpact* extra) {
-      return overlap(here, end_of(here, run), *extra, end_of(*extra, other));
-    };
-    const auto overlaps_there = [&](const SubImpact* gone) {
-      return overlap(there, end_of(there, other), *gone, end_of(*gone, run));
-    };
-    partner.alone = here.end.has_value() == there.end.has_value() &&
-                    std::ranges::none_of(found.extra, overlaps_here) &&
-                    std::ranges::none_of(lost, overlaps_there);
+    const bool both_end = run.sub_impacts[*pair.first].end.has_value() == there.end.has_value();
+    found.of[*pair.first] = {&there, whole.of[*pair.first] && both_end};
   }
   return found;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // A start or an end; the error before safety.
@@ -109,9 +87,13 @@ struct Event {
 class Judge {
  public:
   Judge(const Case& input, const Result& run, std::span<const RunBeside> beside)
-      : input_(input), run_(run), all_(run.sub_impacts), beside_(beside) {
+      : input_(input),
+        run_(run),
+        all_(run.sub_impacts),
+        beside_(beside),
+        of_runs_(beside.size() > 1 ? 1.0 : of_one_run) {
     for (const RunBeside& other : beside) {
-      counterparts_.push_back(counterparts_in(run, other.result));
+      partners_.push_back(partners_in(run, other.result));
     }
     set_events();
     set_deltas();
@@ -125,19 +107,19 @@ class Judge {
     const double since_touch = here.time - input_.scene.striker.first_touch();
     const double of_ends =
         of_mesh(beside_) ? free_end_error(input_, run_.used.contact_time, since_touch) : 0.0;
-    return std::max(time_safety * std::max(here.error, least), end_safety * of_ends);
+    return std::max(time_safety * of_runs_ * std::max(here.error, least), end_safety * of_ends);
   }
 
   // `least`: the smallest error to be stated.
   double value_error(std::size_t i, double SubImpact::*value, double least = 0.0) const {
     std::optional<double> error;
     for (std::size_t k = 0; k < beside_.size(); ++k) {
-      const SubImpact* there = counterparts_[k].of[i].there;
+      const SubImpact* there = partners_[k].of[i].there;
       if (!there) continue;
       const double here = beside_[k].of.gain * std::abs(all_[i].*value - there->*value);
       error = std::max(error.value_or(0.0), here);
     }
-    return error ? std::max(value_safety * *error, least) : unknown;
+    return error ? std::max(value_safety * of_runs_ * *error, least) : unknown;
   }
 
   // What the error of the indentation leaves of the largest one, m, and of the force, N.
@@ -146,10 +128,10 @@ class Judge {
     return least_indentation_error(i) * steepest * all_[i].peak_force / depth(i);
   }
 
-  // Why a sub-impact is not certain; empty if it is.
-  std::string doubt_of(std::size_t i) const {
+  // Why a sub-impact is not certain; empty if it is. `strictness` multiplies errors.
+  std::string doubt_of(std::size_t i, double strictness) const {
     for (std::size_t k = 0; k < beside_.size(); ++k) {
-      const Partner& partner = counterparts_[k].of[i];
+      const Partner& partner = partners_[k].of[i];
       if (partner.there && partner.alone) continue;
       return (partner.there ? "it is split or merged or does not end with "
                             : "it does not exist with ") +
@@ -157,45 +139,42 @@ class Judge {
     }
     const SubImpact& here = all_[i];
     const auto small = [](const char* what, double length, double error, const char* unit) {
-      return fmt::format("{} {:.2g} {} with an error of {:.2g} {}", what, length, unit, error,
+      return fmt::format("{} is {:.2g} {} with an error of {:.2g} {}", what, length, unit, error,
                          unit);
     };
-    const double touch = delta(2 * i);
-    if (!(touch < depth(i))) return small("it goes in by", um * depth(i), um * touch, "um");
+    const double touch = strictness * delta(2 * i);
+    if (!(touch < depth(i))) return small("its indentation", um * depth(i), um * touch, "um");
     for (const std::size_t first : {i - 1, i}) {
       if (first >= all_.size() || first + 1 >= all_.size() || !all_[first].end) continue;
-      const char* what = first == i ? "after it the gap opens by" : "before it the gap opens by";
-      const double error = delta(2 * first + 1);
+      const char* what = first == i ? "the opening after it" : "the opening before it";
+      const double error = strictness * delta(2 * first + 1);
       if (!(error < opening(first))) return small(what, um * opening(first), um * error, "um");
     }
-    if (!here.end) return doubt_by_near_miss(NearMissKind::opening, i);
-    const double start_error = time_error(2 * i), end_error = time_error(2 * i + 1);
-    const double length = *here.end - here.start;
-    if (start_error + end_error > length) {
-      return small("it lasts", us * length, us * (start_error + end_error), "us");
+    const double start_error = time_error(2 * i);
+    const double end_error = here.end ? time_error(2 * i + 1) : 0.0;
+    for (const LengthBeside& beside : lengths_beside(all_, i)) {
+      using Kind = LengthBeside::Kind;
+      const double error =
+          strictness * ((beside.kind == Kind::separation_after ? 0.0 : start_error) +
+                        (beside.kind == Kind::separation_before ? 0.0 : end_error));
+      if (error > beside.length) {
+        return small(beside.words, us * beside.length, us * error, "us");
+      }
     }
-    if (i > 0 && all_[i - 1].end && start_error > here.start - *all_[i - 1].end) {
-      return small("the separation before it lasts", us * (here.start - *all_[i - 1].end),
-                   us * start_error, "us");
-    }
-    if (i + 1 < all_.size() && end_error > all_[i + 1].start - *here.end) {
-      return small("the separation after it lasts", us * (all_[i + 1].start - *here.end),
-                   us * end_error, "us");
-    }
-    return doubt_by_near_miss(NearMissKind::opening, i);
+    return doubt_by_near_miss(NearMissKind::opening, i, strictness);
   }
 
   // Why the flight after a sub-impact may hold another one; empty if it does not.
   std::string doubt_of_flight(std::size_t i) const {
     if (!all_[i].end) return {};
     for (std::size_t k = 0; k < beside_.size(); ++k) {
-      for (const SubImpact* extra : counterparts_[k].extra) {
-        if (extra->start < flight_end(i) && end_of(*extra, beside_[k].result) > *all_[i].end) {
+      for (const SubImpact* extra : partners_[k].extra) {
+        if (extra->start < flight_end(i) && beside_[k].result.end_of(*extra) > *all_[i].end) {
           return "there is another one with " + beside_[k].of.description;
         }
       }
     }
-    return doubt_by_near_miss(NearMissKind::closing, i);
+    return doubt_by_near_miss(NearMissKind::closing, i, 1.0);
   }
 
   // Of the closest approach after the last sub-impact, m.
@@ -208,9 +187,8 @@ class Judge {
 
   // The share of the runs that have it, with one run more that does not.
   double probability(std::size_t i) const {
-    const auto n = std::ranges::count_if(counterparts_, [i](const Counterparts& other) {
-      return other.of[i].there && other.of[i].alone;
-    });
+    const auto n = std::ranges::count_if(
+        partners_, [i](const Partners& other) { return other.of[i].there && other.of[i].alone; });
     return (1.0 + static_cast<double>(n)) / (2.0 + static_cast<double>(beside_.size()));
   }
 
@@ -222,10 +200,10 @@ class Judge {
       Event& end = events_[2 * i + 1];
       start.time = all_[i].start;
       start.rate = std::abs(all_[i].start_rate);
-      end.time = end_of(all_[i], run_);
+      end.time = run_.end_of(all_[i]);
       end.rate = std::abs(all_[i].end_rate);
       for (std::size_t k = 0; k < beside_.size(); ++k) {
-        const SubImpact* there = counterparts_[k].of[i].there;
+        const SubImpact* there = partners_[k].of[i].there;
         if (!there) continue;
         const auto include = [&](Event& event, double time) {
           event.known = true;
@@ -251,7 +229,7 @@ class Judge {
   // The error of the indentation from an event to the next, m.
   double delta(std::size_t event) const {
     const std::size_t next = std::min(event + 1, deltas_.size() - 1);
-    return existence_safety * std::max(deltas_[event], deltas_[next]);
+    return existence_safety * of_runs_ * std::max(deltas_[event], deltas_[next]);
   }
 
   // How far the indentation goes beyond the residual one, m.
@@ -275,7 +253,8 @@ class Judge {
   double margin_error(const NearMiss& here, double length, double delta) const {
     double error = 0.0;
     for (const RunBeside& other : beside_) {
-      double distance = near_share * length, difference = delta / margin_safety;
+      const double safety = margin_safety * of_runs_;
+      double distance = near_share * length, difference = delta / safety;
       const auto include = [&](double time, double margin) {
         if (std::abs(time - here.time) > distance) return;
         distance = std::abs(time - here.time);
@@ -286,18 +265,19 @@ class Judge {
       }
       const auto& last = other.result.closest_approach;
       if (last && here.kind == NearMissKind::closing) include(last->time, last->gap);
-      error = std::max(error, margin_safety * difference);
+      error = std::max(error, safety * difference);
     }
     return error;
   }
 
-  std::string doubt_by_near_miss(NearMissKind kind, std::size_t i) const {
+  std::string doubt_by_near_miss(NearMissKind kind, std::size_t i, double strictness) const {
     const bool opens = kind == NearMissKind::opening;
     const double start = opens ? all_[i].start : *all_[i].end;
-    const double end = opens ? end_of(all_[i], run_) : flight_end(i);
+    const double end = opens ? run_.end_of(all_[i]) : flight_end(i);
     for (const NearMiss& here : run_.near_misses) {
       if (here.kind != kind || here.time < start || here.time > end) continue;
-      const double error = margin_error(here, end - start, delta(opens ? 2 * i : 2 * i + 1));
+      const double error =
+          strictness * margin_error(here, end - start, delta(opens ? 2 * i : 2 * i + 1));
       if (here.margin > error) continue;
       return fmt::format("at {:.6g} us the {}: {:.2g} um are left with an error of {:.2g} um",
                          us * here.time, opens ? "contact nearly opens" : "gap nearly closes",
@@ -310,9 +290,10 @@ class Judge {
   const Result& run_;
   const std::vector<SubImpact>& all_;
   std::span<const RunBeside> beside_;
-  std::vector<Counterparts> counterparts_;  // one per run beside
+  std::vector<Partners> partners_;  // one per run beside
   std::vector<Event> events_;
   std::vector<double> deltas_;  // m, of the indentation at each event
+  double of_runs_;              // of all safety factors
 };
 
 // --- parts ---------------------------------------------------------------------------------------
@@ -370,7 +351,14 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
   const Judge judge(input, run, beside);
   ErrorEstimate::Part part{beside.front().of.part, descriptions_of(beside), {}, {}, 0.0};
   std::vector<std::string> doubts(run.sub_impacts.size());
-  for (std::size_t i = 0; i < doubts.size(); ++i) doubts[i] = judge.doubt_of(i);
+  double strictness = 1.0;
+  for (std::size_t i = 0; i < doubts.size(); ++i) {
+    const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
+    const SubImpact& here = run.sub_impacts[i];
+    if (here.zone != before.zone || here.subzone != before.subzone) strictness = 1.0;
+    doubts[i] = judge.doubt_of(i, strictness);
+    if (!doubts[i].empty()) strictness = after_uncertain;
+  }
   for (std::size_t i = 0; i < doubts.size(); ++i) {
     SubImpact& s = run.sub_impacts[i];
     add_errors(judge, i, part.name, s);
@@ -403,41 +391,6 @@ bool is_over(const Case& input, const Result& run, std::span<const RunBeside> be
          });
 }
 
-// Times in the limit of fine meshes, where those of this mesh and two coarser ones converge at the
-// order of the mesh.
-void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside) {
-  if (beside.size() < 3 || !mesh_order(input)) return;
-  const double order = *mesh_order(input);
-  const Case& middle_case = beside[1].of.input;
-  const Case& coarse_case = beside[2].of.input;
-  const double h = 1.0 / mesh_count(input), middle_h = 1.0 / mesh_count(middle_case),
-               coarse_h = 1.0 / mesh_count(coarse_case);
-  const Counterparts in_middle = counterparts_in(run, beside[1].result);
-  const Counterparts in_coarse = counterparts_in(run, beside[2].result);
-  const double expected = ratio_of_differences(coarse_h, middle_h, h, order);
-  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
-    SubImpact& here = run.sub_impacts[i];
-    const SubImpact* middle = in_middle.of[i].there;
-    const SubImpact* coarse = in_coarse.of[i].there;
-    if (!middle || !coarse) continue;
-    double error = here.error_time.value_or(0.0);
-    const auto limit = [&](double from_coarse, double from_middle, double time) {
-      const double found = (from_coarse - from_middle) / (from_middle - time);
-      std::optional<double> at_limit;
-      if (std::abs(found / expected - 1.0) <= order_uncertainty) {
-        at_limit = richardson_limit(from_middle, time, middle_h / h, order);
-        error = std::max(error, std::abs(*at_limit - time));
-      }
-      return at_limit;
-    };
-    if (i > 0) here.start_mesh_limit = limit(coarse->start, middle->start, here.start);
-    if (here.end && middle->end && coarse->end) {
-      here.end_mesh_limit = limit(*coarse->end, *middle->end, *here.end);
-    }
-    if (here.start_mesh_limit || here.end_mesh_limit) here.mesh_limit_error = error;
-  }
-}
-
 // Why the mesh does not show sub-impacts, whatever runs agree on: of the first that it does not.
 std::string first_mesh_doubt(const Case& input, const Result& run) {
   std::string doubt = mesh_doubt(input, run.used);
@@ -464,12 +417,10 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
   judge_part(input, here, {&other, 1}, none);
   const auto n_same =
       std::ranges::count(here.sub_impacts, std::optional(true), &SubImpact::certain);
-  ErrorEstimate::FinerMeshes found{other.of.description,
-                                   other.result.sub_impacts.size(),
-                                   static_cast<std::size_t>(n_same),
-                                   {},
-                                   first_mesh_doubt(input, run)};
   const std::vector<SubImpact>& there = other.result.sub_impacts;
+  ErrorEstimate::FinerMeshes found{other.of.description, there.size(),
+                                   static_cast<std::size_t>(n_same), std::nullopt,
+                                   first_mesh_doubt(input, run)};
   if (!here.sub_impacts.empty() && !there.empty() && here.sub_impacts[0].end && there[0].end) {
     const double change = *there[0].end - *here.sub_impacts[0].end;
     const bool is_finer = mesh_count(other.of.input) > mesh_count(input);

@@ -55,8 +55,8 @@ class Deviations {
   const Scatter& scatter_;
 };
 
-// Numbers of a range have a standard deviation of at most half of it. Where derivatives give more,
-// they do not hold over the scatter.
+// The standard deviation of a number that is confined to a range is at most half of that range.
+// Where derivatives give more, they do not hold over the scatter, and the deviation is not known.
 std::optional<double> within_range(const std::optional<double>& deviation, double range) {
   return deviation && *deviation <= 0.5 * range ? deviation : std::nullopt;
 }

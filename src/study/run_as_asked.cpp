@@ -93,6 +93,16 @@ WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest req
   return run;
 }
 
+FirstRun first_run(const Case& input, const GivenKeys& given) {
+  const std::optional<OpenChoices> open = choices_left(input, given, std::nullopt);
+  FirstRun run{open ? first_choice(input, *open) : ChosenModel{input, {}}};
+  for (const CaseBeside& beside :
+       open ? cases_beside(run.input) : cases_beside_on_given_mesh(run.input)) {
+    run.memory_beside += resolve(beside.input).settings().memory;
+  }
+  return run;
+}
+
 Case case_as_chosen(const Case& input, const GivenKeys& given, Jobs jobs,
                     const Progress& progress) {
   const std::optional<OpenChoices> open = choices_left(input, given, std::nullopt);

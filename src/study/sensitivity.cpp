@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "case/shifted_case.h"
+#include "numerics/median.h"
 #include "simulate/methods.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
@@ -103,13 +104,6 @@ std::vector<Case> shifted_cases(const Case& base, const std::vector<const CaseKe
     }
   }
   return cases;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 Smoothness smoothness_of(const Result& base) {

@@ -1,5 +1,6 @@
 #include "system/free_flight.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -94,10 +95,10 @@ void FreeFlight::state_at(double t, State& y) {
 }
 
 std::optional<std::pair<double, double>> FreeFlight::around_largest() const {
+  if (!flying_) return std::nullopt;
   const double time = t0_ + horizon_.time_of_largest();
   const double apart = horizon_.sample_interval();
-  if (!flying_ || time - apart < t0_ || time + apart > t1_) return std::nullopt;
-  return std::pair(time - apart, time + apart);
+  return std::pair(std::max(time - apart, t0_), std::min(time + apart, t1_));
 }
 
 WorkCounts FreeFlight::work() const {

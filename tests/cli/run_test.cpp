@@ -216,7 +216,7 @@ TEST(Memory, OfExplainIsSmallAndThatOfTheRunIsForetold) {
       run_program({"explain", SUBIMPACT_PAPER_CASE, "--method", "exponential", "--set",
                    "model.section=elastic", "--set", "model.segments=20001"});
   EXPECT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.output, "memory                about 1.9e+03 MB");
+  expect_in(finished.output, "memory                about 1.8e+03 MB");
   if (has_address_sanitizer) GTEST_SKIP() << "the address sanitizer takes memory of its own";
   EXPECT_LT(finished.megabytes, 100.0);
   printf("explain of 20,001 cells in modes: %.0f MB\n", finished.megabytes);

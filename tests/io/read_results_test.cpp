@@ -110,6 +110,23 @@ TEST(ReadResults, KeepsNearMisses) {
   }
 }
 
+TEST(ReadResults, KeepsWhetherContactIsOverAndTheClosestApproach) {
+  for (const bool is_over : {true, false}) {
+    const TemporaryDirectory directory;
+    Result result = sample_result();
+    result.contact_over = is_over;
+    result.closest_approach = ClosestApproach{6e-3, 2.1e-8 / 3.0, {}};
+    if (is_over) result.closest_approach->error = 1e-9 / 3.0;
+    write_results(directory.path, read_case_text(small_case_text(), "small.toml").value, result);
+    const Result read = read_results(directory.path).result;
+    EXPECT_EQ(read.contact_over, is_over);
+    ASSERT_TRUE(read.closest_approach.has_value());
+    EXPECT_EQ(read.closest_approach->time, result.closest_approach->time);
+    EXPECT_EQ(read.closest_approach->gap, result.closest_approach->gap);
+    EXPECT_EQ(read.closest_approach->error, result.closest_approach->error);
+  }
+}
+
 TEST(ReadResults, KeepsErrorBarsAndOpenSubImpacts) {
   const TemporaryDirectory directory;
   Result result = sample_result();

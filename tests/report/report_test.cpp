@@ -240,7 +240,24 @@ TEST(RunSummary, GivesAReasonOnce) {
   const auto first = summary.find("they part");
   ASSERT_NE(first, std::string::npos);
   EXPECT_EQ(summary.find("they part", first + 1), std::string::npos) << summary;
-  expect_in(line_of(summary, "error of mesh"), "as above (runs beside: the same, coarser)");
+  expect_in(line_of(summary, "mesh error"), "as above (runs beside: the same, coarser)");
+}
+
+TEST(RunSummary, NamesTheErrorOfMeshAndTime) {
+  Result result = sample_result_with_errors(3);
+  result.error_estimate->parts.at(0).name = "mesh and time";
+  EXPECT_TRUE(line_of(run_summary(paper_case(), result), "mesh and time error ").size() > 25);
+}
+
+TEST(FinerMeshes, HaveSubImpactsAndConfirmSome) {
+  Result result = sample_result_with_errors(3);
+  result.error_estimate->finer_meshes = {"1003 cells", 54, 2, {}, {}};
+  expect_in(finer_meshes_words(result), "1003 cells have 54 sub-impacts and confirm 2 of these 3;");
+  result.sub_impacts.resize(1);
+  result.error_estimate->finer_meshes = {"63 cells", 1, 1, {}, {}};
+  expect_in(finer_meshes_words(result), "63 cells have 1 sub-impact and confirm the one here;");
+  result.error_estimate->finer_meshes->n_same = 0;
+  expect_in(finer_meshes_words(result), "63 cells have 1 sub-impact and do not confirm the one");
 }
 
 TEST(TheoryTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
@@ -468,9 +485,11 @@ TEST(PlanTable, TakesBackTheKeysOfTheMeshThatTheCaseFixes) {
   EXPECT_EQ(plan_table(plan).find("model.elements"), std::string::npos);
 }
 
+// Of the mesh of the case.
 std::string explanation_of(const Case& input) {
-  ResolvedRun run = resolve(input);
-  return explanation(input, run.settings(), estimate_cost(run));
+  GivenKeys given;
+  given.in_file = {"model.segments"};
+  return explanation(input, given);
 }
 
 TEST(Explanation, TellsUnknownsSymmetrySectionStepTolerancesAndContact) {
@@ -496,7 +515,7 @@ TEST(Explanation, SaysThatAnInfiniteYieldStressLeavesNothingToYield) {
 
 TEST(Explanation, GivesTheLengthOfTheMesh) {
   Case input = paper_case();
-  const auto text = [&] { return explanation(input, resolve(input).settings(), std::nullopt); };
+  const auto text = [&] { return explanation_of(input); };
   expect_in(text(), "501 cells, one half by symmetry; cells of 1.41956 mm\n");
   input.model.spacing = CellSpacing::points;
   expect_in(text(), "501 points, one half by symmetry; cells of 1.4224 mm");
@@ -506,11 +525,10 @@ TEST(Explanation, GivesTheLengthOfTheMesh) {
 TEST(Explanation, GivesTheReasonForAWholeModel) {
   Case input = paper_case();
   input.model.symmetry = SymmetryUse::off;
-  expect_in(explanation(input, resolve(input).settings(), std::nullopt), "not used (model");
+  expect_in(explanation_of(input), "not used (model");
   input.model.symmetry = SymmetryUse::automatic;
   input.scene.striker.position = 0.4;
-  expect_in(explanation(input, resolve(input).settings(), std::nullopt),
-            "not symmetric about mid-span");
+  expect_in(explanation_of(input), "not symmetric about mid-span");
 }
 
 TEST(RunSummary, DoesNotCallAllCertainWhereThereMayBeAnother) {

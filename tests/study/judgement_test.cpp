@@ -37,11 +37,12 @@ Result contacts(int n, double later = 0.0) {
   return result;
 }
 
-Result judged(Result run, const Result& other) {
+// By `n` runs beside it, all alike.
+Result judged(Result run, const Result& other, std::size_t n = 2) {
   Case input;
   input.scene.striker.velocity = 1.0;
-  const RunBeside beside{{input, "time", "another run", 1.0}, other};
-  judge(input, run, {&beside, 1});
+  const std::vector<RunBeside> beside(n, {{input, "time", "another run", 1.0}, other});
+  judge(input, run, beside);
   return run;
 }
 
@@ -49,16 +50,33 @@ TEST(AJudgement, CallsCertainWhatAgreesAndStatesMoreThanTheDifference) {
   const Result run = judged(contacts(3), contacts(3, 0.5 * us));
   EXPECT_TRUE(run.all_certain());
   EXPECT_EQ(run.sub_impacts[0].start_error, 0.0);
-  EXPECT_NEAR(*run.sub_impacts[1].start_error, 3.2 * 0.5 * us, 1e-12);
+  EXPECT_NEAR(*run.sub_impacts[1].start_error, 2.7 * 0.5 * us, 1e-12);
+  const Result by_one = judged(contacts(3), contacts(3, 0.5 * us), 1);
+  EXPECT_NEAR(*by_one.sub_impacts[1].start_error, 1.5 * *run.sub_impacts[1].start_error, 1e-12);
+}
+
+// Four contacts, the second of which is split in two.
+Result split_contacts() {
+  Result result = contacts(4);
+  const SubImpact split = result.sub_impacts[1];
+  result.sub_impacts[1].end = split.start + 60.0 * us;
+  result.sub_impacts.insert(result.sub_impacts.begin() + 2,
+                            contact(split.start + 70.0 * us, *split.end));
+  return result;
+}
+
+TEST(AJudgement, AsksForCloserAgreementAfterAnUncertainSubImpactOfTheSameSubZone) {
+  Result run = contacts(4), other = split_contacts();
+  run.near_misses = {{450.0 * us, 1.0 * um, NearMissKind::opening}};
+  other.near_misses = {{450.0 * us, 1.3 * um, NearMissKind::opening}};  // an error of 0.75 um
+  EXPECT_FALSE(*judged(run, other).sub_impacts[2].certain);
+  EXPECT_TRUE(*judged(run, other).sub_impacts[3].certain);
+  run.sub_impacts[2].subzone = 2;
+  EXPECT_TRUE(*judged(run, other).sub_impacts[2].certain);
 }
 
 TEST(AJudgement, CallsCertainWhatFollowsAnUncertainSubImpact) {
-  Result other = contacts(4);
-  const SubImpact split = other.sub_impacts[1];
-  other.sub_impacts[1].end = split.start + 60.0 * us;
-  other.sub_impacts.insert(other.sub_impacts.begin() + 2,
-                           contact(split.start + 70.0 * us, *split.end));
-  const Result run = judged(contacts(4), other);
+  const Result run = judged(contacts(4), split_contacts());
   EXPECT_FALSE(*run.sub_impacts[1].certain);
   EXPECT_LT(*run.sub_impacts[1].probability, 1.0);
   EXPECT_TRUE(*run.sub_impacts[2].certain) << run.sub_impacts[2].doubt;
@@ -87,9 +105,9 @@ TEST(AJudgement, DoubtsANearMissWhoseMarginDiffersByMoreThanIsLeft) {
     const double time = kind == NearMissKind::opening ? 250.0 * us : 350.0 * us;
     Result run = contacts(3), other = contacts(3);
     run.near_misses = {{time, 1.0 * um, kind}};
-    other.near_misses = {{time, 1.2 * um, kind}};  // stands for an error of 0.7 um
+    other.near_misses = {{time, 1.2 * um, kind}};  // stands for an error of 0.5 um
     EXPECT_TRUE(judged(run, other).all_certain());
-    other.near_misses[0].margin = 1.4 * um;  // of 1.4 um
+    other.near_misses[0].margin = 1.5 * um;  // of 1.25 um
     EXPECT_EQ(judged(run, other).error_estimate->first_unresolved,
               kind == NearMissKind::opening ? 1u : 2u);
   }
@@ -109,7 +127,7 @@ TEST(AJudgement, StatesTheErrorOfTheClosestApproach) {
   Result run = contacts(2), other = contacts(2);
   run.closest_approach = {500.0 * us, 20.0 * um, {}};
   other.closest_approach = {501.0 * us, 21.0 * um, {}};
-  EXPECT_NEAR(*judged(run, other).closest_approach->error, 3.5 * um, 1e-12);
+  EXPECT_NEAR(*judged(run, other).closest_approach->error, 2.5 * um, 1e-12);
   other.closest_approach.reset();  // only the error of the indentation is then known
   EXPECT_TRUE(judged(run, other).closest_approach->error.has_value());
 }

@@ -60,6 +60,26 @@ TEST(NearMissesOfThePaper, AreTheSameByMethodsWithAndWithoutLongSteps) {
   }
 }
 
+// Where sections may yield but do not, `exponential` passes intervals without events in one step,
+// within which it keeps the nearest of the near misses.
+TEST(NearMissesWithinStepsWithoutEvents, AreThoseOfAMethodOfShortSteps) {
+  Case input = paper_case(Method::nystrom, 201);
+  input.scene.beam.yield_stress = 1e10;
+  input.scene.striker.mass = 0.2;
+  input.scene.striker.velocity = 5.0;
+  input.end_time = 8e-3;
+  constexpr double time = 6386.0e-6;
+  const NearMiss expected = nearest_to(time, NearMissKind::closing, simulate(input));
+  input.solver.method = Method::exponential;
+  const Result flown = simulate(input);
+  const NearMiss found = nearest_to(time, NearMissKind::closing, flown);
+  printf("%.4f us, %.5f um\n", 1e6 * found.time, 1e6 * found.margin);
+  EXPECT_EQ(flown.n_yielded_sections, 0u);
+  EXPECT_NEAR(expected.time, time, 1e-6);
+  EXPECT_NEAR(found.time, expected.time, 0.2e-6);
+  EXPECT_NEAR(found.margin, expected.margin, 0.01 * expected.margin);
+}
+
 TEST(NearMissesOfThePaper, LeaveTheFirstContactUncertainThoughCoarserMeshesAgree) {
   const Case input = paper_case(Method::central_difference, 501);
   // All keep the first contact closed, which finer meshes split in two.

@@ -2,7 +2,7 @@
 // scenes.
 //
 //   subimpact_judgement [--seed S] [--scenes N] [--first K] [--budget seconds] [--shear]
-//   [--verbose] [--case] [--hammer FILE]
+//   [--verbose] [--case] [--hammer FILE] [--cost FILE...]
 
 #include <fmt/format.h>
 
@@ -16,7 +16,8 @@
 #include <vector>
 
 #include "case/problem.h"
-#include "judgement/scenes.h"
+#include "judgement/cost.h"
+#include "strikes.h"
 #include "study/parallel.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/study/judgement.h"
@@ -27,7 +28,7 @@
 namespace {
 
 using namespace subimpact;
-using judgement::DrawnScene;
+using strikes::DrawnScene;
 
 constexpr double us = 1e6;
 constexpr int chatter = 30;  // contacts
@@ -284,8 +285,8 @@ int main(int argc, char** argv) {
   int n_scenes = 300, first = 0;
   std::string hammer;
   bool verbose = false, prints_case = false;
-  judgement::Budget budget;
-  judgement::Kind kind;
+  strikes::Budget budget{3.0};
+  strikes::Kind kind{.hard = true, .fewest = 2, .most = 60};
   app.add_option("--seed", seed, "of the scenes");
   app.add_option("--scenes", n_scenes, "how many");
   app.add_option("--first", first, "number of the first");
@@ -294,20 +295,26 @@ int main(int argc, char** argv) {
   app.add_option("--budget", budget.seconds, "seconds that the finest run of a scene may take");
   app.add_flag("--case", prints_case, "print the case file of the first and run nothing");
   app.add_option("--hammer", hammer, "this case at --scenes velocities instead of scenes");
+  std::vector<std::string> costs;
+  app.add_option("--cost", costs, "what these cases and three elastic scenes cost");
   CLI11_PARSE(app, argc, argv);
+  if (!costs.empty()) {
+    judgement::study_cost(costs);
+    return 0;
+  }
   if (!hammer.empty()) {
     study_hammer(hammer, n_scenes);
     return 0;
   }
   if (prints_case) {
-    fmt::print("{}", case_file_text(judgement::draw(seed, first, budget, kind).input));
+    fmt::print("{}", case_file_text(strikes::draw(seed, first, budget, kind).input));
     return 0;
   }
   Findings all;
   std::mutex mutex;
   in_parallel(static_cast<std::size_t>(n_scenes), [&](std::size_t i) {
     const int number = first + static_cast<int>(i);
-    const Findings outcome = study(judgement::draw(seed, number, budget, kind));
+    const Findings outcome = study(strikes::draw(seed, number, budget, kind));
     const std::lock_guard lock(mutex);
     all.add(outcome);
     if (verbose && !outcome.details.empty()) {

@@ -247,7 +247,8 @@ void Checks::one_row(std::size_t i) {
   const auto n_rows = std::count_if(result_.history.begin(), result_.history.end(), same_time);
   const auto n_events =
       std::count_if(result_.transitions.begin(), result_.transitions.end(), same_time);
-  const double grid = std::round(row.time / input_.output.interval) * input_.output.interval;
+  const double interval = input_.output.history_interval(input_.end_time);
+  const double grid = std::round(row.time / interval) * interval;
   const bool on_grid = std::abs(grid - row.time) <= 1e-12 * input_.end_time;
   expect(n_rows <= 2 * n_events + (on_grid ? 1 : 0), "two rows to an event",
          "{} rows and {} events at {}", n_rows, n_events, row.time);

@@ -24,9 +24,8 @@ double larger_difference(const SubImpact& a, const SubImpact& b) {
 
 }  // namespace
 
-Case open_scene(std::uint64_t seed, int number, const within_study::Budget& budget,
-                double work_limit) {
-  Case input = within_study::draw(seed, number, budget).input;
+Case open_scene(std::uint64_t seed, int number, const strikes::Budget& budget, double work_limit) {
+  Case input = strikes::draw(seed, number, budget).input;
   const ModelOptions drawn = input.model;
   input.model = {};
   input.model.section = drawn.section;

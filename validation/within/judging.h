@@ -6,14 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "strikes.h"
 #include "subimpact/case/simulate.h"
-#include "within/scenes.h"
 
 namespace subimpact::wishes {
 
-/// A scene of error_bars without its mesh and method, by seed and number.
-Case open_scene(std::uint64_t seed, int number, const within_study::Budget& budget,
-                double work_limit);
+/// A drawn scene without its mesh and method, by seed and number.
+Case open_scene(std::uint64_t seed, int number, const strikes::Budget& budget, double work_limit);
 
 /// Event times in the limit of fine meshes, and how far each is known.
 struct Reference {
@@ -51,7 +50,7 @@ double median(std::vector<double> values);
 struct WishStudy {
   std::uint64_t seed = 2026;
   int n_scenes = 20;
-  within_study::Budget budget;
+  strikes::Budget budget;
   double work_limit = 1e8;
   unsigned jobs = 0;   ///< 0: as many as there are cores
   bool trace = false;  ///< every run on stderr

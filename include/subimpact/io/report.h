@@ -6,6 +6,7 @@
 #include <string>
 
 #include "subimpact/case/case.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
@@ -46,8 +47,9 @@ std::string scatter_table(const Result& result);
 /// Whether striker and beam are proven never to touch again; if not, their closest approach.
 std::string contact_over_words(const Result& result);
 
-/// What finer meshes change of a run on the mesh that its case fixes.
-std::string finer_meshes_words(const ErrorEstimate::FinerMeshes& finer);
+/// What finer meshes change of a run on the mesh that its case fixes: for a result whose error
+/// estimate has finer_meshes.
+std::string finer_meshes_words(const Result& result);
 
 /// A dozen lines: how the run ended, what happened, what it cost.
 std::string run_summary(const Case& input, const Result& result);
@@ -68,9 +70,9 @@ std::string theory_table(const std::vector<TheoryRun>& runs);
 /// the digits that the errors allow.
 std::string sensitivity_table(const Sensitivity& study);
 
-/// What a case will be modelled as, and why.
-std::string explanation(const Case& input, const ResolvedSettings& used,
-                        const std::optional<CostEstimate>& cost);
+/// What a case will be modelled as by its first run, why, and what that will cost. Throws
+/// InvalidCase.
+std::string explanation(const Case& input, const GivenKeys& given);
 
 /// All keys of a case file, with units, what they accept and their defaults.
 std::string key_listing();

@@ -15,8 +15,8 @@ struct CaseBeside {
   Case input;
   std::string part;         ///< of the error that it shows: "mesh and time", "time", "layers" ...
   std::string description;  ///< in words: "2787 cells"
-  /// A difference d between the two runs stands for an error gain d of the judged one: 1/(r^p - 1)
-  /// for a mesh coarser by the factor r and of the order p, at most 1.
+  /// A difference d between the two runs stands for an error gain d of the judged one:
+  /// 1/|r^p - 1|, at most 2, for a mesh coarser by the factor r (finer: r < 1) and of the order p.
   double gain = 1.0;
   /// Whether sub-impacts carry this part of the error; if not, only totals do.
   bool of_rows = true;
@@ -44,11 +44,19 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 /// shows whether times converge at its order) and, where the case has layers, "layers".
 std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 
-/// Judges `run` by the runs beside it: sets certain, probability, doubt and errors of its
-/// sub-impacts, and Result::error_estimate with the totals, by the rules of docs/theory.md, "Error
-/// estimates". Errors are meant to cover 95 of 100 true ones, those of times 98
-/// (validation/judgement). `probability` is the share of the runs that have the sub-impact. Runs of
-/// several parts are judged part by part; errors are the sums.
+/// Judges `run` by the runs beside it: sets certain, probability (the share of the runs that have
+/// the sub-impact), doubt and errors of its sub-impacts, and Result::error_estimate with the totals
+/// (docs/theory.md, "Error estimates"; measured in validation/judgement).
+///
+/// e: the largest gain |difference| over the runs beside; d: the median of e |indentation rate|
+/// over seven events. Errors: of a time 2.7 max(e, d/rate), at least what free ends leave; of a
+/// value 4 e; of totals as set_totals(). A sub-impact is certain if each run has one counterpart,
+/// if 0.85 d is below its indentation and the openings of the gap beside it, if its errors are
+/// below its duration and the separations, and near misses within it keep margins above 2.5 e;
+/// after an uncertain one of its sub-zone all this with 1.5 times the errors. A flight is certain
+/// by its near misses. Where one run alone shows a part, factors are 1.5 times as large. Contact is
+/// over where that is proven for all runs and the final velocities of their strikers differ by less
+/// than 2.5 % of the strike's. Several parts are judged one by one; errors are the sums.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Threads that a function may use for runs beside one another; results do not depend on it.
@@ -64,8 +72,5 @@ std::vector<RunBeside> simulate_beside(const Case& input, const std::vector<Case
 /// Runs a case beside others and judges it by them. Without others errors are not known.
 Result simulate_judged(const Case& input, const std::vector<CaseBeside>& cases, Jobs jobs,
                        const Progress& progress = {}, RowSink* rows = nullptr);
-
-/// Bytes that cases_beside() take beside the run itself, roughly.
-double memory_beside(const Case& input);
 
 }  // namespace subimpact

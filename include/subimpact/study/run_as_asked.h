@@ -40,6 +40,12 @@ std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& r
 /// unless error bars are off. Throws InvalidCase.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request);
 
+/// The first of the runs that run_as_asked() makes of a case, by default.
+struct FirstRun : ChosenModel {  ///< without a reason where the case fixes mesh or method
+  double memory_beside = 0.0;    ///< bytes, of the runs made beside it, roughly
+};
+FirstRun first_run(const Case& input, const GivenKeys& given);
+
 /// The case with the mesh, method and tolerance that run_as_asked() would choose where they are
 /// left open, for studies that stay on one mesh. Takes the runs of that choice. Throws InvalidCase.
 Case case_as_chosen(const Case& input, const GivenKeys& given, Jobs jobs = 1,

@@ -87,8 +87,8 @@ Case sensitivity_case(const Case& input);
 
 /// Derivatives by the logarithms of keys, from central differences of whole runs: a base run, one
 /// with ten times its tolerance, and four runs per key, with the key times exp(+-h) for the two
-/// shifts h of sensitivity_shifts. All have mesh, method and symmetry of the base run. Stated is
-/// the slope with the smaller error, by which shift it may be, with three times that error
+/// shifts h of sensitivity_shifts. All have mesh, method and symmetry of the base run. Of the
+/// slopes of both shifts, the one with the smaller error is stated, with three times that error
 /// (docs/theory.md, "Derivatives and predictability").
 ///
 /// A sub-impact is flagged where a shifted run has it merged, split or lost, where one appears

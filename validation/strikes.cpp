@@ -1,4 +1,4 @@
-#include "within/scenes.h"
+#include "strikes.h"
 
 #include <algorithm>
 #include <array>
@@ -10,23 +10,20 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/other_mesh.h"
 
-namespace subimpact::within_study {
+namespace subimpact::strikes {
 namespace {
 
 // Seconds a step takes for each unknown.
 constexpr double seconds_elastic = 2.5e-9;
 constexpr double seconds_yielding = 8e-9;
 
-// Sub-impacts of a scene on a coarse mesh, at least and at most: the run ends with the last.
-constexpr std::size_t fewest_sub_impacts = 4;
-constexpr std::size_t most_sub_impacts = 12;
-constexpr int pilot_cells = 151;
+constexpr int pilot_cells = 151;  // on which sub-impacts are counted
 
 bool yields(const Case& input) { return may_yield(input); }
 
 double wave_speed(const Beam& beam) { return std::sqrt(beam.youngs_modulus / beam.density); }
 
-void draw_beam(Random& random, Case& input, Kind kind) {
+void draw_beam(Random& random, Case& input, const Kind& kind) {
   Beam& beam = input.scene.beam;
   beam.length = random.log_uniform(0.2, 1.5);
   beam.thickness = beam.length * random.log_uniform(1.0 / 150.0, 1.0 / 25.0);
@@ -68,30 +65,47 @@ void draw_contact(Random& random, Case& input, double first_period) {
   }
 }
 
-void draw_strike(Random& random, Case& input) {
+double draw_position(Random& random, const Kind& kind) {
+  if (!kind.hard) return random.chance(0.5) ? 0.5 : random.uniform(0.1, 0.9);
+  const double place = random.uniform();
+  if (place < 0.45) return 0.5;
+  return place < 0.85 ? random.uniform(0.1, 0.9) : random.log_uniform(0.005, 0.1);
+}
+
+void draw_strike(Random& random, Case& input, const Kind& kind) {
   Scene& scene = input.scene;
-  scene.striker.mass = scene.beam.mass() * random.log_uniform(0.1, 5.0);
+  const bool light = kind.hard && random.chance(0.25);
+  scene.striker.mass =
+      scene.beam.mass() * (light ? random.log_uniform(0.005, 0.1) : random.log_uniform(0.1, 5.0));
   scene.striker.velocity = wave_speed(scene.beam) * random.log_uniform(2e-4, 4e-3);
-  scene.striker.position = random.chance(0.5) ? 0.5 : random.uniform(0.1, 0.9);
+  scene.striker.position = draw_position(random, kind);
   const double level = random.log_uniform(0.15, 1.0);
-  const double kind = random.uniform();
-  input.model.section = kind < 0.4    ? SectionKind::elastic
-                        : kind < 0.92 ? SectionKind::exact
-                                      : SectionKind::layers;
+  const double section = random.uniform();
+  input.model.section = section < 0.4    ? SectionKind::elastic
+                        : section < 0.92 ? SectionKind::exact
+                                         : SectionKind::layers;
   // The bending stress of a beam whose struck point is carried along at v is sqrt(3) E v/c.
   scene.beam.yield_stress = level * std::sqrt(3.0) * scene.beam.youngs_modulus *
                             scene.striker.velocity / wave_speed(scene.beam);
+}
+
+// Of the beam, by mass; of elastic contacts. Only some methods take it.
+void draw_damping(Random& random, Case& input) {
+  input.scene.beam.damping.mass = random.log_uniform(0.01, 1.0);
+  if (input.solver.method == Method::nystrom) input.solver.method = Method::erk;
 }
 
 MeshKind elements_of(const Case& input) {
   return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
 }
 
-void draw_mesh(Random& random, Case& input) {
+void draw_mesh(Random& random, Case& input, const Kind& kind) {
   ModelOptions& model = input.model;
   if (random.chance(0.6)) {
     model.mesh = MeshKind::cells;
-    model.segments = 2 * static_cast<int>(random.log_uniform(100.0, 4001.0)) + 1;
+    const double half =
+        kind.hard ? random.log_uniform(75.0, 400.0) : random.log_uniform(100.0, 4001.0);
+    model.segments = 2 * static_cast<int>(half) + 1;
     input.solver.method = Method::central_difference;
   } else {
     model.mesh = elements_of(input);
@@ -122,7 +136,7 @@ Case cells(Case input, int count) {
 
 // Elastic beams: elements in modes, far more accurate than any run here. Beams that yield: cells,
 // from the run's own mesh on if it has cells.
-void choose_finer(DrawnScene& drawn) {
+void choose_finer(DrawnScene& drawn, const Kind& kind) {
   const Case& input = drawn.input;
   const bool rotary = input.scene.beam.theory != BeamTheory::euler_bernoulli;
   if (!yields(input)) {
@@ -134,12 +148,14 @@ void choose_finer(DrawnScene& drawn) {
     drawn.finer = {elements(input, std::max(n, 2 * coarse)),
                    elements(input, 2 * std::max(n, 2 * coarse))};
   } else if (input.model.mesh == MeshKind::cells) {
-    drawn.same_mesh = true;
-    drawn.finer = {on_other_mesh(input, 2.0)->input, on_other_mesh(input, 4.0)->input};
-  } else if (rotary) {
-    drawn.finer = {cells(input, 2001), cells(input, 4001), cells(input, 8001)};
+    const double factor = kind.hard ? 4.0 : 2.0;
+    drawn.finer = {on_other_mesh(input, factor)->input, on_other_mesh(input, 2.0 * factor)->input};
+  } else if (kind.hard) {
+    const int count = rotary ? 2401 : 1001;
+    drawn.finer = {cells(input, count), cells(input, 2 * count - 1)};
   } else {
-    drawn.finer = {cells(input, 501), cells(input, 1001), cells(input, 2001)};
+    const int count = rotary ? 2001 : 501;
+    drawn.finer = {cells(input, count), cells(input, 2 * count - 1), cells(input, 4 * count - 3)};
   }
 }
 
@@ -159,7 +175,8 @@ double seconds_of(const Case& input) {
 }
 
 // A few first periods, no longer than the budget lasts and than the sub-impacts wanted take.
-bool draw_end(Random& random, DrawnScene& drawn, double first_period, const Budget& budget) {
+bool draw_end(Random& random, DrawnScene& drawn, double first_period, const Budget& budget,
+              const Kind& kind) {
   double end = random.log_uniform(0.3, 2.5) * first_period;
   std::vector<Case*> all{&drawn.input};
   for (Case& finer : drawn.finer) all.push_back(&finer);
@@ -171,8 +188,8 @@ bool draw_end(Random& random, DrawnScene& drawn, double first_period, const Budg
   pilot.end_time = end;
   const Result result = simulate(pilot);
   const std::vector<SubImpact>& list = result.sub_impacts;
-  if (!result.outcome.completed() || list.size() < fewest_sub_impacts) return false;
-  if (list.size() > most_sub_impacts) end = list[most_sub_impacts].start;
+  if (!result.outcome.completed() || list.size() < kind.fewest) return false;
+  if (list.size() > kind.most) end = list[kind.most].start;
   for (Case* input : all) input->end_time = end;
   return true;
 }
@@ -187,7 +204,7 @@ Random stream_of(std::uint64_t seed, int number, int attempt) {
 
 }  // namespace
 
-DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind) {
+DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, const Kind& kind) {
   for (int attempt = 0;; ++attempt) {
     Random random = stream_of(seed, number, attempt);
     DrawnScene drawn;
@@ -195,8 +212,9 @@ DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind)
     input.output.interval = 0.0;
     input.end_time = 1.0;
     draw_beam(random, input, kind);
-    draw_strike(random, input);
-    draw_mesh(random, input);
+    draw_strike(random, input, kind);
+    draw_mesh(random, input, kind);
+    if (kind.hard && random.chance(0.2)) draw_damping(random, input);
     // The period depends on the beam alone.
     Case any = input;
     any.scene.contact = {ContactKind::linear, 1.0, {}, {}, {}};
@@ -206,8 +224,9 @@ DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind)
     try {
       const double first_period = resolve(any).settings().first_period;
       draw_contact(random, input, first_period);
-      choose_finer(drawn);
-      if (draw_end(random, drawn, first_period, budget)) {
+      if (input.scene.beam.damping.mass > 0.0) input.scene.beam.damping.mass /= first_period;
+      choose_finer(drawn, kind);
+      if (draw_end(random, drawn, first_period, budget, kind)) {
         resolve(input);
         return drawn;
       }
@@ -216,4 +235,4 @@ DrawnScene draw(std::uint64_t seed, int number, const Budget& budget, Kind kind)
   }
 }
 
-}  // namespace subimpact::within_study
+}  // namespace subimpact::strikes
