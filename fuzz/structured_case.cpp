@@ -101,18 +101,17 @@ struct StepCounter final : Observer {
 
 // A finer mesh is right but takes long, and so do rows, of which one step may hold millions.
 bool is_small(const Case& input) {
-  const double interval = input.output.interval;
+  const double interval = input.output.history_interval(input.end_time);
   if (interval > 0.0 && input.end_time > most_rows * interval) return false;
   return input.model.segments <= most_cells && input.model.elements <= most_cells &&
          input.model.layers <= 100;
 }
 
 void explain(const LoadedCase& loaded, bool with_cost) {
-  ResolvedRun run = resolve(loaded.value);
+  resolve(loaded.value);
   loaded.notes();
   doubtful_units(loaded.value);
-  explanation(loaded.value, run.settings(),
-              with_cost ? estimate_cost(run) : std::optional<CostEstimate>());
+  if (with_cost) explanation(loaded.value, loaded.given);
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 /// Numbers have the 17 digits that determine a double, unless their column has fewer. A value that
 /// is absent is an empty cell. No cell is quoted: commas within texts become semicolons.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -15,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>

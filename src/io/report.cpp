@@ -191,6 +191,20 @@ std::string permanent_set_text(const Result& result) {
       1e3 * most.permanent_set, most.position, hinge.rotation, 0.5 * (hinge.from + hinge.to));
 }
 
+// How far shear, which bending theory leaves out, moves the end of the first contact.
+std::string neglected_shear_words(const NeglectedShear& shear) {
+  const bool is_small = shear.with && std::abs(*shear.with - shear.without) < 5e-3 * shear.without;
+  const std::string without = fmt::format("{:.3g}", us * shear.without);
+  const std::string change = is_small ? fmt::format(", at {} us, by less than 0.5 %", without)
+                             : shear.with
+                                 ? fmt::format(" from {} to {:.3g} us", without, us * *shear.with)
+                                 : fmt::format(" from {} us to beyond three times that", without);
+  return fmt::format(
+      "shear, which on a coarse mesh moves the end of the first contact{}; beam.theory = "
+      "\"timoshenko\" has it",
+      change);
+}
+
 }  // namespace
 
 std::string contact_over_words(const Result& result) {
@@ -287,19 +301,6 @@ std::string wish_words(const WishOutcome& wish, const Result& result) {
   if (!wish.reason.empty()) text += (wish.met && !to_the_end ? "; beyond: " : "; ") + wish.reason;
   if (!wish.key.empty()) text += "; free " + wish.key;
   return text;
-}
-
-std::string neglected_shear_words(const NeglectedShear& shear) {
-  const bool is_small = shear.with && std::abs(*shear.with - shear.without) < 5e-3 * shear.without;
-  const std::string without = fmt::format("{:.3g}", us * shear.without);
-  const std::string change = is_small ? fmt::format(", at {} us, by less than 0.5 %", without)
-                             : shear.with
-                                 ? fmt::format(" from {} to {:.3g} us", without, us * *shear.with)
-                                 : fmt::format(" from {} us to beyond three times that", without);
-  return fmt::format(
-      "shear, which on a coarse mesh moves the end of the first contact{}; beam.theory = "
-      "\"timoshenko\" has it",
-      change);
 }
 
 // Uncertain sub-impacts in succession, in one line: their sums.

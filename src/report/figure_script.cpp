@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "io/run_tables.h"
@@ -153,17 +152,10 @@ void FigureScript::line(const std::string& name, const std::vector<Point>& point
 void FigureScript::history(std::initializer_list<const char*> columns,
                            const std::vector<HistoryRow>& rows, FigureSize panel) {
   for (const char* name : columns) {
-    line(name, line_of(rows, &HistoryRow::time, history_member(name)), panel);
+    const auto column =
+        std::ranges::find(run_table<HistoryRow>().columns, name, &Column<HistoryRow>::name);
+    line(name, line_of(rows, &HistoryRow::time, column->member), panel);
   }
-}
-
-double HistoryRow::*history_member(std::string_view column) {
-  const Columns<HistoryRow>& all = run_table<HistoryRow>().columns;
-  const auto found = std::ranges::find(all, column, &Column<HistoryRow>::name);
-  if (found == all.end() || !found->member) {
-    throw std::logic_error("no column of numbers " + std::string(column));
-  }
-  return found->member;
 }
 
 }  // namespace subimpact

@@ -75,9 +75,6 @@ class FigureScript {
 std::vector<Point> thin_for_panel(const std::vector<Point>& line, FigureSize panel,
                                   const std::optional<AxisRange>& x_range = {});
 
-/// The member behind a column of numbers of history.csv. Throws std::logic_error for other names.
-double HistoryRow::*history_member(std::string_view column);
-
 /// The figures of a run for which it has data, marked if the run did not complete.
 std::vector<FigureScript> figure_scripts(const Case& input, const Result& result);
 

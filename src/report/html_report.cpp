@@ -50,11 +50,6 @@ Json headlines(const Result& result) {
   if (result.error_estimate && result.error_estimate->finer_meshes) {
     line(false, finer_meshes_words(result) + ".");
   }
-  if (result.outcome.completed()) {
-    line(true, fmt::format("energy is conserved to {:.1e} of its initial value, and every event "
-                           "and impulse passed its check.",
-                           result.max_energy_error));
-  }
   return list;
 }
 
@@ -155,14 +150,11 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"headlines", headlines(result)},
       {"wish", if_any(result.wish, [&](const auto& wish) { return wish_words(wish, result); })},
       {"wish_class", result.wish && result.wish->met ? "met" : "warning"},
-      {"predictability",
-       if_any(result.predictability, [&](const auto&) { return predictability_words(result); })},
       {"scatter_table",
        if_any(result.predictability, [&](const auto&) { return scatter_table(result); })},
       {"caveat", in_print(outcome_caveat(result))},
       {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
       {"warnings", result.warnings},
-      {"neglected", if_any(result.neglected_shear, neglected_shear_words)},
       {"tiles", tiles(result)},
       {"flights", flights(result.error_estimate)},
       {"summary", in_print(run_summary(run.input, result))},

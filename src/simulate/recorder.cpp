@@ -109,8 +109,8 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
 }
 
 void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam) {
-  const double change = std::abs(beam.contact_force(step.y0()) - last_row_force_);
-  if (change < change_of_force * largest_force_ || !(step.t0() > last_row_time_)) return;
+  const double change = std::abs(beam.contact_force(step.y0()) - last_row_.force);
+  if (change < change_of_force * largest_force_ || !(step.t0() > last_row_.time)) return;
   add_row(step.t0(), step.y0(), accounts_);
 }
 
@@ -316,9 +316,7 @@ void Recorder::close_sub_impact(const State& y, const StruckBeam& beam) {
 }
 
 void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool is_good) {
-  if (is_good && interval_ > 0.0 && last_row_time_ < time) {
-    add_row(time, y, accounts_);
-  }
+  if (is_good && interval_ > 0.0 && last_row_.time < time) add_row(time, y, accounts_);
   if (fields_) fields_->finish(time, y, accounts_, is_good);
   follow_deformation(y);
   if (in_contact_) {
@@ -354,8 +352,7 @@ void Recorder::add_row(double time, const State& y, Accounts& accounts) {
 
 void Recorder::keep(const HistoryRow& row, const State& y, Accounts& accounts) {
   ++result_.n_history_rows;
-  last_row_time_ = row.time;
-  last_row_force_ = row.force;
+  last_row_ = row;
   rows_.add(row);
   add_section_rows(row.time, y, accounts);
   if (fields_) fields_->follow(row.time, y, accounts);

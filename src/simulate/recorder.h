@@ -100,8 +100,7 @@ class Recorder final : public RunObserver {
   double striker_mass_;
   long next_row_ = 0;
   bool follows_force_ = false;
-  double last_row_time_ = -1.0;  // s
-  double last_row_force_ = 0.0;  // N
+  HistoryRow last_row_{.time = -1.0};
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N

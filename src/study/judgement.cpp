@@ -350,23 +350,18 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
                                ErrorEstimate& estimate) {
   const Judge judge(input, run, beside);
   ErrorEstimate::Part part{beside.front().of.part, descriptions_of(beside), {}, {}, 0.0};
-  std::vector<std::string> doubts(run.sub_impacts.size());
   double strictness = 1.0;
-  for (std::size_t i = 0; i < doubts.size(); ++i) {
-    const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
-    const SubImpact& here = run.sub_impacts[i];
-    if (here.zone != before.zone || here.subzone != before.subzone) strictness = 1.0;
-    doubts[i] = judge.doubt_of(i, strictness);
-    if (!doubts[i].empty()) strictness = after_uncertain;
-  }
-  for (std::size_t i = 0; i < doubts.size(); ++i) {
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
     SubImpact& s = run.sub_impacts[i];
+    const SubImpact& before = run.sub_impacts[i > 0 ? i - 1 : 0];
+    if (s.zone != before.zone || s.subzone != before.subzone) strictness = 1.0;
     add_errors(judge, i, part.name, s);
-    if (!doubts[i].empty()) {
+    if (const std::string doubt = judge.doubt_of(i, strictness); !doubt.empty()) {
+      strictness = after_uncertain;
       s.certain = false;
-      if (s.doubt.empty()) s.doubt = doubts[i];
+      if (s.doubt.empty()) s.doubt = doubt;
       s.probability = std::min(*s.probability, judge.probability(i));
-      set_first_unresolved(part, i, doubts[i]);
+      set_first_unresolved(part, i, doubt);
     }
     if (std::string flight = judge.doubt_of_flight(i); !flight.empty()) {
       set_first_unresolved(part, i + 1, flight);

@@ -17,15 +17,6 @@ constexpr double safety_of_restitution = 4.0;
 constexpr double of_one_run = 1.5;  // more where one run alone shows a part of the error
 constexpr double of_count = 0.0;    // the difference itself
 
-struct Quantity {
-  const char* name;
-  std::optional<double> (*value)(const Case& input, const Result& run);
-  double safety = usual_safety;
-  // Of the largest over the sub-impacts, whose error is at least that of the one that has it.
-  double SubImpact::*of_sub_impact = nullptr;
-  std::optional<double> SubImpact::*its_error = nullptr;
-};
-
 double largest(const Result& run, EnvelopeRow::Range EnvelopeRow::*range) {
   double most = 0.0;
   for (const EnvelopeRow& row : run.envelope) {
@@ -35,21 +26,11 @@ double largest(const Result& run, EnvelopeRow::Range EnvelopeRow::*range) {
   return most;
 }
 
-// Of what shapes show; none without shapes.
-template <auto value>
-std::optional<double> with_shapes(const Case&, const Result& run) {
-  return run.envelope.empty() ? std::nullopt : std::optional<double>(value(run));
-}
-
-double permanent_set(const Result& run) {
+// The largest magnitude of a member in a list.
+template <class Row>
+double largest(const std::vector<Row>& rows, double Row::*value) {
   double most = 0.0;
-  for (const EnvelopeRow& row : run.envelope) most = std::max(most, std::abs(row.permanent_set));
-  return most;
-}
-
-double hinge_rotation(const Result& run) {
-  double most = 0.0;
-  for (const PlasticZone& zone : run.plastic_zones) most = std::max(most, std::abs(zone.rotation));
+  for (const Row& row : rows) most = std::max(most, std::abs(row.*value));
   return most;
 }
 
@@ -58,51 +39,61 @@ double impulse(const Result& run) {
                          [](double sum, const SubImpact& s) { return sum + s.impulse; });
 }
 
+double dissipated(const Energies& end) {
+  return end.bending_plastic + end.contact_plastic + end.beam_damping;
+}
+
+enum class From { every_run, shapes };
+
+// `v0`: velocity of the strike, m/s.
+struct Quantity {
+  const char* name;
+  double (*value)(const Result& run, double v0);
+  double safety = usual_safety;
+  From from = From::every_run;
+  // Of the largest over the sub-impacts, whose error is at least that of the one that has it.
+  double SubImpact::*of_sub_impact = nullptr;
+  std::optional<double> SubImpact::*its_error = nullptr;
+
+  std::optional<double> of(const Case& input, const Result& run) const {
+    if (from == From::shapes && run.envelope.empty()) return std::nullopt;
+    return value(run, input.scene.striker.velocity);
+  }
+};
+
+using Run = const Result&;
 const Quantity quantities[] = {
-    {"sub_impacts",
-     [](const Case&, const Result& run) {
-       return std::optional(static_cast<double>(run.sub_impacts.size()));
-     },
+    {"sub_impacts", [](Run run, double) -> double { return std::ssize(run.sub_impacts); },
      of_count},
     {"zones",
-     [](const Case&, const Result& run) {
-       return std::optional(run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone);
-     },
+     [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; },
      of_count},
-    {"striker_velocity_m_per_s",
-     [](const Case&, const Result& run) { return std::optional(run.striker_velocity); }},
-    {"beam_mean_velocity_m_per_s",
-     [](const Case&, const Result& run) { return std::optional(run.beam_mean_velocity); },
+    {"striker_velocity_m_per_s", [](Run run, double) { return run.striker_velocity; }},
+    {"beam_mean_velocity_m_per_s", [](Run run, double) { return run.beam_mean_velocity; },
      safety_of_beam_velocity},
     {"restitution",
-     [](const Case& input, const Result& run) {
-       return std::optional((run.beam_mean_velocity - run.striker_velocity) /
-                            input.scene.striker.velocity);
-     },
+     [](Run run, double v0) { return (run.beam_mean_velocity - run.striker_velocity) / v0; },
      safety_of_restitution},
-    {"impulse_Ns", [](const Case&, const Result& run) { return std::optional(impulse(run)); }},
-    {"peak_force_N", [](const Case&, const Result& run) { return std::optional(run.max_force); },
-     usual_safety, &SubImpact::peak_force, &SubImpact::peak_force_error},
-    {"max_indentation_m",
-     [](const Case&, const Result& run) { return std::optional(run.max_indentation); },
-     usual_safety, &SubImpact::max_indentation, &SubImpact::max_indentation_error},
-    {"max_displacement_m",
-     with_shapes<[](const Result& run) { return largest(run, &EnvelopeRow::displacement); }>},
-    {"max_moment_Nm",
-     with_shapes<[](const Result& run) { return largest(run, &EnvelopeRow::moment); }>},
-    {"max_strain",
-     with_shapes<[](const Result& run) { return largest(run, &EnvelopeRow::strain); }>},
-    {"permanent_set_m", with_shapes<permanent_set>},
-    {"hinge_rotation_rad", with_shapes<hinge_rotation>},
+    {"impulse_Ns", [](Run run, double) { return impulse(run); }},
+    {"peak_force_N", [](Run run, double) { return run.max_force; }, usual_safety, From::every_run,
+     &SubImpact::peak_force, &SubImpact::peak_force_error},
+    {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, usual_safety,
+     From::every_run, &SubImpact::max_indentation, &SubImpact::max_indentation_error},
+    {"max_displacement_m", [](Run run, double) { return largest(run, &EnvelopeRow::displacement); },
+     usual_safety, From::shapes},
+    {"max_moment_Nm", [](Run run, double) { return largest(run, &EnvelopeRow::moment); },
+     usual_safety, From::shapes},
+    {"max_strain", [](Run run, double) { return largest(run, &EnvelopeRow::strain); }, usual_safety,
+     From::shapes},
+    {"permanent_set_m",
+     [](Run run, double) { return largest(run.envelope, &EnvelopeRow::permanent_set); },
+     usual_safety, From::shapes},
+    {"hinge_rotation_rad",
+     [](Run run, double) { return largest(run.plastic_zones, &PlasticZone::rotation); },
+     usual_safety, From::shapes},
     {"striker_energy_share",
-     [](const Case& input, const Result& run) {
-       return std::optional(std::pow(run.striker_velocity / input.scene.striker.velocity, 2));
-     }},
-    {"dissipated_J",
-     [](const Case&, const Result& run) {
-       const Energies& end = run.final_energies;
-       return std::optional(end.bending_plastic + end.contact_plastic + end.beam_damping);
-     },
+     [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
+    {"dissipated_J", [](Run run, double) { return dissipated(run.final_energies); },
      safety_of_dissipated},
 };
 
@@ -162,9 +153,9 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
       std::ranges::count(run.sub_impacts, std::optional(false), &SubImpact::certain) +
       std::ssize(estimate.uncertain_flights);
   for (const Quantity& quantity : quantities) {
-    if (!quantity.value(input, run)) continue;
+    if (!quantity.of(input, run)) continue;
     Total total = total_of(run, beside, quantity.safety,
-                           [&](const Result& of) { return quantity.value(input, of); });
+                           [&](const Result& of) { return quantity.of(input, of); });
     if (quantity.name == std::string_view("sub_impacts") && total.error) {
       total.error = std::max(*total.error, static_cast<double>(n_uncertain));
     }

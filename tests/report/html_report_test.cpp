@@ -342,7 +342,8 @@ TEST(HtmlReport, StatesWhatTheTheoryLeavesOut) {
   FinishedRun run = small_run();
   run.result.neglected_shear = {200e-6, 210e-6};
   expect_in(page_of(run),
-            "Left out: shear, which on a coarse mesh moves the end of the first contact from 200 "
+            "left out            shear, which on a coarse mesh moves the end of the first contact "
+            "from 200 "
             "to 210 µs");
 }
 

@@ -2,7 +2,7 @@
 // scenes.
 //
 //   subimpact_judgement [--seed S] [--scenes N] [--first K] [--budget seconds] [--shear]
-//   [--verbose] [--case] [--hammer FILE] [--cost FILE...]
+//   [--verbose] [--case] [--hammer FILE] [--cost FILE...] [--strike FILE [--within seconds]]
 
 #include <fmt/format.h>
 
@@ -188,9 +188,7 @@ void judge_end(const DrawnScene& scene, const Result& run, Findings& outcome) {
   if (goes_on && run.contact_over) outcome.details += "\n    wrong: contact is not over";
 }
 
-Findings study(const DrawnScene& scene) {
-  const Case& input = scene.input;
-  const Result run = simulate_judged(input, cases_beside(input), 1);
+Findings study(const DrawnScene& scene, const Result& run) {
   const Truth truth(scene);
   Findings outcome;
   outcome.contacts = static_cast<int>(run.sub_impacts.size());
@@ -204,7 +202,6 @@ Findings study(const DrawnScene& scene) {
     ++outcome.certain_sets;
     outcome.lacking_sets += truth.fine().sub_impacts.size() != run.sub_impacts.size();
   }
-  judge_end(scene, run, outcome);
   for (std::size_t k = 0; k < run.error_estimate->totals.size(); ++k) {
     const auto& [name, total] = run.error_estimate->totals[k];
     if (total.error && total.value != 0.0) {
@@ -216,6 +213,29 @@ Findings study(const DrawnScene& scene) {
     }
   }
   return outcome;
+}
+
+Findings study(const DrawnScene& scene) {
+  const Result run = simulate_judged(scene.input, cases_beside(scene.input), 1);
+  Findings outcome = study(scene, run);
+  judge_end(scene, run, outcome);
+  return outcome;
+}
+
+// A case as the program runs it, beside 13001 and 26001 cells.
+Findings study_strike(const std::string& path, std::optional<double> within) {
+  LoadedCase loaded = read_case_file(path);
+  if (within) loaded.value.accuracy.event_times = within;
+  DrawnScene scene{loaded.value, {}};
+  for (const int cells : {13001, 26001}) {
+    Case& finer = scene.finer.emplace_back(loaded.value);
+    finer.accuracy = {};
+    finer.model.mesh = MeshKind::cells;
+    finer.model.segments = cells;
+    finer.solver.method = Method::central_difference;
+    finer.output.keep_no_rows();
+  }
+  return study(scene, run_as_asked(loaded.value, loaded.given, {}).result);
 }
 
 // A hammer at velocities from 2 to 4 m/s: what the program's own choice calls certain, beside twice
@@ -297,6 +317,10 @@ int main(int argc, char** argv) {
   app.add_option("--hammer", hammer, "this case at --scenes velocities instead of scenes");
   std::vector<std::string> costs;
   app.add_option("--cost", costs, "what these cases and three elastic scenes cost");
+  std::string strike;
+  std::optional<double> within;
+  app.add_option("--strike", strike, "this case as the program runs it, instead of scenes");
+  app.add_option("--within", within, "with this accuracy.event_times, s")->needs("--strike");
   CLI11_PARSE(app, argc, argv);
   if (!costs.empty()) {
     judgement::study_cost(costs);
@@ -304,6 +328,12 @@ int main(int argc, char** argv) {
   }
   if (!hammer.empty()) {
     study_hammer(hammer, n_scenes);
+    return 0;
+  }
+  if (!strike.empty()) {
+    const Findings found = study_strike(strike, within);
+    print(found, 1);
+    fmt::print("{}\n", found.details);
     return 0;
   }
   if (prints_case) {

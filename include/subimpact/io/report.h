@@ -28,9 +28,6 @@ std::string certain_words(const Result& result);
 /// What became of a wished accuracy, in one line: wish, horizon, error, reason and the key to free.
 std::string wish_words(const WishOutcome& wish, const Result& result);
 
-/// What bending theory leaves out, in one line: how far shear moves the end of the first contact.
-std::string neglected_shear_words(const NeglectedShear& shear);
-
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
 /// with outcome_caveat(), if there is one. With an error estimate, times have their errors beside
 /// them and no number has a digit below what the errors allow; sub-impacts that are not certain
