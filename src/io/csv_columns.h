@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -44,7 +45,6 @@ inline void append_real(std::string& text, double value, int digits) {
   text.append(number.data(), end.ptr);
 }
 
-/// `digits`: of a real number.
 inline void append_cell(std::string& text, const Cell& cell, int digits) {
   if (const auto* real = std::get_if<double>(&cell)) append_real(text, *real, digits);
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) text += std::to_string(*whole);

@@ -2,6 +2,8 @@
 
 /// Columns of studies: one list gives a study's CSV file and the table that is printed.
 
+#include <fmt/format.h>
+
 #include "io/csv_columns.h"
 
 namespace subimpact {

@@ -69,7 +69,9 @@ Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events
       first_flow_(beam.sections().size()),
       force_(share_of_step * audit.tolerated_impulse()),
       losses_(audit.tolerated_loss()),
-      striker_mass_(beam.striker_mass()) {}
+      striker_mass_(beam.striker_mass()) {
+  last_row_.time = -1.0;  // none yet
+}
 
 void Recorder::on_approach(double end, StruckBeam& beam) {
   if (!(interval_ > 0.0)) return;

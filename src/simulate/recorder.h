@@ -63,7 +63,6 @@ class Recorder final : public RunObserver {
   void follow_deformation(const State& y);
   void follow_displacement(double of_struck_point);
   void close_sub_impact(const State& y, const StruckBeam& beam);
-  // A row at the step's start, if the force has changed since the last row.
   void add_row_of_force(const ObservedStep& step, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   void add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts);
@@ -100,7 +99,7 @@ class Recorder final : public RunObserver {
   double striker_mass_;
   long next_row_ = 0;
   bool follows_force_ = false;
-  HistoryRow last_row_{.time = -1.0};
+  HistoryRow last_row_{};
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N

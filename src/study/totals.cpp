@@ -63,7 +63,7 @@ struct Quantity {
 
 using Run = const Result&;
 const Quantity quantities[] = {
-    {"sub_impacts", [](Run run, double) -> double { return std::ssize(run.sub_impacts); },
+    {"sub_impacts", [](Run run, double) { return static_cast<double>(run.sub_impacts.size()); },
      of_count},
     {"zones",
      [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; },

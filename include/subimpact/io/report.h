@@ -2,7 +2,6 @@
 
 /// Results as text for people: microseconds, millimetres, newtons.
 
-#include <optional>
 #include <string>
 
 #include "subimpact/case/case.h"
