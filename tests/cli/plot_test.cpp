@@ -199,8 +199,10 @@ TEST(Plot, TakesGnuplotWithItWhenASignalEndsIt) {
   const TemporaryDirectory directory;
   make_run(directory);
   const std::filesystem::path number = directory.path / "number";
-  const FakeGnuplot gnuplot(directory.path / "bin", "echo $$ > " + number.string() +
-                                                        "\nkill -TERM $PPID\nexec sleep 300\n");
+  // The parent of the command that limits gnuplot's time.
+  const FakeGnuplot gnuplot(directory.path / "bin",
+                            "echo $$ > " + number.string() +
+                                "\nkill -TERM $(cut -d' ' -f4 /proc/$PPID/stat)\nexec sleep 300\n");
   EXPECT_EQ(run_program({"plot", "here"}, directory.path).status, -SIGTERM);
   ASSERT_TRUE(std::filesystem::exists(number));
   for (int i = 0; i < 300 && is_running(number); ++i) {

@@ -233,7 +233,6 @@ Findings study_strike(const std::string& path, std::optional<double> within) {
     finer.model.mesh = MeshKind::cells;
     finer.model.segments = cells;
     finer.solver.method = Method::central_difference;
-    finer.output.keep_no_rows();
   }
   return study(scene, run_as_asked(loaded.value, loaded.given, {}).result);
 }
