@@ -1,0 +1,116 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/mixed_mesh.h"
+#include "model/moment_law.h"
+#include "model/plastic_response.h"
+
+namespace subimpact {
+
+/// Bending of a beam of mixed cells: moments, plastic curvature on sub-cell sections, ideal hinges,
+/// and the displacement that the inertia of the plastic curvature adds (docs/theory.md, "Mixed
+/// cells").
+///
+/// Equations of motion hold for y, displacements are w = y + s:
+///
+///     T M = E I (K w - p),   Mass s = J h^2 K^T T^-1 (p/6 - b) - rho A h^2 (p/12 - b),
+///     p_i = integral N_i kappa_p dx + alpha_i,   b_i = integral beta(N_i) kappa_p dx,
+///
+/// with beta(a) = (a - a^3)/6, kappa_p = kappa_p(M) at the sub-cell sections and the rotation alpha
+/// of ideal hinges, which turn at |M| = M_p only. All but kappa_p(M) is linear, so that p and b of
+/// the few nodes beside flow follow from as many equations, which Newton's method solves.
+///
+/// Histories advance at commit() only. `mesh` and `law` must outlive this.
+class MixedSections {
+ public:
+  /// `law` of an exact rectangle; null for a beam that never yields.
+  MixedSections(const MixedMesh& mesh, const SectionLaw* law, double yield_curvature);
+
+  /// Takes unknowns that have moved without flow since the last commit to where flow takes them,
+  /// w += s - s at the last commit. False if the law was not solved.
+  bool settle(std::span<double> unknowns) { return solve(unknowns.data(), unknowns.data()); }
+  /// The same for unknowns that have been settled, which do not change.
+  bool evaluate(std::span<const double> unknowns) { return solve(unknowns.data(), nullptr); }
+  /// Of the state last settled or evaluated: M/(E I), 1/m, at the mesh's sections.
+  const AlignedVector& elastic_curvatures() const { return elastic_; }
+  /// Plastic curvature averaged over the hats of the mesh's sections, 1/m.
+  void plastic_curvatures(std::span<double> kappa) const;
+  /// That state becomes the history. Returns whether anything flowed on the way to it.
+  bool commit();
+
+  struct Energies {
+    double elastic = 0.0, plastic = 0.0;  ///< J
+  };
+  Energies energies(double stiffness) const;
+  /// Cells in which a section may have yielded.
+  std::size_t n_yielded() const { return n_yielded_; }
+
+  long n_iterations() const { return n_iterations_; }
+  long n_solves() const { return n_solves_; }
+
+ private:
+  struct Point {
+    MomentLaw law;
+    double hat[2];     // of the cell's nodes
+    double weight[2];  // times the hat, m
+    double bubble[2];  // beta of the hat, times the weight
+    double moment;     // trial, in M_y
+    double flowed;     // plastic curvature in kappa_y, less that at the last commit
+  };
+  struct Cell {
+    std::size_t cell;
+    std::size_t first_point, end_point;
+    std::size_t local[2];  // nodes among those of the equations
+  };
+  struct Hinge {
+    std::size_t section;
+    double rotation = 0.0;  // at the last commit, kappa_y m
+    double turned = 0.0;    // since
+    double work = 0.0;
+    double sense = 0.0;     // while it turns, else 0
+    double sense_before = 0.0;
+    std::size_t local = none;
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  bool solve(const double* unknowns, double* moved);
+  bool find_active();
+  void make_cell(std::size_t cell);
+  void bound(const Cell& cell);
+  void gather();
+  bool newton();
+  bool iterate(bool* switched);
+  double evaluate_law();
+  void assemble();
+  void eliminate();
+  void advance();
+  bool is_inside() const;
+  void apply(double* moved);
+
+  const MixedMesh& mesh_;
+  const SectionLaw* law_;
+  double yield_curvature_;
+  PlasticResponse response_;
+  std::vector<std::size_t> cell_of_;  // of each cell of the mesh, its index in cells_
+  std::vector<Cell> cells_;
+  std::vector<Point> points_;
+  std::vector<Hinge> hinges_;
+  std::size_t n_yielded_ = 0;
+  AlignedVector low_, high_;                   // of M/(E I) at nodes, within which nothing flows
+  AlignedVector p_;                            // at the last commit, rad
+  AlignedVector elastic_, before_, earlier_;   // M/(E I): now, at the last commit, the one before
+  bool flowed_ = false;
+  bool coupled_ = true;                        // settling, not evaluating
+  // The equations.
+  std::vector<std::size_t> active_, flowing_;  // indices of cells
+  std::vector<std::size_t> nodes_, nodes_gathered_;  // sections
+  bool gathered_coupled_ = true;
+  std::vector<double> moment_, elastic_moment_, p_new_, b_new_, residual_, step_;
+  std::vector<double> of_p_, of_b_;            // M/M_y of the nodes' p and b, row by row
+  std::vector<double> jacobian_;
+  long n_iterations_ = 0, n_solves_ = 0;
+};
+
+}  // namespace subimpact

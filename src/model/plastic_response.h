@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "model/mixed_mesh.h"
+
+namespace subimpact {
+
+/// What plastic curvature at one node of a mixed mesh does to moments and displacements around it,
+/// with inertia as in MixedSections: linear, and constant in time. One column per node, computed
+/// when its node first flows; entries that have decayed below 1e-14 are left out.
+class PlasticResponse {
+ public:
+  explicit PlasticResponse(const MixedMesh& mesh);
+
+  /// Quantities per unit of p (rad) or b (rad m0): elastic curvature M/(E I) at sections, 1/m, and
+  /// displacement of unknowns, m.
+  enum Kind { curvature_of_p, curvature_of_b, shift_of_p, shift_of_b, curvature_at_rest, n_kinds };
+  struct Column {
+    std::size_t first = 0, size = 0;  // sections; unknowns as far from the node
+    long to_unknown = 0;              // unknown of a section: its index less this
+    std::vector<double> values;       // of each kind, one after another
+    const double* of(Kind kind) const { return values.data() + kind * size; }
+    double at(Kind kind, std::size_t section) const {
+      return section - first < size ? values[kind * size + (section - first)] : 0.0;
+    }
+  };
+  /// Of a section of the mesh.
+  const Column& column(std::size_t section) {
+    if (!columns_[section]) columns_[section] = make(section);
+    return *columns_[section];
+  }
+
+ private:
+  std::unique_ptr<const Column> make(std::size_t section) const;
+  void respond(std::size_t section, double of_force, double of_mass, double of_jump,
+               std::vector<double>& shift, std::vector<double>& curvature) const;
+
+  const MixedMesh& mesh_;
+  std::unique_ptr<MassSolver> mass_;
+  std::vector<std::unique_ptr<const Column>> columns_;
+};
+
+}  // namespace subimpact
