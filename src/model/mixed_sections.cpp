@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "numerics/gauss.h"
 
 namespace subimpact {
 namespace {
 
-constexpr double tolerance = 1e-10;  // of the equations, in M_y
+constexpr double tolerance = 1e-8;  // of the equations, in M_y
+constexpr double off_hinge = MomentLaw::limit - 1e-4;  // where a hinge that stops is left
 constexpr int most_iterations = 60;
+constexpr int bold_iterations = 10;  // after which the error must fall in each
 constexpr int most_rounds = 40;
 
 double bubble_of(double hat) { return (hat - hat * hat * hat) / 6.0; }
@@ -58,6 +62,7 @@ bool MixedSections::solve(const double* unknowns, double* moved) {
   ++n_solves_;
   // The moments without flow stay in elastic_ until all cells that flow have been found.
   for (int round = 0; round < most_rounds; ++round) {
+    std::ranges::sort(active_);
     gather();
     if (!newton()) return false;
     AlignedVector& now = elastic_;
@@ -96,14 +101,30 @@ bool MixedSections::find_active() {
       if (cell >= mesh_.n_kept_cells()) continue;  // also -1
       if (cell_of_[cell] == none) make_cell(cell);
       const std::size_t index = cell_of_[cell];
-      if (std::ranges::find(active_, index) == active_.end()) active_.push_back(index);
+      if (std::ranges::find(active_, index) != active_.end()) continue;
+      if (flows(cells_[index])) active_.push_back(index);
     }
   });
   return active_.size() > n_before;
 }
 
+bool MixedSections::flows(const Cell& cell) const {
+  const std::size_t first = mesh_.first_moment();
+  double ends[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t section = cell.cell + k - first;
+    ends[k] = section < elastic_.size() ? elastic_[section] / yield_curvature_ : 0.0;
+  }
+  for (std::size_t i = cell.first_point; i < cell.end_point; ++i) {
+    const Point& point = points_[i];
+    const double moment = point.hat[0] * ends[0] + point.hat[1] * ends[1];
+    if (moment > point.law.high() || moment < point.law.low()) return true;
+  }
+  return false;
+}
+
 void MixedSections::make_cell(std::size_t cell) {
-  Cell made{cell, points_.size(), 0, {none, none}};
+  Cell made{cell, points_.size(), 0, {none, none}, {}, {}};
   const double h = mesh_.cell_length(cell);
   const auto add = [&](double at, double weight) {
     Point point{};
@@ -133,6 +154,14 @@ void MixedSections::make_cell(std::size_t cell) {
 
 // Sections of the equations, and what p and b at each does to the moments of all.
 void MixedSections::gather() {
+  const auto read_moments = [&] {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      elastic_moment_[i] = elastic_[nodes_[i]] / yield_curvature_;
+    }
+  };
+  if (active_ == gathered_ && gathered_coupled_ == coupled_) return read_moments();
+  gathered_ = active_;
+  gathered_coupled_ = coupled_;
   const std::size_t first = mesh_.first_moment();
   nodes_.clear();
   const auto note = [&](std::size_t node) {
@@ -157,106 +186,120 @@ void MixedSections::gather() {
   }
   for (Hinge& hinge : hinges_) hinge.local = local(hinge.section);
   const std::size_t n = nodes_.size();
-  elastic_moment_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    elastic_moment_[i] = elastic_[nodes_[i]] / yield_curvature_;
-  }
-  if (nodes_ == nodes_gathered_ && gathered_coupled_ == coupled_) return;
-  nodes_gathered_ = nodes_;
-  gathered_coupled_ = coupled_;
-  for (auto* each : {&moment_, &p_new_, &b_new_, &residual_, &step_}) each->resize(n);
+  for (auto* each : {&moment_, &elastic_moment_, &p_new_, &b_new_, &residual_, &step_}) each->resize(n);
   for (auto* each : {&of_p_, &of_b_, &jacobian_}) each->assign(n * n, 0.0);
   for (std::size_t j = 0; j < n; ++j) {
     const PlasticResponse::Column& column = response_.column(nodes_[j]);
     for (std::size_t i = 0; i < n; ++i) {
-      of_p_[i * n + j] = column.at(coupled_ ? PlasticResponse::curvature_of_p
+      of_p_[j * n + i] = column.at(coupled_ ? PlasticResponse::curvature_of_p
                                             : PlasticResponse::curvature_at_rest, nodes_[i]);
-      of_b_[i * n + j] = coupled_ ? column.at(PlasticResponse::curvature_of_b, nodes_[i]) : 0.0;
+      of_b_[j * n + i] = coupled_ ? column.at(PlasticResponse::curvature_of_b, nodes_[i]) : 0.0;
     }
   }
+  read_moments();
 }
 
 double MixedSections::evaluate_law() {
   const std::size_t n = nodes_.size();
   std::ranges::fill(p_new_, 0.0);
   std::ranges::fill(b_new_, 0.0);
-  std::ranges::fill(jacobian_, 0.0);
-  double* jac = jacobian_.data();
   for (const std::size_t index : active_) {
-    const Cell& cell = cells_[index];
-    double ends[2], p[2] = {}, b[2] = {}, dp[2][2] = {}, db[2][2] = {};
+    Cell& cell = cells_[index];
+    double ends[2], p[2] = {}, b[2] = {};
     for (int k = 0; k < 2; ++k) ends[k] = cell.local[k] == none ? 0.0 : moment_[cell.local[k]];
-    bool flows = false;
+    for (auto& row : cell.of_p) row[0] = row[1] = 0.0;
+    for (auto& row : cell.of_b) row[0] = row[1] = 0.0;
     for (std::size_t i = cell.first_point; i < cell.end_point; ++i) {
       Point& point = points_[i];
       point.moment = point.hat[0] * ends[0] + point.hat[1] * ends[1];
       const MomentLaw::Flow flow = point.law.at(point.moment);
-      point.flowed = flow.plastic - point.law.plastic();
+      const double flowed = flow.plastic - point.law.plastic();
       if (flow.slope == 0.0) continue;
-      flows = true;
       for (int k = 0; k < 2; ++k) {
-        p[k] += point.weight[k] * point.flowed;
-        b[k] += point.bubble[k] * point.flowed;
+        p[k] += point.weight[k] * flowed;
+        b[k] += point.bubble[k] * flowed;
         for (int l = 0; l < 2; ++l) {
-          dp[k][l] += point.weight[k] * flow.slope * point.hat[l];
-          db[k][l] += point.bubble[k] * flow.slope * point.hat[l];
+          cell.of_p[k][l] += point.weight[k] * flow.slope * point.hat[l];
+          cell.of_b[k][l] += point.bubble[k] * flow.slope * point.hat[l];
         }
       }
     }
-    if (!flows) continue;
     for (int k = 0; k < 2; ++k) {
       const std::size_t row = cell.local[k];
       if (row == none) continue;
       p_new_[row] += p[k];
       b_new_[row] += b[k];
-      for (int l = 0; l < 2; ++l) {
-        const std::size_t column = cell.local[l];
-        if (column == none) continue;
-        for (std::size_t i = 0; i < n; ++i) {
-          jac[i * n + column] -= of_p_[i * n + row] * dp[k][l] + of_b_[i * n + row] * db[k][l];
-        }
-      }
     }
   }
   for (const Hinge& hinge : hinges_) {
-    if (hinge.local == none) continue;
-    if (hinge.sense != 0.0) {
-      p_new_[hinge.local] += hinge.turned;
-      for (std::size_t i = 0; i < n; ++i) jac[i * n + hinge.local] = -of_p_[i * n + hinge.local];
-    }
+    if (hinge.sense != 0.0) p_new_[hinge.local] += hinge.turned;
+  }
+  for (std::size_t i = 0; i < n; ++i) residual_[i] = moment_[i] - elastic_moment_[i];
+  for (std::size_t j = 0; j < n; ++j) {
+    const double p = p_new_[j], b = b_new_[j];
+    if (p == 0.0 && b == 0.0) continue;
+    const double* of_p = of_p_.data() + j * n;
+    const double* of_b = of_b_.data() + j * n;
+    double* result = residual_.data();
+    for (std::size_t i = 0; i < n; ++i) result[i] -= of_p[i] * p + of_b[i] * b;
   }
   double largest = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double sum = moment_[i] - elastic_moment_[i];
-    for (std::size_t j = 0; j < n; ++j) {
-      sum -= of_p_[i * n + j] * p_new_[j] + of_b_[i * n + j] * b_new_[j];
-    }
-    residual_[i] = sum;
-    largest = std::max(largest, std::abs(sum));
-    bool turns = false;
-    for (const Hinge& hinge : hinges_) turns |= hinge.local == i && hinge.sense != 0.0;
-    if (!turns) jac[i * n + i] += 1.0;
+  for (const double error : residual_) {
+    largest = std::abs(error) <= largest ? largest : std::abs(error);  // NaN too
   }
   return largest;
 }
 
-void MixedSections::eliminate() {
+void MixedSections::assemble() {
   const std::size_t n = nodes_.size();
-  double* a = jacobian_.data();
-  for (std::size_t i = 0; i < n; ++i) step_[i] = -residual_[i];
-  for (std::size_t k = 0; k < n; ++k) {
-    const double inverse = 1.0 / a[k * n + k];
-    for (std::size_t i = k + 1; i < n; ++i) {
-      const double factor = a[i * n + k] * inverse;
-      if (factor == 0.0) continue;
-      for (std::size_t j = k + 1; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
-      step_[i] -= factor * step_[k];
+  double* jac = jacobian_.data();
+  std::fill_n(jac, n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) jac[i * n + i] = 1.0;
+  for (const std::size_t index : active_) {
+    const Cell& cell = cells_[index];
+    for (int k = 0; k < 2; ++k) {
+      const std::size_t row = cell.local[k];
+      if (row == none) continue;
+      for (int l = 0; l < 2; ++l) {
+        const std::size_t column = cell.local[l];
+        if (column == none || cell.of_p[k][l] == 0.0) continue;
+        const double p = cell.of_p[k][l], b = cell.of_b[k][l];
+        const double* of_p = of_p_.data() + row * n;
+        const double* of_b = of_b_.data() + row * n;
+        double* result = jac + column * n;
+#pragma GCC ivdep
+        for (std::size_t i = 0; i < n; ++i) result[i] -= of_p[i] * p + of_b[i] * b;
+      }
     }
   }
+  for (const Hinge& hinge : hinges_) {
+    if (hinge.sense == 0.0) continue;
+    const std::size_t start = hinge.local * n;
+    for (std::size_t i = 0; i < n; ++i) jac[start + i] = -of_p_[start + i];
+  }
+}
+
+void MixedSections::eliminate() {
+  const std::size_t n = nodes_.size();
+  for (std::size_t i = 0; i < n; ++i) step_[i] = -residual_[i];
+  double* x = step_.data();
+  for (std::size_t k = 0; k < n; ++k) {
+    double* pivot = jacobian_.data() + k * n;
+    const double inverse = 1.0 / pivot[k];
+    for (std::size_t i = k + 1; i < n; ++i) pivot[i] *= inverse;
+    const auto subtract = [&](double* column) {
+      const double factor = column[k];
+      if (factor == 0.0) return;
+#pragma GCC ivdep
+      for (std::size_t i = k + 1; i < n; ++i) column[i] -= factor * pivot[i];
+    };
+    for (std::size_t j = k + 1; j < n; ++j) subtract(jacobian_.data() + j * n);
+    subtract(x);
+  }
   for (std::size_t k = n; k-- > 0;) {
-    double sum = step_[k];
-    for (std::size_t j = k + 1; j < n; ++j) sum -= a[k * n + j] * step_[j];
-    step_[k] = sum / a[k * n + k];
+    const double* column = jacobian_.data() + k * n;
+    x[k] /= column[k];
+    for (std::size_t i = 0; i < k; ++i) x[i] -= x[k] * column[i];
   }
 }
 
@@ -305,6 +348,25 @@ void MixedSections::advance() {
   }
 }
 
+// As advance(), but all nodes by the same part of the step, so short that the error falls.
+void MixedSections::descend(double error) {
+  const std::vector<double> start = moment_;
+  std::vector<double> step = step_;
+  std::vector<double> turned;
+  for (Hinge& hinge : hinges_) {
+    turned.push_back(hinge.turned);
+    if (hinge.sense != 0.0) step[hinge.local] = 0.0;
+  }
+  for (double part = 1.0; part > 1e-6; part *= 0.5) {
+    for (std::size_t i = 0; i < start.size(); ++i) moment_[i] = start[i] + part * step[i];
+    for (std::size_t k = 0; k < hinges_.size(); ++k) {
+      Hinge& hinge = hinges_[k];
+      if (hinge.sense != 0.0) hinge.turned = turned[k] + part * step_[hinge.local];
+    }
+    if (is_inside() && evaluate_law() < (1.0 - 0.1 * part) * error) return;
+  }
+}
+
 bool MixedSections::is_inside() const {
   for (const Hinge& hinge : hinges_) {
     if (hinge.local != none && std::abs(moment_[hinge.local]) > MomentLaw::limit) return false;
@@ -332,22 +394,28 @@ bool MixedSections::newton() {
     moment_[i] = before_[nodes_[i]] / yield_curvature_;
     step_[i] = (before_[nodes_[i]] - earlier_[nodes_[i]]) / yield_curvature_;
   }
-  for (Hinge& hinge : hinges_) {
-    if (hinge.sense == 0.0) continue;
-    step_[hinge.local] = 0.0;
-    moment_[hinge.local] = hinge.sense * MomentLaw::limit;
+  for (const Hinge& hinge : hinges_) {
+    if (hinge.local == none) continue;
+    double& moment = moment_[hinge.local];
+    if (hinge.sense != 0.0) {
+      step_[hinge.local] = 0.0;
+      moment = hinge.sense * MomentLaw::limit;
+    } else {
+      moment = std::clamp(moment, -off_hinge, off_hinge);
+    }
   }
   advance();
   int freed = 0;
   for (int k = 0; k < most_iterations; ++k) {
     const double error = evaluate_law();
+    if (getenv("TRACE")) std::printf("it %d n %zu cells %zu err %.1e hinge %g\n", k, n, active_.size(), error, hinges_[0].sense);
     ++n_iterations_;
     if (error < tolerance) {
       bool changed = false;
       for (Hinge& hinge : hinges_) {
         if (hinge.sense == 0.0 || hinge.turned * hinge.sense >= 0.0 || freed > 3) continue;
         hinge.turned = 0.0;
-        moment_[hinge.local] = hinge.sense * (MomentLaw::limit - 1e-4);
+        moment_[hinge.local] = hinge.sense * off_hinge;
         hinge.sense = 0.0;
         ++freed;
         changed = true;
@@ -356,8 +424,13 @@ bool MixedSections::newton() {
       continue;
     }
     if (!std::isfinite(error)) return false;
+    assemble();
     eliminate();
-    advance();
+    if (k < bold_iterations) {
+      advance();
+    } else {
+      descend(error);
+    }
     for (Hinge& hinge : hinges_) {
       if (hinge.local == none || hinge.sense != 0.0) continue;
       double& moment = moment_[hinge.local];

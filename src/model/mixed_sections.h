@@ -57,12 +57,12 @@ class MixedSections {
     double weight[2];  // times the hat, m
     double bubble[2];  // beta of the hat, times the weight
     double moment;     // trial, in M_y
-    double flowed;     // plastic curvature in kappa_y, less that at the last commit
   };
   struct Cell {
     std::size_t cell;
     std::size_t first_point, end_point;
-    std::size_t local[2];  // nodes among those of the equations
+    std::size_t local[2];        // nodes among those of the equations
+    double of_p[2][2], of_b[2][2];  // slopes of what its sections add to p and b, over moments
   };
   struct Hinge {
     std::size_t section;
@@ -77,6 +77,7 @@ class MixedSections {
 
   bool solve(const double* unknowns, double* moved);
   bool find_active();
+  bool flows(const Cell& cell) const;
   void make_cell(std::size_t cell);
   void bound(const Cell& cell);
   void gather();
@@ -86,6 +87,7 @@ class MixedSections {
   void assemble();
   void eliminate();
   void advance();
+  void descend(double error);
   bool is_inside() const;
   void apply(double* moved);
 
@@ -105,7 +107,8 @@ class MixedSections {
   bool coupled_ = true;                        // settling, not evaluating
   // The equations.
   std::vector<std::size_t> active_, flowing_;  // indices of cells
-  std::vector<std::size_t> nodes_, nodes_gathered_;  // sections
+  std::vector<std::size_t> gathered_;          // the active ones of the present equations
+  std::vector<std::size_t> nodes_;             // their sections
   bool gathered_coupled_ = true;
   std::vector<double> moment_, elastic_moment_, p_new_, b_new_, residual_, step_;
   std::vector<double> of_p_, of_b_;            // M/M_y of the nodes' p and b, row by row
