@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "numerics/gauss.h"
 
@@ -30,18 +28,21 @@ double part_of_step(double left, double step) {
 
 }  // namespace
 
-MixedSections::MixedSections(const MixedMesh& mesh, const SectionLaw* law, double yield_curvature)
+MixedSections::MixedSections(const MixedMesh& mesh, double stiffness,
+                             std::optional<SectionLaw> law)
     : mesh_(mesh),
-      law_(law),
-      yield_curvature_(yield_curvature),
+      stiffness_(stiffness),
+      law_(std::move(law)),
+      yield_curvature_(law_ ? law_->window({}).high : 1.0),
       response_(mesh),
       cell_of_(mesh.n_kept_cells(), none),
-      low_(mesh.n_sections(), -yield_curvature),
-      high_(mesh.n_sections(), yield_curvature),
+      low_(mesh.n_sections(), -yield_curvature_),
+      high_(mesh.n_sections(), yield_curvature_),
       p_(mesh.n_sections(), 0.0),
       elastic_(mesh.n_sections(), 0.0),
       before_(elastic_),
-      earlier_(elastic_) {
+      earlier_(elastic_),
+      scratch_(mesh.n_kept_cells()) {
   for (std::size_t i = 0; i < mesh.n_sections(); ++i) {
     if (mesh.may_hinge(i + mesh.first_moment())) hinges_.push_back({.section = i});
   }
@@ -51,7 +52,8 @@ bool MixedSections::solve(const double* unknowns, double* moved) {
   mesh_.jumps(unknowns, p_.data(), elastic_.data());
   mesh_.solve_hats(elastic_);
   flowed_ = false;
-  if (law_ == nullptr) return true;
+  for (Hinge& hinge : hinges_) hinge.turned = hinge.sense = 0.0;
+  if (!law_) return true;
   coupled_ = moved != nullptr;
   active_.clear();
   if (!find_active()) return true;
@@ -408,7 +410,6 @@ bool MixedSections::newton() {
   int freed = 0;
   for (int k = 0; k < most_iterations; ++k) {
     const double error = evaluate_law();
-    if (getenv("TRACE")) std::printf("it %d n %zu cells %zu err %.1e hinge %g\n", k, n, active_.size(), error, hinges_[0].sense);
     ++n_iterations_;
     if (error < tolerance) {
       bool changed = false;
@@ -493,7 +494,7 @@ bool MixedSections::commit() {
   }
   for (Hinge& hinge : hinges_) {
     hinge.rotation += hinge.turned;
-    hinge.work += std::abs(hinge.turned);
+    hinge.path += std::abs(hinge.turned);
     hinge.turned = 0.0;
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) p_[nodes_[i]] += p_new_[i] * yield_curvature_;
@@ -529,7 +530,18 @@ void MixedSections::bound(const Cell& of) {
   }
 }
 
-MixedSections::Energies MixedSections::energies(double stiffness) const {
+// In M_y; just within the limits, which rounding may touch.
+double MixedSections::moment_in(const Cell& cell, const Point& point) const {
+  double moment = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t section = cell.cell + k - mesh_.first_moment();
+    if (section < elastic_.size()) moment += point.hat[k] * elastic_[section];
+  }
+  constexpr double largest = MomentLaw::limit * (1.0 - 1e-15);
+  return std::clamp(moment / yield_curvature_, -largest, largest);
+}
+
+MixedSections::Energies MixedSections::energies() const {
   Energies sum;
   const std::size_t n = elastic_.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -539,39 +551,50 @@ MixedSections::Energies MixedSections::energies(double stiffness) const {
     sum.elastic += elastic_[i] * elastic_[i] * (before + after) / 3.0;
     if (i + 1 < n) sum.elastic += elastic_[i] * elastic_[i + 1] * after / 3.0;
   }
-  sum.elastic *= 0.5 * stiffness;
-  const double unit = stiffness * yield_curvature_;
+  sum.elastic *= 0.5 * stiffness_;
+  const double unit = stiffness_ * yield_curvature_ * yield_curvature_;
   for (const Cell& cell : cells_) {
     for (std::size_t i = cell.first_point; i < cell.end_point; ++i) {
       const Point& point = points_[i];
-      const std::size_t first = mesh_.first_moment();
-      double moment = 0.0;
-      for (int k = 0; k < 2; ++k) {
-        const std::size_t section = cell.cell + static_cast<std::size_t>(k) - first;
-        if (section < n) moment += point.hat[k] * elastic_[section];
-      }
-      moment /= yield_curvature_;
-      if (std::abs(moment) >= MomentLaw::limit) moment = std::copysign(MomentLaw::limit * (1 - 1e-15), moment);
-      const double weight = point.weight[0] + point.weight[1];
+      const double moment = moment_in(cell, point);
       const double curvature = (moment + point.law.at(moment).plastic) * yield_curvature_;
       const double elastic = law_->elastic_energy(point.law.history(), curvature);
       const double work = law_->work(point.law.history(), curvature);
-      const double of_moment = 0.5 * unit * yield_curvature_ * moment * moment;
-      sum.elastic += weight * (elastic - of_moment);
+      const double weight = point.weight[0] + point.weight[1];
+      sum.elastic += weight * (elastic - 0.5 * unit * moment * moment);
       sum.plastic += weight * (work - elastic);
     }
   }
   for (const Hinge& hinge : hinges_) {
-    // Only at M_p, in its direction: what it has turned in all, either way, is work.
-    sum.plastic += 1.5 * unit * yield_curvature_ * hinge.work;
+    sum.plastic += MomentLaw::limit * unit * (hinge.path + std::abs(hinge.turned));
   }
   return {mesh_.copies_of_part() * sum.elastic, mesh_.copies_of_part() * sum.plastic};
 }
 
-void MixedSections::plastic_curvatures(std::span<double> kappa) const {
-  for (std::size_t i = 0; i < kappa.size(); ++i) {
-    kappa[i] = p_[i] * mesh_.copies_of_part() / mesh_.section_weights()[i];
+void MixedSections::read_bending(std::span<double> curvatures, std::span<double> moments) const {
+  for (std::size_t i = 0; i < elastic_.size(); ++i) curvatures[i] = p_[i];
+  for (std::size_t i = 0; flowed_ && i < nodes_.size(); ++i) {
+    curvatures[nodes_[i]] += p_new_[i] * yield_curvature_;
   }
+  for (std::size_t i = 0; i < elastic_.size(); ++i) {
+    curvatures[i] *= mesh_.copies_of_part() / mesh_.section_weights()[i];
+    curvatures[i] += elastic_[i];
+    moments[i] = stiffness_ * elastic_[i];
+  }
+}
+
+double MixedSections::outer_stress_at_strike(double outer_stiffness) const {
+  const std::size_t index = cell_of_[mesh_.struck_node() - 1];
+  if (index == none) return -outer_stiffness * elastic_[mesh_.struck_section()];
+  const Cell& cell = cells_[index];
+  const Point& nearest = points_[cell.first_point];
+  const double moment = moment_in(cell, nearest);
+  return law_->outer_stress(nearest.law.history(),
+                            (moment + nearest.law.at(moment).plastic) * yield_curvature_);
+}
+
+std::size_t MixedSections::n_yielded() const {
+  return static_cast<std::size_t>(std::ranges::count_if(p_, [](double p) { return p != 0.0; }));
 }
 
 }  // namespace subimpact

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,11 +23,13 @@ namespace subimpact {
 /// of ideal hinges, which turn at |M| = M_p only. All but kappa_p(M) is linear, so that p and b of
 /// the few nodes beside flow follow from as many equations, which Newton's method solves.
 ///
-/// Histories advance at commit() only. `mesh` and `law` must outlive this.
+/// Histories advance at commit() only. `mesh` must outlive this.
 class MixedSections {
  public:
-  /// `law` of an exact rectangle; null for a beam that never yields.
-  MixedSections(const MixedMesh& mesh, const SectionLaw* law, double yield_curvature);
+  /// `stiffness`: E I, N m2; `law`: of an exact rectangle, none for a beam that never yields.
+  MixedSections(const MixedMesh& mesh, double stiffness, std::optional<SectionLaw> law);
+
+  const MixedMesh& mesh() const { return mesh_; }
 
   /// Takes unknowns that have moved without flow since the last commit to where flow takes them,
   /// w += s - s at the last commit. False if the law was not solved.
@@ -35,17 +38,23 @@ class MixedSections {
   bool evaluate(std::span<const double> unknowns) { return solve(unknowns.data(), nullptr); }
   /// Of the state last settled or evaluated: M/(E I), 1/m, at the mesh's sections.
   const AlignedVector& elastic_curvatures() const { return elastic_; }
-  /// Plastic curvature averaged over the hats of the mesh's sections, 1/m.
-  void plastic_curvatures(std::span<double> kappa) const;
+  /// Curvatures (1/m; elastic, and plastic averaged over the hats of the mesh's sections) and
+  /// moments (N m).
+  void read_bending(std::span<double> curvatures, std::span<double> moments) const;
+  /// Of the outermost fibre away from the striker, Pa; `outer_stiffness` = E h/2, N/m.
+  double outer_stress_at_strike(double outer_stiffness) const;
   /// That state becomes the history. Returns whether anything flowed on the way to it.
   bool commit();
 
   struct Energies {
     double elastic = 0.0, plastic = 0.0;  ///< J
   };
-  Energies energies(double stiffness) const;
-  /// Cells in which a section may have yielded.
-  std::size_t n_yielded() const { return n_yielded_; }
+  Energies energies() const;
+  double kinetic_energy(std::span<const double> velocities) const {  ///< J
+    return mesh_.kinetic_energy(velocities, scratch_);
+  }
+  /// Sections of the mesh in whose hats something has flowed.
+  std::size_t n_yielded() const;
 
   long n_iterations() const { return n_iterations_; }
   long n_solves() const { return n_solves_; }
@@ -64,11 +73,12 @@ class MixedSections {
     std::size_t local[2];        // nodes among those of the equations
     double of_p[2][2], of_b[2][2];  // slopes of what its sections add to p and b, over moments
   };
+  double moment_in(const Cell& cell, const Point& point) const;
   struct Hinge {
     std::size_t section;
     double rotation = 0.0;  // at the last commit, kappa_y m
     double turned = 0.0;    // since
-    double work = 0.0;
+    double path = 0.0;      // all of it, either way
     double sense = 0.0;     // while it turns, else 0
     double sense_before = 0.0;
     std::size_t local = none;
@@ -92,14 +102,14 @@ class MixedSections {
   void apply(double* moved);
 
   const MixedMesh& mesh_;
-  const SectionLaw* law_;
+  double stiffness_;
+  std::optional<SectionLaw> law_;
   double yield_curvature_;
   PlasticResponse response_;
   std::vector<std::size_t> cell_of_;  // of each cell of the mesh, its index in cells_
   std::vector<Cell> cells_;
   std::vector<Point> points_;
   std::vector<Hinge> hinges_;
-  std::size_t n_yielded_ = 0;
   AlignedVector low_, high_;                   // of M/(E I) at nodes, within which nothing flows
   AlignedVector p_;                            // at the last commit, rad
   AlignedVector elastic_, before_, earlier_;   // M/(E I): now, at the last commit, the one before
@@ -114,6 +124,7 @@ class MixedSections {
   std::vector<double> of_p_, of_b_;            // M/M_y of the nodes' p and b, row by row
   std::vector<double> jacobian_;
   long n_iterations_ = 0, n_solves_ = 0;
+  mutable std::vector<double> scratch_;
 };
 
 }  // namespace subimpact

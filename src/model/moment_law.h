@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <cmath>
 
 #include "model/section_law.h"
 

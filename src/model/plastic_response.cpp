@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace subimpact {
 namespace {
@@ -40,9 +39,8 @@ void PlasticResponse::respond(std::size_t section, double q, double r, double p,
 
 std::unique_ptr<const PlasticResponse::Column> PlasticResponse::make(std::size_t section) const {
   std::vector<double> shifts[2], curvatures[2];
-  static const double f = getenv("NOQ") ? 0.0 : 1.0;
-  respond(section, f / 6.0, f / 12.0, 1.0, shifts[0], curvatures[0]);
-  respond(section, -f, -f, 0.0, shifts[1], curvatures[1]);
+  respond(section, 1.0 / 6.0, 1.0 / 12.0, 1.0, shifts[0], curvatures[0]);
+  respond(section, -1.0, -1.0, 0.0, shifts[1], curvatures[1]);
   std::vector<double> at_rest(mesh_.n_sections(), 0.0);
   at_rest[section] = -1.0;
   mesh_.solve_hats(at_rest);

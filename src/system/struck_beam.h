@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "model/mixed_sections.h"
 #include "model/modal_mesh.h"
 #include "model/section_field.h"
 #include "numerics/mass_solver.h"
@@ -89,6 +90,8 @@ class StruckBeam final : public MechanicalSystem {
   explicit StruckBeam(StruckBeamParts parts);
 
   std::size_t n_positions() const override { return n_ + 1; }
+  /// On mixed cells only: adds what sections that flow displace. Throws IntegrationFailure.
+  void settle(std::span<double> positions) override;
   void acceleration(std::span<const double> positions, std::span<double> result) override;
   bool depends_on_velocity() const override { return depends_on_velocity_; }
   void acceleration_at(std::span<const double> y, std::span<double> result) override;
@@ -103,6 +106,12 @@ class StruckBeam final : public MechanicalSystem {
 
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
+  /// Sections in which any fibre has flowed.
+  std::size_t n_yielded_sections() const {
+    return mixed_ ? mixed_->n_yielded() : sections_.n_yielded();
+  }
+  /// Bending on mixed cells at a state's positions; null on other meshes. Throws IntegrationFailure.
+  const MixedSections* mixed_at(std::span<const double> y) const;
   const ContactState& contact() const { return contact_; }
   ContactState& contact() { return contact_; }
   const MassSolver& mass_solver() const { return *mass_solver_; }
@@ -165,6 +174,7 @@ class StruckBeam final : public MechanicalSystem {
   long n_forces() const { return n_forces_; }
 
  private:
+  MixedSections& bring_mixed_to(std::span<const double> unknowns) const;
   // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   // Adds the forces of the beam's damping, all or those of beta.
@@ -175,6 +185,8 @@ class StruckBeam final : public MechanicalSystem {
 
   std::shared_ptr<const BeamMesh> mesh_;
   SectionField sections_;
+  std::unique_ptr<MixedSections> mixed_;    // sections_ keeps no history then
+  mutable std::vector<double> mixed_is_at_;  // unknowns
   ContactState contact_;
   std::unique_ptr<MassSolver> mass_solver_;
   std::size_t n_;
