@@ -21,8 +21,8 @@ MomentLaw::Branch MomentLaw::branch_to(double m) const {
 
 MomentLaw::Flow MomentLaw::beyond(double m) const { return on(branch_to(m), m); }
 
-void MomentLaw::commit(double m, const SectionLaw& law, double yield_curvature) {
-  if (m >= low_ && m <= high_) return;
+bool MomentLaw::commit(double m, const SectionLaw& law, double yield_curvature) {
+  if (m >= low_ && m <= high_) return false;
   law.commit(history_, (m + at(m).plastic) * yield_curvature);
   plastic_ = history_.edge.x - history_.edge.m;
   const bool rose = history_.direction > 0;
@@ -30,6 +30,7 @@ void MomentLaw::commit(double m, const SectionLaw& law, double yield_curvature) 
   high_ = rose ? history_.edge.m : history_.edge.m + 2.0;
   rising_ = branch_to(high_ + (rose ? 0.0 : 1e-12));
   falling_ = branch_to(low_ - (rose ? 1e-12 : 0.0));
+  return true;
 }
 
 }  // namespace subimpact

@@ -34,8 +34,9 @@ class MomentLaw {
     if (m * branch.sense > branch.end) return beyond(m);
     return on(branch, m);
   }
-  /// Takes a moment as reached, by the curvature law of the same section.
-  void commit(double m, const SectionLaw& law, double yield_curvature);
+  /// Takes a moment as reached, by the curvature law of the same section. Returns whether anything
+  /// flowed.
+  bool commit(double m, const SectionLaw& law, double yield_curvature);
 
  private:
   // Where a motion beyond the window goes on: up to `end`, times its sense.
@@ -54,7 +55,6 @@ class MomentLaw {
   }
   Flow beyond(double m) const;
   Branch branch_to(double m) const;
-  void see_windows();
 
   SectionHistory history_;
   double plastic_ = 0.0, low_ = -1.0, high_ = 1.0;

@@ -14,8 +14,8 @@ PlasticResponse::PlasticResponse(const MixedMesh& mesh)
     : mesh_(mesh), mass_(mesh.make_mass_solver()), columns_(mesh.n_sections()) {}
 
 // Mass s = J h^2 K^T T^-1 q - rho A h^2 r and M/(E I) = T^-1 (K s - p), with q, r and p at one node.
-void PlasticResponse::respond(std::size_t section, double q, double r, double p,
-                              std::vector<double>& shift, std::vector<double>& curvature) const {
+PlasticResponse::Response PlasticResponse::respond(std::size_t section, double q, double r,
+                                                   double p) const {
   const std::size_t node = section + mesh_.first_moment();
   const double before = node > 0 ? mesh_.cell_length(node - 1) : 0.0;
   const double after = node < mesh_.n_kept_cells() ? mesh_.cell_length(node) : 0.0;
@@ -23,68 +23,55 @@ void PlasticResponse::respond(std::size_t section, double q, double r, double p,
   std::vector<double> moment(mesh_.n_sections(), 0.0);
   moment[section] = -mesh_.rotary_inertia() * h * h * q;
   mesh_.solve_hats(moment);
-  shift.resize(mesh_.n_unknowns());
-  mesh_.forces_of(moment.data(), 1.0, shift.data());
-  const std::size_t unknown = node - mesh_.first_unknown();
-  if (unknown < shift.size()) {
-    shift[unknown] -= mesh_.copies_of_part() * mesh_.mass_per_length() * h * h * r;
+  Response result{std::vector<double>(mesh_.n_unknowns()), moment};
+  mesh_.forces_of(moment.data(), 1.0, result.shift.data());
+  const std::size_t unknown = node - mesh_.first_unknown();  // wraps at a held node
+  if (unknown < result.shift.size()) {
+    result.shift[unknown] -= mesh_.copies_of_part() * mesh_.mass_per_length() * h * h * r;
   }
-  mass_->solve(shift);
+  mass_->solve(result.shift);
   std::vector<double> jump(mesh_.n_sections(), 0.0);
   jump[section] = p;
-  curvature.resize(mesh_.n_sections());
-  mesh_.jumps(shift.data(), jump.data(), curvature.data());
-  mesh_.solve_hats(curvature);
+  mesh_.jumps(result.shift.data(), jump.data(), result.curvature.data());
+  mesh_.solve_hats(result.curvature);
+  return result;
 }
 
 std::unique_ptr<const PlasticResponse::Column> PlasticResponse::make(std::size_t section) const {
-  std::vector<double> shifts[2], curvatures[2];
-  respond(section, 1.0 / 6.0, 1.0 / 12.0, 1.0, shifts[0], curvatures[0]);
-  respond(section, -1.0, -1.0, 0.0, shifts[1], curvatures[1]);
-  std::vector<double> at_rest(mesh_.n_sections(), 0.0);
-  at_rest[section] = -1.0;
-  mesh_.solve_hats(at_rest);
-
-  auto column = std::make_unique<Column>();
-  column->to_unknown = static_cast<long>(mesh_.first_unknown()) -
-                       static_cast<long>(mesh_.first_moment());
-  const auto unknown_of = [&](std::size_t i) { return static_cast<long>(i) - column->to_unknown; };
-  const auto shift_at = [&](std::size_t which, std::size_t i) {
-    const long u = unknown_of(i);
-    return u >= 0 && u < static_cast<long>(shifts[which].size())
-               ? shifts[which][static_cast<std::size_t>(u)]
-               : 0.0;
-  };
-  const auto value = [&](int kind, std::size_t i) {
-    switch (kind) {
-      case curvature_of_p:
-        return curvatures[0][i];
-      case curvature_of_b:
-        return curvatures[1][i];
-      case shift_of_p:
-        return shift_at(0, i);
-      case shift_of_b:
-        return shift_at(1, i);
-      default:
-        return at_rest[i];
-    }
-  };
-  std::size_t first = section, end = section + 1;
-  for (int kind = 0; kind < n_kinds; ++kind) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < mesh_.n_sections(); ++i) {
-      largest = std::max(largest, std::abs(value(kind, i)));
-    }
-    for (std::size_t i = 0; i < mesh_.n_sections(); ++i) {
-      if (std::abs(value(kind, i)) < smallest_entry * largest) continue;
-      first = std::min(first, i);
-      end = std::max(end, i + 1);
-    }
+  const Response of_p = respond(section, 1.0 / 6.0, 1.0 / 12.0, 1.0);
+  const Response of_b = respond(section, -1.0, -1.0, 0.0);
+  const Response at_rest = respond(section, 0.0, 0.0, 1.0);
+  const std::size_t n = mesh_.n_sections();
+  std::array<std::vector<double>, n_kinds> all{of_p.curvature, of_b.curvature,
+                                               std::vector<double>(n), std::vector<double>(n),
+                                               at_rest.curvature};
+  const std::size_t to_unknown = mesh_.first_moment() - mesh_.first_unknown();  // may wrap
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t unknown = i + to_unknown;
+    if (unknown >= mesh_.n_unknowns()) continue;
+    all[shift_of_p][i] = of_p.shift[unknown];
+    all[shift_of_b][i] = of_b.shift[unknown];
   }
-  column->first = first;
-  column->size = end - first;
-  for (int kind = 0; kind < n_kinds; ++kind) {
-    for (std::size_t i = first; i < end; ++i) column->values.push_back(value(kind, i));
+  auto column = std::make_unique<Column>();
+  std::size_t end = section + 1;
+  column->first = section;
+  for (const std::vector<double>& kind : all) {
+    double largest = 0.0;
+    for (const double value : kind) largest = std::max(largest, std::abs(value));
+    const auto counts = [&](double value) { return std::abs(value) > smallest_entry * largest; };
+    const auto first = std::ranges::find_if(kind, counts);
+    const auto last = std::find_if(kind.rbegin(), kind.rend(), counts);
+    if (first == kind.end()) continue;
+    column->first = std::min(column->first, static_cast<std::size_t>(first - kind.begin()));
+    end = std::max(end, static_cast<std::size_t>(kind.rend() - last));
+  }
+  column->size = end - column->first;
+  column->skipped = column->first + to_unknown >= mesh_.n_unknowns() ? 1 : 0;
+  column->first_unknown = column->first + column->skipped + to_unknown;
+  column->n_unknowns =
+      std::min(column->size - column->skipped, mesh_.n_unknowns() - column->first_unknown);
+  for (const std::vector<double>& kind : all) {
+    for (std::size_t i = column->first; i < end; ++i) column->values.push_back(kind[i]);
   }
   return column;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -15,13 +16,14 @@ class PlasticResponse {
  public:
   explicit PlasticResponse(const MixedMesh& mesh);
 
-  /// Quantities per unit of p (rad) or b (rad m0): elastic curvature M/(E I) at sections, 1/m, and
+  /// Quantities per unit of p (rad) or b (rad): elastic curvature M/(E I) at sections, 1/m, and
   /// displacement of unknowns, m.
   enum Kind { curvature_of_p, curvature_of_b, shift_of_p, shift_of_b, curvature_at_rest, n_kinds };
   struct Column {
-    std::size_t first = 0, size = 0;  // sections; unknowns as far from the node
-    long to_unknown = 0;              // unknown of a section: its index less this
-    std::vector<double> values;       // of each kind, one after another
+    std::size_t first = 0, size = 0;  ///< sections
+    /// Unknowns at the same nodes, of which the first `skipped` entries of a kind have none.
+    std::size_t first_unknown = 0, n_unknowns = 0, skipped = 0;
+    std::vector<double> values;  ///< of each kind, one after another
     const double* of(Kind kind) const { return values.data() + kind * size; }
     double at(Kind kind, std::size_t section) const {
       return section - first < size ? values[kind * size + (section - first)] : 0.0;
@@ -35,8 +37,11 @@ class PlasticResponse {
 
  private:
   std::unique_ptr<const Column> make(std::size_t section) const;
-  void respond(std::size_t section, double of_force, double of_mass, double of_jump,
-               std::vector<double>& shift, std::vector<double>& curvature) const;
+  // Displacements and elastic curvatures of the whole mesh.
+  struct Response {
+    std::vector<double> shift, curvature;
+  };
+  Response respond(std::size_t section, double q, double r, double p) const;
 
   const MixedMesh& mesh_;
   std::unique_ptr<MassSolver> mass_;

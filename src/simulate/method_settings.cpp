@@ -215,6 +215,41 @@ void check_method(const Options& options, const ResolvedSettings& used, bool can
   if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
 }
 
+void check_natural_step(const Options& options, const ResolvedSettings& used) {
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  const std::string step = fmt::format("the step of {:.6g} us that belongs to {}",
+                                       1e6 * *used.natural_step, used.mesh);
+  const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
+  if (options.solver.method != Method::central_difference) {
+    refuse("solver.method",
+           fmt::format("is \"{}\", but mixed cells are made for central differences with a step of "
+                       "their own; allowed with model.mesh = \"mixed\": \"central-difference\"; set "
+                       "it, or use another mesh",
+                       method.name));
+  }
+  if (options.solver.step) {
+    refuse("solver.step", fmt::format("is {:.6g} us, but no other step goes with {}; leave it out, "
+                                      "or change model.segments",
+                                      1e6 * *options.solver.step, step));
+  }
+  if (used.events != EventHandling::interpolated) {
+    refuse("solver.events",
+           "is \"located\", but steps on mixed cells are not cut at events; allowed with model.mesh "
+           "= \"mixed\": \"interpolated\"; leave it out");
+  }
+  if (options.stop == StopRule::no_more_contact) {
+    refuse("time.stop",
+           "is \"no-more-contact\", which is not proven on mixed cells; allowed with model.mesh = "
+           "\"mixed\": \"end-time\"; leave it out");
+  }
+  if (*used.natural_step < used.critical_step) return;
+  const double factor = 1.1 * *used.natural_step / used.critical_step;
+  refuse("model.segments",
+         fmt::format("gives {}, above the stability limit with the contact at its stiffest, {:.6g} "
+                     "us; use {:.2g} times as many segments or more, or another mesh",
+                     step, 1e6 * used.critical_step, factor));
+}
+
 std::optional<std::string> table_used(const Options& options) {
   const std::vector<std::string> names = tables_of(descriptor_of(options.solver.method));
   const std::optional<std::string>& asked = options.solver.table;
@@ -234,6 +269,7 @@ std::optional<double> step_used(const Options& options, const ResolvedSettings& 
   if (descriptor_of(options.solver.method).steps != MethodDescriptor::Steps::fixed) {
     return options.solver.step;
   }
+  if (used.natural_step) return used.natural_step;
   const double step = options.solver.step.value_or(default_central_step(used));
   check_central_step(options, used, step);
   return step;

@@ -1,5 +1,6 @@
 #include "system/accounts.h"
 
+#include "model/mixed_sections.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {

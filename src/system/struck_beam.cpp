@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "model/mixed_sections.h"
 #include "ode/integrator.h"
 
 namespace subimpact {
@@ -47,6 +48,14 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
         sections_.can_yield() ? std::optional(sections_.law()) : std::nullopt);
     mixed_is_at_.assign(n_, 0.0);
   }
+}
+
+StruckBeam::StruckBeam(StruckBeam&&) noexcept = default;
+StruckBeam& StruckBeam::operator=(StruckBeam&&) noexcept = default;
+StruckBeam::~StruckBeam() = default;
+
+std::size_t StruckBeam::n_yielded_sections() const {
+  return mixed_ ? mixed_->n_yielded() : sections_.n_yielded();
 }
 
 void StruckBeam::settle(std::span<double> positions) {

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "model/mixed_sections.h"
 #include "model/modal_mesh.h"
 #include "model/section_field.h"
 #include "numerics/mass_solver.h"
@@ -14,6 +13,8 @@
 #include "system/contact_state.h"
 
 namespace subimpact {
+
+class MixedSections;
 
 struct StruckBeamParts {
   std::shared_ptr<const BeamMesh> mesh;
@@ -88,6 +89,9 @@ class BeamJacobian {
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
+  StruckBeam(StruckBeam&&) noexcept;
+  StruckBeam& operator=(StruckBeam&&) noexcept;
+  ~StruckBeam() override;
 
   std::size_t n_positions() const override { return n_ + 1; }
   /// On mixed cells only: adds what sections that flow displace. Throws IntegrationFailure.
@@ -107,9 +111,7 @@ class StruckBeam final : public MechanicalSystem {
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
   /// Sections in which any fibre has flowed.
-  std::size_t n_yielded_sections() const {
-    return mixed_ ? mixed_->n_yielded() : sections_.n_yielded();
-  }
+  std::size_t n_yielded_sections() const;
   /// Bending on mixed cells at a state's positions; null on other meshes. Throws IntegrationFailure.
   const MixedSections* mixed_at(std::span<const double> y) const;
   const ContactState& contact() const { return contact_; }
