@@ -133,10 +133,14 @@ MixedSections::Energies MixedSections::energies() const {
   sum.elastic *= 0.5 * stiffness_;
   if (flow_) {
     for (std::size_t index = 0; index < flow_->cells.n_made(); ++index) {
+      sum.elastic += flow_->cells.energies_at_rest(index).elastic;
+      sum.plastic += flow_->cells.energies_at_rest(index).plastic;
+    }
+    for (std::size_t k = 0; flowed_ && k < active_.size(); ++k) {
       const auto [elastic, plastic] =
-          flow_->cells.energies(index, moments_at(flow_->cells.cell_of(index)));
-      sum.elastic += elastic;
-      sum.plastic += plastic;
+          flow_->cells.energies(active_[k], moments_at(flow_->cells.cell_of(active_[k])));
+      sum.elastic += elastic - flow_->cells.energies_at_rest(active_[k]).elastic;
+      sum.plastic += plastic - flow_->cells.energies_at_rest(active_[k]).plastic;
     }
     const double unit = stiffness_ * yield_curvature_ * yield_curvature_;
     sum.plastic += unit * flow_->equations.hinge_work();

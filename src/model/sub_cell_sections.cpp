@@ -51,7 +51,7 @@ std::size_t SubCellSections::make(std::size_t cell) {
     for (std::size_t k = 0; k < 2; ++k) add(gauss<2>.points[k], gauss<2>.weights[k], length);
   }
   index_of_[cell] = cells_.size();
-  cells_.push_back({cell, first, sections_.size()});
+  cells_.push_back({cell, first, sections_.size(), {}});
   return index_of_[cell];
 }
 
@@ -119,12 +119,13 @@ SubCellSections::Flow SubCellSections::flow(std::size_t index, const Ends& momen
 }
 
 bool SubCellSections::commit(std::size_t index, const Ends& moments) {
-  const Cell& cell = cells_[index];
+  Cell& cell = cells_[index];
   bool flowed = false;
   for (std::size_t i = cell.first; i < cell.end; ++i) {
     Section& section = sections_[i];
     flowed |= section.law.commit(section.moment(moments), law_, yield_curvature_);
   }
+  if (flowed) cell.at_rest.reset();
   return flowed;
 }
 
@@ -142,19 +143,37 @@ double SubCellSections::curvature(const Section& section, double moment) const {
   return (moment + section.law.at(moment).plastic) * yield_curvature_;
 }
 
+SubCellSections::Energies SubCellSections::energies(const Section& section, double m) const {
+  const double kappa = curvature(section, m);
+  reached_ = section.law.history();
+  law_.commit(reached_, kappa);
+  const double elastic = law_.elastic_energy(reached_, kappa);
+  const double of_moment = 0.5 * law_.stiffness() * yield_curvature_ * yield_curvature_ * m * m;
+  const double weight = section.weight[0] + section.weight[1];
+  return {weight * (elastic - of_moment), weight * (law_.work(reached_, kappa) - elastic)};
+}
+
 SubCellSections::Energies SubCellSections::energies(std::size_t index, const Ends& moments) const {
   const Cell& cell = cells_[index];
   Energies sum;
   for (std::size_t i = cell.first; i < cell.end; ++i) {
     const Section& section = sections_[i];
-    const double weight = section.weight[0] + section.weight[1];
-    const double m = short_of_limit(section.moment(moments));
-    const double kappa = curvature(section, m);
-    const double elastic = law_.elastic_energy(section.law.history(), kappa);
-    const double of_moment =
-        0.5 * law_.stiffness() * yield_curvature_ * yield_curvature_ * m * m;
-    sum.elastic += weight * (elastic - of_moment);
-    sum.plastic += weight * (law_.work(section.law.history(), kappa) - elastic);
+    const auto [elastic, plastic] = energies(section, short_of_limit(section.moment(moments)));
+    sum.elastic += elastic;
+    sum.plastic += plastic;
+  }
+  return sum;
+}
+
+const SubCellSections::Energies& SubCellSections::energies_at_rest(std::size_t index) const {
+  const Cell& cell = cells_[index];
+  if (cell.at_rest) return *cell.at_rest;
+  Energies& sum = cell.at_rest.emplace();
+  for (std::size_t i = cell.first; i < cell.end; ++i) {
+    const MomentLaw& law = sections_[i].law;
+    const auto [elastic, plastic] = energies(sections_[i], 0.5 * (law.low() + law.high()));
+    sum.elastic += elastic;
+    sum.plastic += plastic;
   }
   return sum;
 }

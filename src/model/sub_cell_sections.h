@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "model/mixed_mesh.h"
@@ -56,6 +57,8 @@ class SubCellSections {
     double elastic = 0.0, plastic = 0.0;  ///< J; the elastic one beside that of the moment
   };
   Energies energies(std::size_t index, const Ends& moments) const;
+  /// The same while nothing flows in the cell, whatever the moments.
+  const Energies& energies_at_rest(std::size_t index) const;
   /// Of the outermost fibre away from the striker, Pa, at the section nearest to the second node.
   double outer_stress(std::size_t index, const Ends& moments) const;
 
@@ -69,9 +72,11 @@ class SubCellSections {
   };
   struct Cell {
     std::size_t cell, first, end;  // sections
+    mutable std::optional<Energies> at_rest = {};  // computed when first needed after each flow
   };
   void add(double at, double weight, double length);
   double curvature(const Section& section, double moment) const;  // 1/m
+  Energies energies(const Section& section, double moment) const;
 
   const MixedMesh& mesh_;
   SectionLaw law_;
@@ -79,6 +84,7 @@ class SubCellSections {
   std::vector<std::size_t> index_of_;
   std::vector<Cell> cells_;
   std::vector<Section> sections_;
+  mutable SectionHistory reached_;  // work space
 };
 
 }  // namespace subimpact
