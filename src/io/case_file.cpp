@@ -299,7 +299,7 @@ class Reader {
     for (const bool in_file : {false, true}) {
       const MeshDescriptor* chosen = nullptr;
       for (const MeshDescriptor& mesh : meshes()) {
-        if (!mesh.suits(read.scene.beam)) continue;
+        if (!mesh.suits(read.scene.beam) || mesh.has_own_step) continue;  // cells have its key
         if (!mesh.refinement || !is_given(mesh.refinement->key, in_file)) continue;
         if (chosen != nullptr) {
           const char* first = chosen->refinement->key;

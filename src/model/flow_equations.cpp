@@ -7,7 +7,7 @@ namespace subimpact {
 namespace {
 
 constexpr auto none = SubCellSections::none;
-constexpr double tolerance = 1e-8;  // of the equations, in M_y
+constexpr double tolerance = 1e-6;  // of the equations, in M_y
 constexpr int most_iterations = 60;
 constexpr int bold_iterations = 10;  // after which the error must fall in each
 constexpr int most_releases = 4;     // of hinges, in one solution
@@ -52,24 +52,29 @@ void FlowEquations::gather(const std::vector<std::size_t>& active, bool coupled)
     local_cells_.push_back({index, {local_of(cell), local_of(cell + 1)}, {}});
   }
   for (Hinge& hinge : hinges_) hinge.local = local_of(hinge.section + mesh_.first_moment());
-  for (auto* each :
-       {&moments_, &without_flow_, &p_, &b_, &error_, &step_, &part_, &tried_, &tried_turn_}) {
-    each->resize(nodes_.size());
-  }
+  const std::size_t stride = (nodes_.size() + n_lanes - 1) / n_lanes * n_lanes;
+  if (stride != stride_) resize(stride);
   read_responses();
+}
+
+void FlowEquations::resize(std::size_t stride) {
+  stride_ = stride;
+  for (auto* each :
+       {&moments_, &without_flow_, &p_, &b_, &error_, &step_, &part_, &tried_, &tried_turn_, &above_}) {
+    each->assign(stride_, 0.0);
+  }
 }
 
 void FlowEquations::read_responses() {
   const std::size_t n = nodes_.size();
-  jacobian_.resize(n * n);
-  of_p_.resize(n * n);
-  of_b_.assign(n * n, 0.0);
+  for (auto* each : {&of_p_, &of_b_}) each->assign(n * stride_, 0.0);
+  jacobian_.resize(n * stride_);
   const auto of_p = coupled_ ? PlasticResponse::curvature_of_p : PlasticResponse::curvature_at_rest;
   for (std::size_t j = 0; j < n; ++j) {
     const PlasticResponse::Column& column = response_.column(nodes_[j]);
     for (std::size_t i = 0; i < n; ++i) {
-      of_p_[j * n + i] = column.at(of_p, nodes_[i]);
-      if (coupled_) of_b_[j * n + i] = column.at(PlasticResponse::curvature_of_b, nodes_[i]);
+      of_p_[j * stride_ + i] = column.at(of_p, nodes_[i]);
+      if (coupled_) of_b_[j * stride_ + i] = column.at(PlasticResponse::curvature_of_b, nodes_[i]);
     }
   }
 }
@@ -123,9 +128,18 @@ void FlowEquations::start(const Moments& moments) {
 }
 
 SubCellSections::Ends FlowEquations::at_ends(const LocalCell& cell,
-                                             const std::vector<double>& of_nodes) const {
+                                             const AlignedVector& of_nodes) const {
   const auto at = [&](std::size_t node) { return node == none ? 0.0 : of_nodes[node]; };
   return {at(cell.nodes[0]), at(cell.nodes[1])};
+}
+
+// column -= (response to a node's p) p + (that to its b) b.
+void FlowEquations::subtract_response(std::size_t node, double p, double b, double* column) const {
+  const double* of_p = of_p_.data() + node * stride_;
+  const double* of_b = of_b_.data() + node * stride_;
+  for (std::size_t i = 0; i < stride_; i += n_lanes) {
+    store(lanes_at(column + i) - (p * lanes_at(of_p + i) + b * lanes_at(of_b + i)), column + i);
+  }
 }
 
 // p and b at the present moments. Returns the largest error of the equations.
@@ -146,11 +160,7 @@ double FlowEquations::evaluate() {
   }
   for (std::size_t i = 0; i < n; ++i) error_[i] = moments_[i] - without_flow_[i];
   for (std::size_t j = 0; j < n; ++j) {
-    const double p = p_[j], b = b_[j];
-    if (p == 0.0 && b == 0.0) continue;
-    const double* of_p = of_p_.data() + j * n;
-    const double* of_b = of_b_.data() + j * n;
-    for (std::size_t i = 0; i < n; ++i) error_[i] -= of_p[i] * p + of_b[i] * b;
+    if (p_[j] != 0.0 || b_[j] != 0.0) subtract_response(j, p_[j], b_[j], error_.data());
   }
   double largest = 0.0;
   for (const double error : error_) {
@@ -160,27 +170,22 @@ double FlowEquations::evaluate() {
 }
 
 void FlowEquations::assemble() {
-  const std::size_t n = nodes_.size();
   std::ranges::fill(jacobian_, 0.0);
-  for (std::size_t i = 0; i < n; ++i) jacobian_[i * n + i] = 1.0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) jacobian_[i * stride_ + i] = 1.0;
   for (const LocalCell& cell : local_cells_) {
     for (std::size_t l = 0; l < 2; ++l) {
       if (cell.nodes[l] == none) continue;
-      double* column = jacobian_.data() + cell.nodes[l] * n;
+      double* column = jacobian_.data() + cell.nodes[l] * stride_;
       for (std::size_t k = 0; k < 2; ++k) {
         const double p = cell.flow.p_slope[k][l], b = cell.flow.b_slope[k][l];
-        if (cell.nodes[k] == none || p == 0.0) continue;
-        const double* of_p = of_p_.data() + cell.nodes[k] * n;
-        const double* of_b = of_b_.data() + cell.nodes[k] * n;
-#pragma GCC ivdep
-        for (std::size_t i = 0; i < n; ++i) column[i] -= of_p[i] * p + of_b[i] * b;
+        if (cell.nodes[k] != none && p != 0.0) subtract_response(cell.nodes[k], p, b, column);
       }
     }
   }
   for (const Hinge& hinge : hinges_) {
     if (!hinge.turns()) continue;
-    const std::size_t column = hinge.local * n;
-    for (std::size_t i = column; i < column + n; ++i) jacobian_[i] = -of_p_[i];
+    const std::size_t column = hinge.local * stride_;
+    for (std::size_t i = column; i < column + stride_; ++i) jacobian_[i] = -of_p_[i];
   }
 }
 
@@ -189,21 +194,30 @@ void FlowEquations::find_step() {
   assemble();
   const std::size_t n = nodes_.size();
   for (std::size_t i = 0; i < n; ++i) step_[i] = -error_[i];
+  const auto subtract = [this](double factor, const double* from, double* column, std::size_t first) {
+    for (std::size_t i = first; i < stride_; i += n_lanes) {
+      store(lanes_at(column + i) - factor * lanes_at(from + i), column + i);
+    }
+  };
   for (std::size_t k = 0; k < n; ++k) {
-    double* pivot = jacobian_.data() + k * n;
+    double* pivot = jacobian_.data() + k * stride_;
     const double inverse = 1.0 / pivot[k];
+    // Below the diagonal the multipliers; above it and on it zeros, so that whole lanes will do.
+    const std::size_t first = k / n_lanes * n_lanes;
+    for (std::size_t i = first; i <= k; ++i) {
+      above_[i] = pivot[i];
+      pivot[i] = 0.0;
+    }
     for (std::size_t i = k + 1; i < n; ++i) pivot[i] *= inverse;
-    const auto subtract = [&](double* column) {
-      const double factor = column[k];
-      if (factor == 0.0) return;
-#pragma GCC ivdep
-      for (std::size_t i = k + 1; i < n; ++i) column[i] -= factor * pivot[i];
-    };
-    for (std::size_t j = k + 1; j < n; ++j) subtract(jacobian_.data() + j * n);
-    subtract(step_.data());
+    for (std::size_t j = k + 1; j < n; ++j) {
+      double* column = jacobian_.data() + j * stride_;
+      if (column[k] != 0.0) subtract(column[k], pivot, column, first);
+    }
+    subtract(step_[k], pivot, step_.data(), first);
+    for (std::size_t i = first; i <= k; ++i) pivot[i] = above_[i];
   }
   for (std::size_t k = n; k-- > 0;) {
-    const double* column = jacobian_.data() + k * n;
+    const double* column = jacobian_.data() + k * stride_;
     step_[k] /= column[k];
     for (std::size_t i = 0; i < k; ++i) step_[i] -= step_[k] * column[i];
   }

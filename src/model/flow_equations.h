@@ -62,9 +62,11 @@ class FlowEquations {
 
   void gather(const std::vector<std::size_t>& active, bool coupled);
   std::size_t local_of(std::size_t node) const;
+  void resize(std::size_t stride);
   void read_responses();
   void start(const Moments& moments);
   double evaluate();
+  void subtract_response(std::size_t node, double p, double b, double* column) const;
   void find_step();
   void assemble();
   void advance();
@@ -72,7 +74,7 @@ class FlowEquations {
   bool is_inside() const;
   bool release_hinges();
   void engage_hinges(double within);
-  Ends at_ends(const LocalCell& cell, const std::vector<double>& of_nodes) const;
+  Ends at_ends(const LocalCell& cell, const AlignedVector& of_nodes) const;
 
   const MixedMesh& mesh_;
   SubCellSections& cells_;
@@ -84,10 +86,11 @@ class FlowEquations {
   bool coupled_ = true;
   std::vector<LocalCell> local_cells_;
   std::vector<std::size_t> nodes_;
-  // One entry per node.
-  std::vector<double> moments_, without_flow_, p_, b_, error_, step_, part_, tried_, tried_turn_;
-  // Column by column: m of all nodes for a unit of one node's p or b.
-  std::vector<double> of_p_, of_b_, jacobian_;
+  // One entry per node, and zeros up to a whole number of lanes, stride_.
+  std::size_t stride_ = 0;
+  AlignedVector moments_, without_flow_, p_, b_, error_, step_, part_, tried_, tried_turn_, above_;
+  // Columns of stride_ entries: m of all nodes for a unit of one node's p or b.
+  AlignedVector of_p_, of_b_, jacobian_;
 };
 
 }  // namespace subimpact

@@ -21,7 +21,11 @@ class MomentLaw {
   double plastic() const { return plastic_; }      ///< at the last commit
   double low() const { return low_; }              ///< m between which nothing flows
   double high() const { return high_; }
-  const SectionHistory& history() const { return history_; }
+  /// As SectionLaw takes it.
+  const SectionHistory& history(const SectionLaw& law, double yield_curvature) const {
+    catch_up(law, yield_curvature);
+    return history_;
+  }
 
   struct Flow {
     double plastic;  ///< x - m
@@ -55,8 +59,15 @@ class MomentLaw {
   }
   Flow beyond(double m) const;
   Branch branch_to(double m) const;
+  void catch_up(const SectionLaw& law, double yield_curvature) const;
+  void move_on(SectionHistory::Point to);
+  void see_window();
 
-  SectionHistory history_;
+  // Up to the last change of branch, or later; the rest of the way to edge_ is on one branch.
+  mutable SectionHistory history_;
+  mutable bool lags_ = false;
+  SectionHistory::Point edge_{0.0, 0.0};
+  int direction_ = 0;
   double plastic_ = 0.0, low_ = -1.0, high_ = 1.0;
   Branch rising_{.sense = 1.0}, falling_{.sense = -1.0};
 };

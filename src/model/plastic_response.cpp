@@ -6,7 +6,7 @@
 namespace subimpact {
 namespace {
 
-constexpr double smallest_entry = 1e-14;  // beside the largest of its kind
+constexpr double smallest_entry = 1e-12;  // beside the largest of its kind
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace subimpact {
 
 /// What plastic curvature at one node of a mixed mesh does to moments and displacements around it,
 /// with inertia as in MixedSections: linear, and constant in time. One column per node, computed
-/// when its node first flows; entries that have decayed below 1e-14 are left out.
+/// when its node first flows; entries that have decayed below 1e-12 are left out.
 class PlasticResponse {
  public:
   explicit PlasticResponse(const MixedMesh& mesh);

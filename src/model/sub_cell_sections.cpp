@@ -145,7 +145,7 @@ double SubCellSections::curvature(const Section& section, double moment) const {
 
 SubCellSections::Energies SubCellSections::energies(const Section& section, double m) const {
   const double kappa = curvature(section, m);
-  reached_ = section.law.history();
+  reached_ = section.law.history(law_, yield_curvature_);
   law_.commit(reached_, kappa);
   const double elastic = law_.elastic_energy(reached_, kappa);
   const double of_moment = 0.5 * law_.stiffness() * yield_curvature_ * yield_curvature_ * m * m;
@@ -185,7 +185,7 @@ double SubCellSections::outer_stress(std::size_t index, const Ends& moments) con
     if (sections_[i].hat[1] > nearest->hat[1]) nearest = &sections_[i];
   }
   const double m = short_of_limit(nearest->moment(moments));
-  return law_.outer_stress(nearest->law.history(), curvature(*nearest, m));
+  return law_.outer_stress(nearest->law.history(law_, yield_curvature_), curvature(*nearest, m));
 }
 
 }  // namespace subimpact
