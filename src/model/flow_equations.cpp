@@ -163,8 +163,9 @@ double FlowEquations::evaluate() {
     if (p_[j] != 0.0 || b_[j] != 0.0) subtract_response(j, p_[j], b_[j], error_.data());
   }
   double largest = 0.0;
-  for (const double error : error_) {
-    largest = std::abs(error) <= largest ? largest : std::abs(error);  // NaN too
+  for (std::size_t i = 0; i < n; ++i) {
+    const double error = std::abs(error_[i]);
+    largest = error <= largest ? largest : error;  // NaN too
   }
   return largest;
 }

@@ -86,7 +86,7 @@ class FlowEquations {
   bool coupled_ = true;
   std::vector<LocalCell> local_cells_;
   std::vector<std::size_t> nodes_;
-  // One entry per node, and zeros up to a whole number of lanes, stride_.
+  // One entry per node, and more up to a whole number of lanes, stride_, that do not count.
   std::size_t stride_ = 0;
   AlignedVector moments_, without_flow_, p_, b_, error_, step_, part_, tried_, tried_turn_, above_;
   // Columns of stride_ entries: m of all nodes for a unit of one node's p or b.

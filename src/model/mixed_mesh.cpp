@@ -78,10 +78,11 @@ void MixedMesh::place_nodes(double length, double position) {
   const double before = struck / static_cast<double>(struck_node_);
   const double after = (length - struck) / static_cast<double>(n_cells_ - struck_node_);
   for (std::size_t i = 0; i <= kept; ++i) {
-    const double past = static_cast<double>(i) - static_cast<double>(struck_node_);
-    node_positions_.push_back(struck + past * (past < 0.0 ? before : after));
+    const bool is_before = i < struck_node_;
+    node_positions_.push_back(is_before ? static_cast<double>(i) * before
+                                        : length - static_cast<double>(n_cells_ - i) * after);
     if (i == kept) break;
-    lengths_.push_back(past < 0.0 ? before : after);
+    lengths_.push_back(is_before ? before : after);
     inverse_lengths_.push_back(1.0 / lengths_.back());
   }
 }
