@@ -320,11 +320,18 @@ SparseFunctional MixedMesh::curvature_functional(std::size_t section) const {
   return result;
 }
 
-std::optional<SparseFunctional> MixedMesh::displacement_at(double x) const {
+// The cell of x and the share of it before x, without rounding at a node.
+std::pair<std::size_t, double> MixedMesh::place_of(double x) const {
   const auto after = std::ranges::upper_bound(node_positions_, x);
   const auto past = static_cast<std::size_t>(after - node_positions_.begin());
   const std::size_t cell = std::clamp<std::size_t>(past, 1, n_kept_cells()) - 1;
-  const double share = std::clamp((x - node_positions_[cell]) * inverse_lengths_[cell], 0.0, 1.0);
+  const double share = (x - node_positions_[cell]) * inverse_lengths_[cell];
+  const double nearest = std::round(share);
+  return {cell, std::abs(share - nearest) < 1e-10 ? nearest : std::clamp(share, 0.0, 1.0)};
+}
+
+std::optional<SparseFunctional> MixedMesh::displacement_at(double x) const {
+  const auto [cell, share] = place_of(x);
   SparseFunctional displacement;
   displacement.add(1.0 - share, node(cell));
   displacement.add(share, node(cell + 1));
@@ -343,10 +350,7 @@ std::optional<SparseFunctional> MixedMesh::rotation_at(double x) const {
     }
     return slope;
   };
-  const auto after = std::ranges::upper_bound(node_positions_, x);
-  const auto past = static_cast<std::size_t>(after - node_positions_.begin());
-  const std::size_t cell = std::clamp<std::size_t>(past, 1, n_kept_cells()) - 1;
-  const double share = std::clamp((x - node_positions_[cell]) * inverse_lengths_[cell], 0.0, 1.0);
+  const auto [cell, share] = place_of(x);
   SparseFunctional rotation;
   rotation.add(1.0 - share, slope_at(cell));
   rotation.add(share, slope_at(cell + 1));

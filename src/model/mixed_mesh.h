@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "numerics/lanes.h"
@@ -91,6 +92,7 @@ class MixedMesh final : public BeamMesh {
   void assemble_hats();
   void assemble_functionals();
   SparseFunctional node(std::size_t i) const;
+  std::pair<std::size_t, double> place_of(double x) const;
   // L with the lengths of the links, and `inertia` over the masses at their ends.
   BandedMatrix link_matrix(double inertia) const;
   double displacement(const double* unknowns, std::size_t node) const;  // zero where it is held

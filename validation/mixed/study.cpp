@@ -81,7 +81,7 @@ Point point_of(const Strike& strike, MeshKind mesh, int count,
   double seconds = HUGE_VAL;
   for (int i = 0; i < repetitions; ++i) {
     result = simulate(example(strike, mesh, count));
-    seconds = std::min(seconds, result.work.wall_seconds + result.work.setup_seconds);
+    seconds = std::min(seconds, result.work.wall_seconds);
   }
   const EventErrors errors = event_errors(result.sub_impacts, limit);
   return {strike.name,         mesh == MeshKind::mixed ? "mixed" : "cells",
