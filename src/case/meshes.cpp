@@ -95,15 +95,17 @@ void check_mixed_model(const Case& input) {
                       "model.mesh = \"mixed\": \"rayleigh\"; choose it, or another mesh");
   }
   if (!input.scene.beam.damping.is_none()) {
-    throw InvalidCase("beam.damping",
-                      "is given, but mixed cells have no damping; leave it out, or use another mesh");
+    throw InvalidCase(
+        "beam.damping",
+        "is given, but mixed cells have no damping; leave it out, or use another mesh");
   }
   if (input.parts.section || input.model.section == SectionKind::layers) {
-    throw InvalidCase("model.section",
-                      fmt::format("is {}, but mixed cells find the curvature from the moment by the "
-                                  "rectangle's closed form; allowed with model.mesh = \"mixed\": "
-                                  "\"exact\", \"elastic\"; choose one, or another mesh",
-                                  input.parts.section ? "a section of its own" : "\"layers\""));
+    throw InvalidCase(
+        "model.section",
+        fmt::format("is {}, but mixed cells find the curvature from the moment by the "
+                    "rectangle's closed form; allowed with model.mesh = \"mixed\": "
+                    "\"exact\", \"elastic\"; choose one, or another mesh",
+                    input.parts.section ? "a section of its own" : "\"layers\""));
   }
 }
 

@@ -19,8 +19,7 @@ constexpr double at_hinge_again = 1e-9;
 
 }  // namespace
 
-FlowEquations::FlowEquations(const MixedMesh& mesh, SubCellSections& cells,
-                             double yield_curvature)
+FlowEquations::FlowEquations(const MixedMesh& mesh, SubCellSections& cells, double yield_curvature)
     : mesh_(mesh), cells_(cells), yield_curvature_(yield_curvature), response_(mesh) {
   for (std::size_t i = 0; i < mesh.n_sections(); ++i) {
     if (mesh.may_hinge(i + mesh.first_moment())) hinges_.push_back({.section = i});
@@ -30,7 +29,8 @@ FlowEquations::FlowEquations(const MixedMesh& mesh, SubCellSections& cells,
 std::size_t FlowEquations::local_of(std::size_t node) const {
   const std::size_t section = node - mesh_.first_moment();  // wraps where a node has no moment
   const auto at = std::ranges::lower_bound(nodes_, section);
-  return at != nodes_.end() && *at == section ? static_cast<std::size_t>(at - nodes_.begin()) : none;
+  return at != nodes_.end() && *at == section ? static_cast<std::size_t>(at - nodes_.begin())
+                                              : none;
 }
 
 void FlowEquations::gather(const std::vector<std::size_t>& active, bool coupled) {
@@ -59,8 +59,8 @@ void FlowEquations::gather(const std::vector<std::size_t>& active, bool coupled)
 
 void FlowEquations::resize(std::size_t stride) {
   stride_ = stride;
-  for (auto* each :
-       {&moments_, &without_flow_, &p_, &b_, &error_, &step_, &part_, &tried_, &tried_turn_, &above_}) {
+  for (auto* each : {&moments_, &without_flow_, &p_, &b_, &error_, &step_, &part_, &tried_,
+                     &tried_turn_, &above_}) {
     each->assign(stride_, 0.0);
   }
 }
@@ -195,7 +195,8 @@ void FlowEquations::find_step() {
   assemble();
   const std::size_t n = nodes_.size();
   for (std::size_t i = 0; i < n; ++i) step_[i] = -error_[i];
-  const auto subtract = [this](double factor, const double* from, double* column, std::size_t first) {
+  const auto subtract = [this](double factor, const double* from, double* column,
+                               std::size_t first) {
     for (std::size_t i = first; i < stride_; i += n_lanes) {
       store(lanes_at(column + i) - factor * lanes_at(from + i), column + i);
     }
@@ -234,8 +235,7 @@ void FlowEquations::advance() {
       hinge.turned += step_[hinge.local];
       step_[hinge.local] = 0.0;
     } else {
-      part_[hinge.local] =
-          SubCellSections::part_of_step(moments_[hinge.local], step_[hinge.local]);
+      part_[hinge.local] = SubCellSections::part_of_step(moments_[hinge.local], step_[hinge.local]);
     }
   }
   for (const LocalCell& cell : local_cells_) {

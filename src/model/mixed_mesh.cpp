@@ -197,16 +197,15 @@ class MixedMesh::Solver final : public MassSolver {
     const double inertia = inertia_;
     const double* after = psi + first_;
     a += first_;
-    assign_by_lines(f, n, [=](auto at) {
-      return at(a) - inertia * at(inverse) * (at(after - 1) - at(after));
-    });
+    assign_by_lines(
+        f, n, [=](auto at) { return at(a) - inertia * at(inverse) * (at(after - 1) - at(after)); });
   }
 
  private:
   std::size_t first_;
   double inertia_;
   BandedSolver links_;
-  AlignedVector inverse_masses_;         // of all nodes; zero where held
+  AlignedVector inverse_masses_;            // of all nodes; zero where held
   mutable AlignedVector motion_, momenta_;  // work space
 };
 

@@ -11,8 +11,7 @@ constexpr int most_rounds = 40;  // in which flow in some cells brings others to
 
 }  // namespace
 
-MixedSections::MixedSections(const MixedMesh& mesh, double stiffness,
-                             std::optional<SectionLaw> law)
+MixedSections::MixedSections(const MixedMesh& mesh, double stiffness, std::optional<SectionLaw> law)
     : mesh_(mesh),
       stiffness_(stiffness),
       yield_curvature_(law ? law->window({}).high : 1.0),
@@ -110,9 +109,8 @@ void MixedSections::narrow_windows(std::size_t cell) {
     for (const std::size_t beside : {node - 1, node}) {
       if (beside >= mesh_.n_kept_cells()) continue;
       const std::size_t index = flow_->cells.find(beside);
-      const SubCellSections::Window window = index == SubCellSections::none
-                                                 ? SubCellSections::Window{-1.0, 1.0}
-                                                 : flow_->cells.window(index);
+      SubCellSections::Window window;
+      if (index != SubCellSections::none) window = flow_->cells.window(index);
       both = {std::max(both.low, window.low), std::min(both.high, window.high)};
     }
     low_[section] = both.low * yield_curvature_;
@@ -152,7 +150,8 @@ void MixedSections::read_bending(std::span<double> curvatures, std::span<double>
   std::ranges::copy(p_, curvatures.begin());
   if (flowed_) flow_->equations.add_to_p(curvatures);
   for (std::size_t i = 0; i < elastic_.size(); ++i) {
-    curvatures[i] = elastic_[i] + mesh_.copies_of_part() * curvatures[i] / mesh_.section_weights()[i];
+    curvatures[i] =
+        elastic_[i] + mesh_.copies_of_part() * curvatures[i] / mesh_.section_weights()[i];
     moments[i] = stiffness_ * elastic_[i];
   }
 }

@@ -18,8 +18,8 @@ class MomentLaw {
   /// As magnitude of m: of a section that flows throughout.
   static constexpr double limit = 1.5;
 
-  double plastic() const { return plastic_; }      ///< at the last commit
-  double low() const { return low_; }              ///< m between which nothing flows
+  double plastic() const { return plastic_; }  ///< at the last commit
+  double low() const { return low_; }          ///< m between which nothing flows
   double high() const { return high_; }
   /// As SectionLaw takes it.
   const SectionHistory& history(const SectionLaw& law, double yield_curvature) const {

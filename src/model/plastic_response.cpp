@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace subimpact {
 namespace {
 
+constexpr std::size_t nodes_of_ends = 5;  // Gregory's weights, and one
 constexpr double smallest_entry = 1e-12;  // beside the largest of its kind
 
 }  // namespace
@@ -13,7 +15,8 @@ constexpr double smallest_entry = 1e-12;  // beside the largest of its kind
 PlasticResponse::PlasticResponse(const MixedMesh& mesh)
     : mesh_(mesh), mass_(mesh.make_mass_solver()), columns_(mesh.n_sections()) {}
 
-// Mass s = J h^2 K^T T^-1 q - rho A h^2 r and M/(E I) = T^-1 (K s - p), with q, r and p at one node.
+// Mass s = J h^2 K^T T^-1 q - rho A h^2 r and M/(E I) = T^-1 (K s - p), with q, r and p at one
+// node.
 PlasticResponse::Response PlasticResponse::respond(std::size_t section, double q, double r,
                                                    double p) const {
   const std::size_t node = section + mesh_.first_moment();
@@ -37,7 +40,29 @@ PlasticResponse::Response PlasticResponse::respond(std::size_t section, double q
   return result;
 }
 
-std::unique_ptr<const PlasticResponse::Column> PlasticResponse::make(std::size_t section) const {
+// Within the cells of one length, and off the nodes that have other masses than the rest.
+bool PlasticResponse::is_far_from_ends(const Column& column) const {
+  const std::size_t first = column.first + mesh_.first_moment();
+  const std::size_t end = first + column.size;
+  if (first < nodes_of_ends || end + nodes_of_ends > mesh_.n_kept_cells()) return false;
+  return end <= mesh_.struck_node() || first > mesh_.struck_node();
+}
+
+PlasticResponse::Column PlasticResponse::make(std::size_t section) {
+  const bool is_before = section + mesh_.first_moment() < mesh_.struck_node();
+  std::optional<Pattern>& pattern = patterns_[is_before ? 0 : 1];
+  if (pattern) {
+    Column shifted = pattern->column;
+    shifted.first += section - pattern->section;  // may wrap; is then far from nothing
+    shifted.first_unknown += section - pattern->section;
+    if (shifted.first < mesh_.n_sections() && is_far_from_ends(shifted)) return shifted;
+  }
+  Column column = computed(section);
+  if (is_far_from_ends(column)) pattern = Pattern{section, column};
+  return column;
+}
+
+PlasticResponse::Column PlasticResponse::computed(std::size_t section) const {
   const Response of_p = respond(section, 1.0 / 6.0, 1.0 / 12.0, 1.0);
   const Response of_b = respond(section, -1.0, -1.0, 0.0);
   const Response at_rest = respond(section, 0.0, 0.0, 1.0);
@@ -52,9 +77,9 @@ std::unique_ptr<const PlasticResponse::Column> PlasticResponse::make(std::size_t
     all[shift_of_p][i] = of_p.shift[unknown];
     all[shift_of_b][i] = of_b.shift[unknown];
   }
-  auto column = std::make_unique<Column>();
+  Column column;
   std::size_t end = section + 1;
-  column->first = section;
+  column.first = section;
   for (const std::vector<double>& kind : all) {
     double largest = 0.0;
     for (const double value : kind) largest = std::max(largest, std::abs(value));
@@ -62,17 +87,20 @@ std::unique_ptr<const PlasticResponse::Column> PlasticResponse::make(std::size_t
     const auto first = std::ranges::find_if(kind, counts);
     const auto last = std::find_if(kind.rbegin(), kind.rend(), counts);
     if (first == kind.end()) continue;
-    column->first = std::min(column->first, static_cast<std::size_t>(first - kind.begin()));
+    column.first = std::min(column.first, static_cast<std::size_t>(first - kind.begin()));
     end = std::max(end, static_cast<std::size_t>(kind.rend() - last));
   }
-  column->size = end - column->first;
-  column->skipped = column->first + to_unknown >= mesh_.n_unknowns() ? 1 : 0;
-  column->first_unknown = column->first + column->skipped + to_unknown;
-  column->n_unknowns =
-      std::min(column->size - column->skipped, mesh_.n_unknowns() - column->first_unknown);
+  column.size = end - column.first;
+  column.skipped = column.first + to_unknown >= mesh_.n_unknowns() ? 1 : 0;
+  column.first_unknown = column.first + column.skipped + to_unknown;
+  column.n_unknowns =
+      std::min(column.size - column.skipped, mesh_.n_unknowns() - column.first_unknown);
+  std::vector<double> values;
+  values.reserve(n_kinds * column.size);
   for (const std::vector<double>& kind : all) {
-    for (std::size_t i = column->first; i < end; ++i) column->values.push_back(kind[i]);
+    for (std::size_t i = column.first; i < end; ++i) values.push_back(kind[i]);
   }
+  column.values = std::make_shared<const std::vector<double>>(std::move(values));
   return column;
 }
 

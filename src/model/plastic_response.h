@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "model/mixed_mesh.h"
@@ -23,20 +24,22 @@ class PlasticResponse {
     std::size_t first = 0, size = 0;  ///< sections
     /// Unknowns at the same nodes, of which the first `skipped` entries of a kind have none.
     std::size_t first_unknown = 0, n_unknowns = 0, skipped = 0;
-    std::vector<double> values;  ///< of each kind, one after another
-    const double* of(Kind kind) const { return values.data() + kind * size; }
+    std::shared_ptr<const std::vector<double>> values;  ///< of each kind, one after another
+    const double* of(Kind kind) const { return values->data() + kind * size; }
     double at(Kind kind, std::size_t section) const {
-      return section - first < size ? values[kind * size + (section - first)] : 0.0;
+      return section - first < size ? of(kind)[section - first] : 0.0;
     }
   };
   /// Of a section of the mesh.
   const Column& column(std::size_t section) {
-    if (!columns_[section]) columns_[section] = make(section);
-    return *columns_[section];
+    if (columns_[section].size == 0) columns_[section] = make(section);
+    return columns_[section];
   }
 
  private:
-  std::unique_ptr<const Column> make(std::size_t section) const;
+  Column make(std::size_t section);
+  Column computed(std::size_t section) const;
+  bool is_far_from_ends(const Column& column) const;
   // Displacements and elastic curvatures of the whole mesh.
   struct Response {
     std::vector<double> shift, curvature;
@@ -45,7 +48,13 @@ class PlasticResponse {
 
   const MixedMesh& mesh_;
   std::unique_ptr<MassSolver> mass_;
-  std::vector<std::unique_ptr<const Column>> columns_;
+  std::vector<Column> columns_;
+  // One far from ends, before the strike and after it; others there are the same, shifted.
+  struct Pattern {
+    std::size_t section;
+    Column column;
+  };
+  std::array<std::optional<Pattern>, 2> patterns_;
 };
 
 }  // namespace subimpact

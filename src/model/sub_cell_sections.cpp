@@ -51,7 +51,7 @@ std::size_t SubCellSections::make(std::size_t cell) {
     for (std::size_t k = 0; k < 2; ++k) add(gauss<2>.points[k], gauss<2>.weights[k], length);
   }
   index_of_[cell] = cells_.size();
-  cells_.push_back({cell, first, sections_.size(), {}});
+  cells_.push_back({cell, first, sections_.size(), {}, {}});
   return index_of_[cell];
 }
 
@@ -82,8 +82,7 @@ double SubCellSections::part_of_step(double moment, double step) {
   const bool is_elastic = left > 0.5;
   const double x = is_elastic ? MomentLaw::limit - left : 1.0 / std::sqrt(2.0 * left);
   const double reached = x + size * (is_elastic ? 1.0 : x * x * x);
-  const double left_then =
-      reached <= 1.0 ? MomentLaw::limit - reached : 0.5 / (reached * reached);
+  const double left_then = reached <= 1.0 ? MomentLaw::limit - reached : 0.5 / (reached * reached);
   return (left - left_then) / size;
 }
 
@@ -125,18 +124,18 @@ bool SubCellSections::commit(std::size_t index, const Ends& moments) {
     Section& section = sections_[i];
     flowed |= section.law.commit(section.moment(moments), law_, yield_curvature_);
   }
-  if (flowed) cell.at_rest.reset();
-  return flowed;
+  if (!flowed) return false;
+  cell.at_rest.reset();
+  narrow_window(cell);
+  return true;
 }
 
-SubCellSections::Window SubCellSections::window(std::size_t index) const {
-  const Cell& cell = cells_[index];
-  Window window{-MomentLaw::limit, MomentLaw::limit};
+void SubCellSections::narrow_window(Cell& cell) const {
+  cell.window = {-MomentLaw::limit, MomentLaw::limit};
   for (std::size_t i = cell.first; i < cell.end; ++i) {
-    window.low = std::max(window.low, sections_[i].law.low());
-    window.high = std::min(window.high, sections_[i].law.high());
+    cell.window.low = std::max(cell.window.low, sections_[i].law.low());
+    cell.window.high = std::min(cell.window.high, sections_[i].law.high());
   }
-  return window;
 }
 
 double SubCellSections::curvature(const Section& section, double moment) const {

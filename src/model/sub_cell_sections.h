@@ -49,9 +49,9 @@ class SubCellSections {
 
   /// Moments at both nodes between which nothing flows in the cell.
   struct Window {
-    double low, high;
+    double low = -1.0, high = 1.0;
   };
-  Window window(std::size_t index) const;
+  const Window& window(std::size_t index) const { return cells_[index].window; }
 
   struct Energies {
     double elastic = 0.0, plastic = 0.0;  ///< J; the elastic one beside that of the moment
@@ -72,8 +72,10 @@ class SubCellSections {
   };
   struct Cell {
     std::size_t cell, first, end;  // sections
+    Window window = {};
     mutable std::optional<Energies> at_rest = {};  // computed when first needed after each flow
   };
+  void narrow_window(Cell& cell) const;
   void add(double at, double weight, double length);
   double curvature(const Section& section, double moment) const;  // 1/m
   Energies energies(const Section& section, double moment) const;

@@ -217,15 +217,16 @@ void check_method(const Options& options, const ResolvedSettings& used, bool can
 
 void check_natural_step(const Options& options, const ResolvedSettings& used) {
   const MethodDescriptor& method = descriptor_of(options.solver.method);
-  const std::string step = fmt::format("the step of {:.6g} us that belongs to {}",
-                                       1e6 * *used.natural_step, used.mesh);
+  const std::string step =
+      fmt::format("the step of {:.6g} us that belongs to {}", 1e6 * *used.natural_step, used.mesh);
   const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
   if (options.solver.method != Method::central_difference) {
-    refuse("solver.method",
-           fmt::format("is \"{}\", but mixed cells are made for central differences with a step of "
-                       "their own; allowed with model.mesh = \"mixed\": \"central-difference\"; set "
-                       "it, or use another mesh",
-                       method.name));
+    refuse(
+        "solver.method",
+        fmt::format("is \"{}\", but mixed cells are made for central differences with a step of "
+                    "their own; allowed with model.mesh = \"mixed\": \"central-difference\"; set "
+                    "it, or use another mesh",
+                    method.name));
   }
   if (options.solver.step) {
     refuse("solver.step", fmt::format("is {:.6g} us, but no other step goes with {}; leave it out, "
@@ -233,9 +234,10 @@ void check_natural_step(const Options& options, const ResolvedSettings& used) {
                                       1e6 * *options.solver.step, step));
   }
   if (used.events != EventHandling::interpolated) {
-    refuse("solver.events",
-           "is \"located\", but steps on mixed cells are not cut at events; allowed with model.mesh "
-           "= \"mixed\": \"interpolated\"; leave it out");
+    refuse(
+        "solver.events",
+        "is \"located\", but steps on mixed cells are not cut at events; allowed with model.mesh "
+        "= \"mixed\": \"interpolated\"; leave it out");
   }
   if (options.stop == StopRule::no_more_contact) {
     refuse("time.stop",

@@ -107,8 +107,7 @@ int chosen_parts(const Case& input, double parts) {
 }  // namespace
 
 int most_parts_at_first(const Case& input) {
-  const bool in_cells =
-      input.model.mesh == MeshKind::cells || input.model.mesh == MeshKind::mixed;
+  const bool in_cells = input.model.mesh == MeshKind::cells || input.model.mesh == MeshKind::mixed;
   const double cells = in_cells ? most_cells_at_first : most_cells_in_modes;
   return static_cast<int>(cells / cells_of_a_part(input));
 }

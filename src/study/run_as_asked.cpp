@@ -14,10 +14,11 @@ std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& req
   switch (*request.error_bars) {
     case ErrorBars::time:
       if (mesh_has_own_step(input)) {
-        throw InvalidCase("model.mesh",
-                          "is \"mixed\", on which the step belongs to the mesh, so that time has no "
-                          "error of its own; allowed: error bars of mesh and time together, without "
-                          "--error-bars, or by part; leave \"time\" out");
+        throw InvalidCase(
+            "model.mesh",
+            "is \"mixed\", on which the step belongs to the mesh, so that time has no "
+            "error of its own; allowed: error bars of mesh and time together, without "
+            "--error-bars, or by part; leave \"time\" out");
       }
       return cases_beside_in_time(input);
     case ErrorBars::all:

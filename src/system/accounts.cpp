@@ -14,9 +14,8 @@ Energies Accounts::energies(const State& y) {
   Energies sum;
   sum.striker = 0.5 * beam_.striker_mass() * y.back() * y.back();
   const MixedSections* mixed = beam_.mixed_at(y);
-  sum.beam_kinetic = mixed != nullptr
-                         ? mixed->kinetic_energy(beam_.beam_velocities(y))
-                         : 0.5 * mesh.mass().quadratic_form(beam_.beam_velocities(y));
+  sum.beam_kinetic = mixed != nullptr ? mixed->kinetic_energy(beam_.beam_velocities(y))
+                                      : 0.5 * mesh.mass().quadratic_form(beam_.beam_velocities(y));
   if (!modal.empty()) {
     for (std::size_t i = 0; i < modal.size(); ++i) sum.bending_elastic += modal[i] * y[i] * y[i];
     sum.bending_elastic *= 0.5;

@@ -110,8 +110,7 @@ void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces
   }
   if (mixed_) {
     const MixedSections& mixed = bring_mixed_to(unknowns);
-    mixed.mesh().forces_of(mixed.elastic_curvatures().data(), sections_.stiffness(),
-                           forces.data());
+    mixed.mesh().forces_of(mixed.elastic_curvatures().data(), sections_.stiffness(), forces.data());
     return;
   }
   mesh_->curvatures(unknowns, curvatures_);

@@ -112,7 +112,8 @@ class StruckBeam final : public MechanicalSystem {
   const SectionField& sections() const { return sections_; }
   /// Sections in which any fibre has flowed.
   std::size_t n_yielded_sections() const;
-  /// Bending on mixed cells at a state's positions; null on other meshes. Throws IntegrationFailure.
+  /// Bending on mixed cells at a state's positions; null on other meshes. Throws
+  /// IntegrationFailure.
   const MixedSections* mixed_at(std::span<const double> y) const;
   const ContactState& contact() const { return contact_; }
   ContactState& contact() { return contact_; }
@@ -187,7 +188,7 @@ class StruckBeam final : public MechanicalSystem {
 
   std::shared_ptr<const BeamMesh> mesh_;
   SectionField sections_;
-  std::unique_ptr<MixedSections> mixed_;    // sections_ keeps no history then
+  std::unique_ptr<MixedSections> mixed_;     // sections_ keeps no history then
   mutable std::vector<double> mixed_is_at_;  // unknowns
   ContactState contact_;
   std::unique_ptr<MassSolver> mass_solver_;

@@ -41,9 +41,8 @@ void PrintTo(const Bar& bar, std::ostream* out) { *out << bar.cells << "_cells";
 class MixedCellsThatYield : public testing::TestWithParam<Bar> {};
 
 INSTANTIATE_TEST_SUITE_P(, MixedCellsThatYield,
-                         testing::Values(Bar{180, 1.2}, Bar{200, 1.0}, Bar{230, 1.2},
-                                         Bar{260, 1.2}, Bar{400, 0.1}, Bar{418, 0.1},
-                                         Bar{1000, 0.05}),
+                         testing::Values(Bar{180, 1.2}, Bar{200, 1.0}, Bar{230, 1.2}, Bar{260, 1.2},
+                                         Bar{400, 0.1}, Bar{418, 0.1}, Bar{1000, 0.05}),
                          NamedAsPrinted{});
 
 TEST_P(MixedCellsThatYield, FindEverySubImpactWithinTheBar) {
@@ -202,8 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
                   c.scene.beam.theory = BeamTheory::timoshenko;
                   c.scene.beam.poisson = 0.3;
                 }},
-        Refusal{"layers", "model.section",
-                [](Case& c) { c.model.section = SectionKind::layers; }},
+        Refusal{"layers", "model.section", [](Case& c) { c.model.section = SectionKind::layers; }},
         Refusal{"own_section", "model.section",
                 [](Case& c) { c.parts.section = Fibres::layered(10); }},
         Refusal{"damping", "beam.damping", [](Case& c) { c.scene.beam.damping.mass = 1.0; }},
@@ -232,10 +230,9 @@ TEST_P(MixedCellsRefuse, WhatTheyDoNotCarry) {
   } catch (const InvalidCase& refused) {
     EXPECT_EQ(refused.key, GetParam().key) << refused.what();
     const std::string message = refused.what();
-    EXPECT_TRUE(message.find("use") != std::string::npos ||
-                message.find("leave") != std::string::npos ||
-                message.find("choose") != std::string::npos ||
-                message.find("set") != std::string::npos)
+    EXPECT_TRUE(
+        message.find("use") != std::string::npos || message.find("leave") != std::string::npos ||
+        message.find("choose") != std::string::npos || message.find("set") != std::string::npos)
         << message;
   }
 }

@@ -43,7 +43,7 @@ TEST_F(BentMixedCells, CarryNoMomentAboveTheFullPlasticOne) {
     sections_.commit();
   }
   EXPECT_GT(largest_moment(), 1.49);
-  EXPECT_GT(sections_.n_yielded(), 3u);
+  EXPECT_GE(sections_.n_yielded(), 3u);
 }
 
 TEST_F(BentMixedCells, HaveTheSameMomentsWhenEvaluatedWhereTheyHaveSettled) {

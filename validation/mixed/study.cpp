@@ -84,10 +84,14 @@ Point point_of(const Strike& strike, MeshKind mesh, int count,
     seconds = std::min(seconds, result.work.wall_seconds);
   }
   const EventErrors errors = event_errors(result.sub_impacts, limit);
-  return {strike.name,         mesh == MeshKind::mixed ? "mixed" : "cells",
-          count,               result.used.n_unknowns,
-          result.work.steps,   errors.overall(),
-          errors.median,       seconds};
+  return {strike.name,
+          mesh == MeshKind::mixed ? "mixed" : "cells",
+          count,
+          result.used.n_unknowns,
+          result.work.steps,
+          errors.overall(),
+          errors.median,
+          seconds};
 }
 
 // Of cells, extrapolated at second order from two meshes; what free ends add of first order is
