@@ -11,25 +11,12 @@ namespace {
 // Gregory's weights at an end: the trapezoid's with corrections up to the third difference.
 constexpr std::array gregory{251.0 / 720.0, 299.0 / 240.0, 211.0 / 240.0, 739.0 / 720.0};
 
-// Share that the image of the outermost link beyond an end has in it: even where the slope is
-// continued evenly, odd where the end keeps its slope.
-double image_of_link(EndSupport end, bool symmetric) {
-  return symmetric || end == EndSupport::clamped ? -1.0 : 1.0;
-}
-
 Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
 std::size_t MixedMesh::cells_before(double position, std::size_t n_cells) {
   return static_cast<std::size_t>(std::lround(position * static_cast<double>(n_cells)));
-}
-
-double MixedMesh::step_of(const Beam& beam, double position, std::size_t n_cells) {
-  const auto before = static_cast<double>(cells_before(position, n_cells));
-  const double after = static_cast<double>(n_cells) - before;
-  const double shorter = std::min(position / before, (1.0 - position) / after) * beam.length;
-  return shorter / std::sqrt(beam.youngs_modulus / beam.density);
 }
 
 MixedMesh::MixedMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent)
@@ -55,8 +42,8 @@ MixedMesh::MixedMesh(const Beam& beam, double position, std::size_t n_cells, Ext
   if (!(rotary_inertia_ > 0.0)) {
     throw std::invalid_argument("mixed mesh: the beam must have rotary inertia");
   }
-  step_ = step_of(beam, position, n_cells);
   place_nodes(beam.length, position);
+  step_ = std::ranges::min(lengths_) / std::sqrt(beam.youngs_modulus / beam.density);
   struck_point_.terms = {{struck_node_ - first_unknown_, 1.0}};
   if (ends_[0] == EndSupport::free) first_end_.terms = {{0, 1.0}};
   if (beam.is_free()) translation_.assign(n_unknowns(), 1.0);
@@ -135,9 +122,9 @@ BandedMatrix MixedMesh::link_matrix(double inertia) const {
   };
   BandedMatrix links(n, 1);
   for (std::size_t c = 0; c < n; ++c) {
-    double own = 4.0;
-    if (c == 0) own += image_of_link(ends_[0], false);
-    if (c + 1 == n) own += image_of_link(ends_[1], symmetric());
+    double own = 4.0;  // and the link's image beyond an end, odd where the end keeps its slope
+    if (c == 0) own += ends_[0] == EndSupport::clamped ? -1.0 : 1.0;
+    if (c + 1 == n) own += symmetric() || ends_[1] == EndSupport::clamped ? -1.0 : 1.0;
     links.at(c, c) = own / 6.0 * lengths_[c] + mobility(c) + mobility(c + 1);
     if (c + 1 < n) {
       links.at(c + 1, c) = (lengths_[c] + lengths_[c + 1]) / 12.0 - mobility(c + 1);
@@ -304,9 +291,7 @@ void MixedMesh::moment_weights(std::span<const double> unknowns, std::span<doubl
 }
 
 double MixedMesh::curvature(std::size_t section, std::span<const double> unknowns) const {
-  std::vector<double> all(n_sections());
-  curvatures(unknowns, all);
-  return all[section];
+  return curvature_functional(section)(unknowns);
 }
 
 SparseFunctional MixedMesh::curvature_functional(std::size_t section) const {

@@ -24,8 +24,8 @@ namespace subimpact {
 ///     Mass w'' = -K^T M + S F,   Mass = diag(rho A g) + J G^T L^-1 G,
 ///
 /// with the weights g (m) of a quadrature of fourth order between nodes, the slopes G w of the
-/// links and L = (1, 4, 1)/6 between links. The bar of errors that rotary inertia leaves in space
-/// and that central differences leave in time cancel at the step h/c, c^2 = E/rho, which is
+/// links and L = (1, 4, 1)/6 between links. The errors that rotary inertia leaves in space and
+/// central differences leave in time cancel at the step h/c, c^2 = E/rho, which is
 /// stable; other steps are not for this mesh.
 ///
 /// As a BeamMesh its sections are the nodes with a moment and its curvatures T^-1 K w, those of
@@ -44,9 +44,8 @@ class MixedMesh final : public BeamMesh {
 
   /// Cells before the strike, of `n_cells`.
   static std::size_t cells_before(double position, std::size_t n_cells);
-  /// h/c of the shorter cells, s.
-  static double step_of(const Beam& beam, double position, std::size_t n_cells);
 
+  /// h/c of the shorter cells.
   std::optional<double> natural_step() const override { return step_; }
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
