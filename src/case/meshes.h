@@ -41,6 +41,9 @@ struct MeshDescriptor {
   std::optional<Refinement> refinement = {};
 };
 
+/// Of a case that chooses mixed cells and not how many.
+inline constexpr int usual_mixed_cells = 400;
+
 std::span<const MeshDescriptor> meshes();
 const MeshDescriptor& descriptor_of(MeshKind kind);
 

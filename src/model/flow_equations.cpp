@@ -7,7 +7,7 @@ namespace subimpact {
 namespace {
 
 constexpr auto none = SubCellSections::none;
-constexpr double tolerance = 1e-6;  // of the equations, in M_y
+constexpr double tolerance = 1e-5;  // of the equations, in M_y
 constexpr int most_iterations = 60;
 constexpr int bold_iterations = 10;  // after which the error must fall in each
 constexpr int most_releases = 4;     // of hinges, in one solution
