@@ -216,40 +216,35 @@ void check_method(const Options& options, const ResolvedSettings& used, bool can
 }
 
 void check_natural_step(const Options& options, const ResolvedSettings& used) {
-  const MethodDescriptor& method = descriptor_of(options.solver.method);
   const std::string step =
       fmt::format("the step of {:.6g} us that belongs to {}", 1e6 * *used.natural_step, used.mesh);
   const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
+  const auto refuse_choice = [&](const char* key, const char* what, const char* allowed) {
+    refuse(key, fmt::format("is \"{}\"; allowed with model.mesh = \"mixed\", whose step belongs to "
+                            "the mesh: \"{}\"; set it, or use another mesh",
+                            what, allowed));
+  };
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
   if (options.solver.method != Method::central_difference) {
-    refuse(
-        "solver.method",
-        fmt::format("is \"{}\", but mixed cells are made for central differences with a step of "
-                    "their own; allowed with model.mesh = \"mixed\": \"central-difference\"; set "
-                    "it, or use another mesh",
-                    method.name));
+    refuse_choice("solver.method", method.name, "central-difference");
+  }
+  if (used.events != EventHandling::interpolated) {
+    refuse_choice("solver.events", "located", "interpolated");
+  }
+  if (options.stop == StopRule::no_more_contact) {
+    refuse_choice("time.stop", "no-more-contact", "end");
   }
   if (options.solver.step) {
     refuse("solver.step", fmt::format("is {:.6g} us, but no other step goes with {}; leave it out, "
                                       "or change model.segments",
                                       1e6 * *options.solver.step, step));
   }
-  if (used.events != EventHandling::interpolated) {
-    refuse(
-        "solver.events",
-        "is \"located\", but steps on mixed cells are not cut at events; allowed with model.mesh "
-        "= \"mixed\": \"interpolated\"; leave it out");
-  }
-  if (options.stop == StopRule::no_more_contact) {
-    refuse("time.stop",
-           "is \"no-more-contact\", which is not proven on mixed cells; allowed with model.mesh = "
-           "\"mixed\": \"end-time\"; leave it out");
-  }
   if (*used.natural_step < used.critical_step) return;
-  const double factor = 1.1 * *used.natural_step / used.critical_step;
-  refuse("model.segments",
-         fmt::format("gives {}, above the stability limit with the contact at its stiffest, {:.6g} "
-                     "us; use {:.2g} times as many segments or more, or another mesh",
-                     step, 1e6 * used.critical_step, factor));
+  refuse(
+      "model.segments",
+      fmt::format("gives {}, above the stability limit with the contact at its stiffest, {:.6g} "
+                  "us; use {:.2g} times as many segments or more, or another mesh",
+                  step, 1e6 * used.critical_step, 1.1 * *used.natural_step / used.critical_step));
 }
 
 std::optional<std::string> table_used(const Options& options) {

@@ -68,7 +68,7 @@ const Spoilt spoilt_cases[] = {
     {"MixedCellsByRungeKutta",
      "mesh = \"cells\"\nsegments = 501\nsection = \"layers\"",
      "mesh = \"mixed\"\nsegments = 500\nsection = \"exact\"",
-     {"solver.method is \"erk\"", "allowed with model.mesh = \"mixed\": \"central-difference\""}},
+     {"solver.method is \"erk\"", "allowed with model.mesh = \"mixed\"", "\"central-difference\""}},
     {"OddLayers", "layers = 40", "layers = 39", {"model.layers is 39", "even"}},
     {"HugeSegments",
      "segments = 501",
