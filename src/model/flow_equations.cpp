@@ -99,6 +99,7 @@ bool FlowEquations::solve(const std::vector<std::size_t>& active, bool coupled,
       descend(error);
     }
     engage_hinges(releases > 0 ? at_hinge_again : at_hinge);
+    pull_inside();
   }
   return false;
 }
@@ -124,6 +125,7 @@ void FlowEquations::start(const Moments& moments) {
       moment = std::clamp(moment, -largest, largest);
     }
   }
+  pull_inside();  // moments of the last step were found to the tolerance only
   advance();
 }
 
@@ -290,6 +292,16 @@ bool FlowEquations::release_hinges() {
     any = true;
   }
   return any;
+}
+
+// Where sections beside a node at the full plastic moment are past it.
+void FlowEquations::pull_inside() {
+  for (int k = 0; k < most_iterations && !is_inside(); ++k) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) moments_[i] *= 1.0 - tolerance;
+    for (const Hinge& hinge : hinges_) {
+      if (hinge.turns()) moments_[hinge.local] = hinge.sense * MomentLaw::limit;
+    }
+  }
 }
 
 void FlowEquations::engage_hinges(double within) {

@@ -74,6 +74,7 @@ class FlowEquations {
   bool is_inside() const;
   bool release_hinges();
   void engage_hinges(double within);
+  void pull_inside();
   Ends at_ends(const LocalCell& cell, const AlignedVector& of_nodes) const;
 
   const MixedMesh& mesh_;
