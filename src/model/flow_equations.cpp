@@ -8,7 +8,7 @@ namespace {
 
 constexpr auto none = SubCellSections::none;
 constexpr double tolerance = 1e-5;  // of the equations, in M_y
-constexpr int most_iterations = 60;
+constexpr int most_iterations = 300;
 constexpr int bold_iterations = 10;  // after which the error must fall in each
 constexpr int most_releases = 4;     // of hinges, in one solution
 // Distance from M_p, in M_y, where a hinge that stops turning is left, and within which one begins
