@@ -179,7 +179,7 @@ void draw(const std::string& directory, const std::vector<Point>& points) {
       "$cells using 3:2 with linespoints lw 2 lt 2 title 'cells'\nunset multiplot\n";
   draw_figure(directory, "convergence", script, {1100, 480});
   // The study itself is the script, and the page shows the SVG.
-  for (const char* other : {".gp", ".png"}) {
+  for (const char* other : {".gp", ".png", ".pdf"}) {
     std::filesystem::remove(directory + "/convergence" + other);
   }
 }
