@@ -260,7 +260,7 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.damping", "s/m", not_negative, "damping chi of the laws \"hertz\" and \"linear\": the force is that of the law times 1 + chi times the rate of the indentation (Hunt and Crossley)", as_in_case, AT(scene.contact.damping)),
 
     row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\"; if model.elements is given, \"hermite\", with shear \"spectral\"", AT(model.mesh)),
-    row("model.segments", "", segment_range, "number of cells over the whole length", as_in_case, AT(model.segments)),
+    row("model.segments", "", segment_range, "number of cells over the whole length; with mesh = \"mixed\" by default 400", as_in_case, AT(model.segments)),
     row("model.spacing", "", any_value, "length of the cells, with mesh = \"cells\"", as_in_case, AT(model.spacing)),
     row("model.elements", "", element_range, "number of elements over the whole length, with mesh = \"hermite\" or \"spectral\"", as_in_case, AT(model.elements)),
     row("model.sections_per_element", "", between("from 2 to 4", 2, 4), "Gauss points per element, where the bending law is evaluated", as_in_case, AT(model.sections_per_element)),
@@ -274,7 +274,7 @@ std::vector<CaseKey> make_case_keys() {
     row("time.end", "s", positive, "time at which the simulation ends", required, AT(end_time)),
     row("time.stop", "", any_value, "when the run stops", as_in_case, AT(stop)),
 
-    row("solver.method", "", any_value, "time integration method", as_in_case, AT(solver.method)),
+    row("solver.method", "", any_value, "time integration method; with mesh = \"mixed\" by default central-difference", as_in_case, AT(solver.method)),
     row("solver.rtol", "", tolerance, "relative tolerance of adaptive methods", as_in_case, AT(solver.rtol)),
     row("solver.step", "s", positive, "fixed step", default_step(), AT(solver.step)),
     row("solver.max_step", "s", positive, "largest step of adaptive methods", "no limit", AT(solver.max_step)),

@@ -11,6 +11,7 @@
 #include "case/problem.h"
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
+#include "model/mixed_mesh.h"
 #include "model/rigid_mesh.h"
 #include "model/spectral_mesh.h"
 #include "model/timoshenko_mesh.h"
@@ -84,6 +85,41 @@ void check_cells(const Case& input) {
                                   "segments",
                                   cells, fewest));
   }
+}
+
+// What mixed cells are not derived for.
+void check_mixed_model(const Case& input) {
+  if (input.scene.beam.rotary_inertia() == 0.0) {
+    throw InvalidCase("beam.theory",
+                      "is \"euler-bernoulli\", but mixed cells need rotary inertia; allowed with "
+                      "model.mesh = \"mixed\": \"rayleigh\"; choose it, or another mesh");
+  }
+  if (!input.scene.beam.damping.is_none()) {
+    throw InvalidCase(
+        "beam.damping",
+        "is given, but mixed cells have no damping; leave it out, or use another mesh");
+  }
+  if (input.parts.section || input.model.section == SectionKind::layers) {
+    throw InvalidCase(
+        "model.section",
+        fmt::format("is {}, but mixed cells find the curvature from the moment by the "
+                    "rectangle's closed form; allowed with model.mesh = \"mixed\": "
+                    "\"exact\", \"elastic\"; choose one, or another mesh",
+                    input.parts.section ? "a section of its own" : "\"layers\""));
+  }
+}
+
+void check_mixed(const Case& input) {
+  check_mixed_model(input);
+  const auto cells = static_cast<std::size_t>(std::max(input.model.segments, 0));
+  const double at = input.scene.striker.position;
+  const std::size_t before = MixedMesh::cells_before(at, cells);
+  if (std::min(before, cells - before) >= MixedMesh::fewest_beside) return;
+  const double nearest = static_cast<double>(MixedMesh::fewest_beside) / static_cast<double>(cells);
+  throw InvalidCase("striker.position",
+                    fmt::format("is {}, closer to an end than {} of {} segments; allowed: from "
+                                "{:.6g} to {:.6g}; move the strike inwards or use more segments",
+                                at, MixedMesh::fewest_beside, cells, nearest, 1.0 - nearest));
 }
 
 // There is a node at the strike; an element much shorter than others would determine the time step.
@@ -168,6 +204,10 @@ Mesh make_cell_mesh(const Case& input) {
   return make_mesh<CellMesh>(input, segments, extent_of<CellMesh>(input), spacing_of(input));
 }
 
+Mesh make_mixed_mesh(const Case& input) {
+  return make_mesh<MixedMesh>(input, input.model.segments, extent_of<MixedMesh>(input));
+}
+
 Mesh make_hermite_mesh(const Case& input) {
   const bool has_hinges = input.model.hinges == HingeUse::automatic && may_yield(input);
   return make_mesh<HermiteMesh>(
@@ -193,6 +233,11 @@ int order_of_elements(const Case& input) {
   return input.model.hinges == HingeUse::off ? 1 : 2;
 }
 
+// Plastic hinges keep the order of times between 1 and 2; of elastic beams, the contact's part of
+// the error in time has the order 2, below some 0.01 us.
+int order_of_mixed(const Case& input) { return may_yield(input) ? 1 : 2; }
+
+constexpr const char* keys_of_mixed[] = {"model.segments", "model.symmetry"};
 constexpr const char* keys_of_cells[] = {"model.segments", "model.spacing", "model.symmetry"};
 constexpr const char* keys_of_elements[] = {"model.elements",       "model.sections_per_element",
                                             "model.hinges",         "model.strike_refinement",
@@ -212,6 +257,20 @@ constexpr MeshDescriptor rows[] = {
                      [](const Case& c) {
                        return c.model.spacing == CellSpacing::points ? 1 : 2;
                      }}}},
+    {.kind = MeshKind::mixed,
+     .name = "mixed",
+     .note = "cells with moments linear between nodes, fourth order while nothing flows, for "
+             "central differences at a step of their own: Rayleigh's theory, exact or elastic "
+             "sections",
+     .keys = keys_of_mixed,
+     .has_own_step = true,
+     .suits = [](const Beam& beam) { return !beam.shears(); },
+     .check = check_mixed,
+     .make = make_mixed_mesh,
+     .refinement = {{&ModelOptions::segments, "model.segments", "mixed cells",
+                     static_cast<int>(MixedMesh::fewest_cells), false,
+                     [](const Case& c) { return c.scene.beam.length / c.model.segments; },
+                     order_of_mixed}}},
     {.kind = MeshKind::hermite,
      .name = "hermite",
      .note = "cubic Hermite elements, fourth order, for beams that do not shear",
@@ -287,6 +346,11 @@ void check_mesh(const Case& input) {
 MeshKind default_mesh(const Case& input) {
   if (!strikes_end(input) || input.model.spacing == CellSpacing::points) return MeshKind::cells;
   return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
+}
+
+bool mesh_has_own_step(const Case& input) {
+  if (input.parts.mesh) return input.parts.mesh->natural_step().has_value();
+  return descriptor_of(input.model.mesh).has_own_step;
 }
 
 bool mesh_uses(const Case& input, const char* key) {

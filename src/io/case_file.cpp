@@ -295,11 +295,11 @@ class Reader {
 
   // A case that names the size of a mesh and no mesh means that mesh. Settings go before the file.
   void choose_mesh(Case& read) {
-    if (given_.contains("model.mesh")) return;
+    if (given_.contains("model.mesh")) return take_defaults_of_mesh(read);
     for (const bool in_file : {false, true}) {
       const MeshDescriptor* chosen = nullptr;
       for (const MeshDescriptor& mesh : meshes()) {
-        if (!mesh.suits(read.scene.beam)) continue;
+        if (!mesh.suits(read.scene.beam) || mesh.has_own_step) continue;  // cells have its key
         if (!mesh.refinement || !is_given(mesh.refinement->key, in_file)) continue;
         if (chosen != nullptr) {
           const char* first = chosen->refinement->key;
@@ -318,6 +318,12 @@ class Reader {
       return;
     }
     read.model.mesh = default_mesh(read);
+  }
+
+  void take_defaults_of_mesh(Case& read) const {
+    if (!descriptor_of(read.model.mesh).has_own_step) return;
+    if (!given_.contains("model.segments")) read.model.segments = usual_mixed_cells;
+    if (!given_.contains("solver.method")) read.solver.method = Method::central_difference;
   }
 
   GivenKeys given_keys() const {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "numerics/lanes.h"
+#include "numerics/mass_solver.h"
 
 namespace subimpact {
 
@@ -64,6 +65,13 @@ SparseFunctional BeamMesh::curvature_functional(std::size_t section) const {
   }
   return functional;
 }
+
+void BeamMesh::moment_weights(std::span<const double> unknowns, std::span<double> weights) const {
+  curvatures(unknowns, weights);
+  for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= -weights_[j];
+}
+
+std::unique_ptr<MassSolver> BeamMesh::make_mass_solver() const { return nullptr; }
 
 void BeamMesh::add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const {
   const std::size_t n = shear_stiffness_.size();

@@ -21,6 +21,10 @@ class SecondOrderOde {
   virtual std::size_t n_positions() const = 0;
   /// a(q) for q of n entries; changes no history. Not for an ODE that depends_on_velocity().
   virtual void acceleration(std::span<const double> positions, std::span<double> result) = 0;
+  /// Moves positions that a method has advanced by velocities alone to where what has no inertia of
+  /// its own puts them, since the last commit; nothing in most ODEs. `acceleration` takes positions
+  /// that have been settled.
+  virtual void settle(std::span<double> /*positions*/) {}
   virtual bool depends_on_velocity() const { return false; }
   /// a(q, v) at y = [q, v], of any ODE.
   virtual void acceleration_at(std::span<const double> y, std::span<double> result) {

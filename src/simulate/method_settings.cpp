@@ -215,6 +215,38 @@ void check_method(const Options& options, const ResolvedSettings& used, bool can
   if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
 }
 
+void check_natural_step(const Options& options, const ResolvedSettings& used) {
+  const std::string step =
+      fmt::format("the step of {:.6g} us that belongs to {}", 1e6 * *used.natural_step, used.mesh);
+  const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
+  const auto refuse_choice = [&](const char* key, const char* what, const char* allowed) {
+    refuse(key, fmt::format("is \"{}\"; allowed with model.mesh = \"mixed\", whose step belongs to "
+                            "the mesh: \"{}\"; set it, or use another mesh",
+                            what, allowed));
+  };
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  if (options.solver.method != Method::central_difference) {
+    refuse_choice("solver.method", method.name, "central-difference");
+  }
+  if (used.events != EventHandling::interpolated) {
+    refuse_choice("solver.events", "located", "interpolated");
+  }
+  if (options.stop == StopRule::no_more_contact) {
+    refuse_choice("time.stop", "no-more-contact", "end");
+  }
+  if (options.solver.step) {
+    refuse("solver.step", fmt::format("is {:.6g} us, but no other step goes with {}; leave it out, "
+                                      "or change model.segments",
+                                      1e6 * *options.solver.step, step));
+  }
+  if (*used.natural_step < used.critical_step) return;
+  refuse(
+      "model.segments",
+      fmt::format("gives {}, above the stability limit with the contact at its stiffest, {:.6g} "
+                  "us; use {:.2g} times as many segments or more, or another mesh",
+                  step, 1e6 * used.critical_step, 1.1 * *used.natural_step / used.critical_step));
+}
+
 std::optional<std::string> table_used(const Options& options) {
   const std::vector<std::string> names = tables_of(descriptor_of(options.solver.method));
   const std::optional<std::string>& asked = options.solver.table;
@@ -234,6 +266,7 @@ std::optional<double> step_used(const Options& options, const ResolvedSettings& 
   if (descriptor_of(options.solver.method).steps != MethodDescriptor::Steps::fixed) {
     return options.solver.step;
   }
+  if (used.natural_step) return used.natural_step;
   const double step = options.solver.step.value_or(default_central_step(used));
   check_central_step(options, used, step);
   return step;

@@ -12,6 +12,10 @@ namespace subimpact {
 // cannot take; `used` is what has been resolved before.
 
 /// The given table, or the first one of the method; none for a method without tables.
+/// For a mesh that is made for one step of central differences. Throws InvalidCase for another
+/// method, settings that would change the step, or a contact too stiff for it.
+void check_natural_step(const Options& options, const ResolvedSettings& used);
+
 std::optional<std::string> table_used(const Options& options);
 
 /// None for a method without orders.

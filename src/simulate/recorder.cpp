@@ -332,7 +332,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     result_.max_indentation = std::max(result_.max_indentation, sub_impact.max_indentation);
   }
   result_.final_energies = accounts_.energies(y);
-  result_.n_yielded_sections = beam.sections().n_yielded();
+  result_.n_yielded_sections = beam.n_yielded_sections();
   result_.striker_velocity = y.back();
   result_.beam_mean_velocity = accounts_.beam_momentum(y) / beam.mesh().beam_mass();
   result_.contact_damping_loss = beam.losses().contact;

@@ -150,6 +150,8 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.reversals = reversals_used(problem, options, beam.sections().can_yield());
   used.max_order = max_order_used(options);
   check_method(options, used, beam.sections().can_yield());
+  used.natural_step = beam.mesh().natural_step();
+  if (used.natural_step) check_natural_step(options, used);
   check_contact_damping(problem, options, used);
   check_beam_damping(problem.beam.damping, options, beam.sections().can_yield());
   used.step = step_used(options, used);
@@ -172,6 +174,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
 // The rotary inertia of a beam much thicker than long outweighs its mass by more than 16 digits.
 std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Options& options,
                                              const BeamMesh& mesh) {
+  if (std::unique_ptr<MassSolver> own = mesh.make_mass_solver()) return own;
   try {
     if (options.study.mass_solver == MassSolverKind::klu) return make_klu_mass_solver(mesh.mass());
     return std::make_unique<BandedSolver>(mesh.mass());

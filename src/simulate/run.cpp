@@ -117,7 +117,10 @@ void judge_end(Audit& audit, const EventLoop& loop, Outcome& outcome) {
 // What helps: when the integrator could not go on, or a check failed.
 void add_remedy(Outcome& outcome, const RunParts& parts) {
   const std::optional<double>& step = parts.settings.step;
-  if (outcome.kind == OutcomeKind::solver_failed) {
+  const bool failed = outcome.kind == OutcomeKind::solver_failed;
+  if (parts.settings.natural_step && (failed || outcome.first_failure)) {
+    outcome.message += "; use more model.segments, or another mesh";
+  } else if (failed) {
     outcome.message += parts.given.solver.step
                            ? "; use a smaller solver.step or another solver.method"
                            : "; use a larger solver.rtol or another solver.method";

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"
 #include "study/parallel.h"
@@ -103,6 +104,7 @@ class NoRows final : public RowSink {
 }  // namespace
 
 std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
+  if (mesh_has_own_step(input)) return {};
   CaseBeside beside{input, "time", {}};
   beside.input.output = output_beside(input);
   SolverOptions& solver = beside.input.solver;
@@ -127,12 +129,14 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
   if (all.size() < std::size(sizes)) std::ranges::for_each(finer_sizes, include);
   if (!all.empty()) return all;
   all = cases_beside_in_time(input);
+  if (all.empty()) return all;
   // Where no other mesh takes the strike, what the mesh does not show is doubted all the same.
   if (mesh_order(input)) all.front().part = "mesh and time";
   return all;
 }
 
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
+  if (mesh_has_own_step(input)) return cases_beside(input);
   std::vector<CaseBeside> all = cases_beside_in_time(input);
   std::optional<CaseBeside> mesh = on_finer_cells(input);
   if (!mesh) mesh = in_mesh_and_time(sizes[1], input);

@@ -67,6 +67,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
     solver.method = cells ? Method::central_difference : Method::nystrom;
   }
   if (open.method) solver.method = method_for_damping(input, solver.method);
+  if (open.method && mesh_has_own_step(chosen.input)) solver.method = Method::central_difference;
   const bool fixed = !open.method && !open.mesh;
   chosen.reason = fixed ? "the case fixes mesh and method"
                   : yields

@@ -4,12 +4,19 @@
 #include <limits>
 #include <vector>
 
+#include "case/meshes.h"
 #include "integrate/stability.h"
 
 namespace subimpact {
 namespace {
 
 Case elastic(Case input) {
+  if (mesh_has_own_step(input)) {
+    throw InvalidCase(
+        "model.mesh",
+        "is \"mixed\", on which no step but its own can be studied; allowed: \"cells\", "
+        "\"hermite\" or \"spectral\"; choose one");
+  }
   input.model.section = SectionKind::elastic;
   input.study.beyond_critical = true;
   return input;

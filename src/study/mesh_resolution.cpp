@@ -107,8 +107,8 @@ int chosen_parts(const Case& input, double parts) {
 }  // namespace
 
 int most_parts_at_first(const Case& input) {
-  const double cells =
-      input.model.mesh == MeshKind::cells ? most_cells_at_first : most_cells_in_modes;
+  const bool in_cells = input.model.mesh == MeshKind::cells || input.model.mesh == MeshKind::mixed;
+  const double cells = in_cells ? most_cells_at_first : most_cells_in_modes;
   return static_cast<int>(cells / cells_of_a_part(input));
 }
 

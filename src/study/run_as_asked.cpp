@@ -13,6 +13,13 @@ std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& req
   if (!request.error_bars) return cases_beside_on_given_mesh(input);
   switch (*request.error_bars) {
     case ErrorBars::time:
+      if (mesh_has_own_step(input)) {
+        throw InvalidCase(
+            "model.mesh",
+            "is \"mixed\", on which the step belongs to the mesh, so that time has no "
+            "error of its own; allowed: error bars of mesh and time together, without "
+            "--error-bars, or by part; leave \"time\" out");
+      }
       return cases_beside_in_time(input);
     case ErrorBars::all:
       return cases_beside_by_part(input);

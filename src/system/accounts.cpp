@@ -1,5 +1,6 @@
 #include "system/accounts.h"
 
+#include "model/mixed_sections.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {
@@ -12,10 +13,16 @@ Energies Accounts::energies(const State& y) {
   const std::span<const double> modal = beam_.modal_stiffness();
   Energies sum;
   sum.striker = 0.5 * beam_.striker_mass() * y.back() * y.back();
-  sum.beam_kinetic = 0.5 * mesh.mass().quadratic_form(beam_.beam_velocities(y));
+  const MixedSections* mixed = beam_.mixed_at(y);
+  sum.beam_kinetic = mixed != nullptr ? mixed->kinetic_energy(beam_.beam_velocities(y))
+                                      : 0.5 * mesh.mass().quadratic_form(beam_.beam_velocities(y));
   if (!modal.empty()) {
     for (std::size_t i = 0; i < modal.size(); ++i) sum.bending_elastic += modal[i] * y[i] * y[i];
     sum.bending_elastic *= 0.5;
+  } else if (mixed != nullptr) {
+    const auto [elastic, plastic] = mixed->energies();
+    sum.bending_elastic = elastic;
+    sum.bending_plastic = plastic;
   } else {
     mesh.curvatures(beam_.beam_positions(y), curvatures_);
     const auto bending = sections_.energies(curvatures_, mesh.section_weights());
@@ -50,12 +57,19 @@ Accounts::Displacements Accounts::displacements(const State& y) const {
 }
 
 Accounts::Bending Accounts::bending(const State& y) {
+  if (const MixedSections* mixed = beam_.mixed_at(y)) {
+    mixed->read_bending(curvatures_, moments_);
+    return {curvatures_, moments_};
+  }
   beam_.mesh().curvatures(beam_.beam_positions(y), curvatures_);
   sections_.moments(curvatures_, moments_);
   return {curvatures_, moments_};
 }
 
 double Accounts::back_stress(const State& y) const {
+  if (const MixedSections* mixed = beam_.mixed_at(y)) {
+    return mixed->outer_stress_at_strike(beam_.outer_stiffness());
+  }
   const std::size_t section = beam_.mesh().struck_section();
   return sections_.outer_stress(section, beam_.mesh().curvature(section, beam_.beam_positions(y)),
                                 beam_.outer_stiffness());

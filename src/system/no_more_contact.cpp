@@ -29,6 +29,7 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
       moments_(beam.mesh().n_sections()) {
   const BeamMesh& mesh = beam.mesh();
   const SectionField& sections = beam.sections();
+  if (mesh.natural_step()) return;  // its mass matrix is not mass()
   const auto motion = slow_motion(mesh, sections.stiffness(), first_period,
                                   sections.can_yield() ? most_rigid : n_followed);
   can_prove_ = motion.has_value();

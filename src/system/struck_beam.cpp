@@ -2,10 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
+#include "model/mixed_sections.h"
+#include "ode/integrator.h"
+
 namespace subimpact {
+namespace {
+
+[[noreturn]] void fail_to_flow() {
+  throw IntegrationFailure(std::numeric_limits<double>::quiet_NaN(), "the bending law",
+                           "no convergence", "sections that flow found no equilibrium");
+}
+
+}  // namespace
 
 StruckBeam::StruckBeam(StruckBeamParts parts)
     : mesh_(std::move(parts.mesh)),
@@ -30,6 +42,38 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
                1.0 / (exponent + 1.0));
   scales_ = {striker_velocity_ * contact_time, striker_velocity_};
   if (!sections_.can_yield()) use_modes();
+  if (const auto* mesh = dynamic_cast<const MixedMesh*>(mesh_.get())) {
+    mixed_ = std::make_unique<MixedSections>(
+        *mesh, sections_.stiffness(),
+        sections_.can_yield() ? std::optional(sections_.law()) : std::nullopt);
+    mixed_is_at_.assign(n_, 0.0);
+  }
+}
+
+StruckBeam::StruckBeam(StruckBeam&&) noexcept = default;
+StruckBeam& StruckBeam::operator=(StruckBeam&&) noexcept = default;
+StruckBeam::~StruckBeam() = default;
+
+std::size_t StruckBeam::n_yielded_sections() const {
+  return mixed_ ? mixed_->n_yielded() : sections_.n_yielded();
+}
+
+void StruckBeam::settle(std::span<double> positions) {
+  if (!mixed_) return;
+  const auto unknowns = positions.first(n_);
+  if (!mixed_->settle(unknowns)) fail_to_flow();
+  std::ranges::copy(unknowns, mixed_is_at_.begin());
+}
+
+MixedSections& StruckBeam::bring_mixed_to(std::span<const double> unknowns) const {
+  if (std::memcmp(unknowns.data(), mixed_is_at_.data(), n_ * sizeof(double)) == 0) return *mixed_;
+  std::ranges::copy(unknowns, mixed_is_at_.begin());
+  if (!mixed_->evaluate(unknowns)) fail_to_flow();
+  return *mixed_;
+}
+
+const MixedSections* StruckBeam::mixed_at(std::span<const double> y) const {
+  return mixed_ ? &bring_mixed_to(beam_positions(y)) : nullptr;
 }
 
 void StruckBeam::use_modes() {
@@ -62,6 +106,11 @@ State StruckBeam::state_before_touch(double time) const {
 void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces) {
   if (!modal_stiffness_.empty()) {
     for (std::size_t i = 0; i < n_; ++i) forces[i] = -modal_stiffness_[i] * unknowns[i];
+    return;
+  }
+  if (mixed_) {
+    const MixedSections& mixed = bring_mixed_to(unknowns);
+    mixed.mesh().forces_of(mixed.elastic_curvatures().data(), sections_.stiffness(), forces.data());
     return;
   }
   mesh_->curvatures(unknowns, curvatures_);
@@ -237,6 +286,7 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
 bool StruckBeam::commit(const State& y) {
   if (contact_.loads()) contact_.commit(indentation(y));
   if (!sections_.can_yield()) return false;
+  if (mixed_) return bring_mixed_to(beam_positions(y)).commit();
   if (section_evaluation_ == Evaluation::smooth) {
     read_motion(y, committed_);
     return sections_.commit(committed_.curvatures, committed_.rates) > 0;
@@ -246,7 +296,7 @@ bool StruckBeam::commit(const State& y) {
 }
 
 bool StruckBeam::commit_evaluated(const State& y) {
-  if (section_evaluation_ == Evaluation::smooth) return commit(y);
+  if (section_evaluation_ == Evaluation::smooth || mixed_) return commit(y);
   if (contact_.loads()) contact_.commit(indentation(y));
   return sections_.commit(outside_) > 0;
 }

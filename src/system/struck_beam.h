@@ -14,6 +14,8 @@
 
 namespace subimpact {
 
+class MixedSections;
+
 struct StruckBeamParts {
   std::shared_ptr<const BeamMesh> mesh;
   SectionField sections;
@@ -87,8 +89,13 @@ class BeamJacobian {
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
+  StruckBeam(StruckBeam&&) noexcept;
+  StruckBeam& operator=(StruckBeam&&) noexcept;
+  ~StruckBeam() override;
 
   std::size_t n_positions() const override { return n_ + 1; }
+  /// On mixed cells only: adds what sections that flow displace. Throws IntegrationFailure.
+  void settle(std::span<double> positions) override;
   void acceleration(std::span<const double> positions, std::span<double> result) override;
   bool depends_on_velocity() const override { return depends_on_velocity_; }
   void acceleration_at(std::span<const double> y, std::span<double> result) override;
@@ -103,6 +110,11 @@ class StruckBeam final : public MechanicalSystem {
 
   const BeamMesh& mesh() const { return *mesh_; }
   const SectionField& sections() const { return sections_; }
+  /// Sections in which any fibre has flowed.
+  std::size_t n_yielded_sections() const;
+  /// Bending on mixed cells at a state's positions; null on other meshes. Throws
+  /// IntegrationFailure.
+  const MixedSections* mixed_at(std::span<const double> y) const;
   const ContactState& contact() const { return contact_; }
   ContactState& contact() { return contact_; }
   const MassSolver& mass_solver() const { return *mass_solver_; }
@@ -165,6 +177,7 @@ class StruckBeam final : public MechanicalSystem {
   long n_forces() const { return n_forces_; }
 
  private:
+  MixedSections& bring_mixed_to(std::span<const double> unknowns) const;
   // forces = -B^T W M - K_s w.
   void bend(std::span<const double> unknowns, std::span<double> forces);
   // Adds the forces of the beam's damping, all or those of beta.
@@ -175,6 +188,8 @@ class StruckBeam final : public MechanicalSystem {
 
   std::shared_ptr<const BeamMesh> mesh_;
   SectionField sections_;
+  std::unique_ptr<MixedSections> mixed_;     // sections_ keeps no history then
+  mutable std::vector<double> mixed_is_at_;  // unknowns
   ContactState contact_;
   std::unique_ptr<MassSolver> mass_solver_;
   std::size_t n_;

@@ -39,9 +39,7 @@ SupportReactions::Eliminated SupportReactions::eliminated(
     return result;
   }
   result.of_moments.resize(mesh.n_sections());
-  mesh.curvatures(g, result.of_moments);
-  const auto weights = mesh.section_weights();
-  for (std::size_t j = 0; j < weights.size(); ++j) result.of_moments[j] *= -weights[j];
+  mesh.moment_weights(g, result.of_moments);
   if (mesh.shears()) {
     result.of_unknowns.resize(g.size());
     mesh.add_shear_forces(g, result.of_unknowns);

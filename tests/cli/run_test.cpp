@@ -57,6 +57,19 @@ TEST(Run, WritesItsFilesAndPrintsTheTable) {
   EXPECT_NEAR(summary.at("first_yield").at("section_s").get<double>(), 9.41e-6, 0.05e-6);
 }
 
+TEST(Run, JudgesAStrikeOnMixedCellsByCoarserOnes) {
+  const TemporaryDirectory directory;
+  const Finished finished =
+      run_program(short_run({"--set", "model.mesh=mixed", "--set", "model.segments=400", "--set",
+                             "model.section=exact", "--set", "solver.method=central-difference",
+                             "--set", "time.end=3e-4", "--out", "here"}),
+                  directory.path);
+  EXPECT_EQ(finished.status, 0) << finished.errors;
+  expect_in(finished.output, "400 mixed cells, one half by symmetry");
+  expect_in(finished.output, "runs beside: 340 mixed cells, 280 mixed cells");
+  expect_result_files(directory.path / "here");
+}
+
 TEST(Run, KeepsAHistoryRowEveryInterval) {
   const TemporaryDirectory directory;
   const Finished finished =

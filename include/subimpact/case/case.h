@@ -24,6 +24,7 @@ enum class SectionKind {
 
 enum class MeshKind {
   cells,     ///< equal cells
+  mixed,     ///< equal cells with moments linear between nodes
   hermite,   ///< cubic Hermite elements
   spectral,  ///< elements of degree 4, of a beam that shears
   rigid      ///< the beam as a rigid body

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,7 @@ struct SparseFunctional {
 };
 
 class BeamMesh;
+class MassSolver;
 
 /// All natural modes of a mesh, elastic: K phi = omega^2 Mass phi, phi^T Mass phi = 1.
 struct NaturalModes {
@@ -162,6 +164,13 @@ class BeamMesh {
   /// Whether natural_modes() decomposes no matrix, so that it takes n^2 operations and numbers, not
   /// n^3 and six times as many.
   virtual bool has_closed_modes() const { return false; }
+
+  /// Coefficients of the moments M in the work -g^T B^T W M of displacements g, m.
+  virtual void moment_weights(std::span<const double> unknowns, std::span<double> weights) const;
+  /// The solver of this mesh's mass matrix, where mass() does not hold all of it; else none.
+  virtual std::unique_ptr<MassSolver> make_mass_solver() const;
+  /// The step (s) of central differences that the mesh is made for; else none.
+  virtual std::optional<double> natural_step() const { return {}; }
 
   /// Whether the modes are cheap enough, and the band wide enough, for an elastic beam to be
   /// integrated in modes by any explicit method: the motion is the same.

@@ -146,8 +146,10 @@ struct ResolvedSettings {
   double largest_contact_slope = 0.0;  ///< N/m, dF/dlambda that the strike's energy allows
   /// rad/s, of beam and striker joined by a spring of that slope; at least highest_frequency.
   double joined_frequency = 0.0;
-  double contact_time = 0.0;         ///< s, scale of the shortest contacts
-  double contact_mass_share = 0.0;   ///< of the striker in what such contacts move at once
+  double contact_time = 0.0;        ///< s, scale of the shortest contacts
+  double contact_mass_share = 0.0;  ///< of the striker in what such contacts move at once
+  /// s: the step that the mesh is made for, which no other replaces; empty for most meshes.
+  std::optional<double> natural_step = {};
   double critical_step = 0.0;        ///< s, of central differences: 2/joined_frequency
   std::optional<double> step;        ///< s, of fixed-step methods
   std::optional<std::string> table;  ///< coefficients, of Runge-Kutta methods

@@ -32,12 +32,14 @@ struct RunBeside {
 /// them; finer by 1.2 and 1.45 where a strike is too near an end for coarser ones. In time alone
 /// where the mesh cannot be coarser.
 std::vector<CaseBeside> cases_beside(const Case& input);
-/// Those that show the error in time alone, on the mesh of the case.
+/// Those that show the error in time alone, on the mesh of the case; none where the step belongs to
+/// the mesh.
 std::vector<CaseBeside> cases_beside_in_time(const Case& input);
 
 /// Those for a mesh that is given: those in time, which rows carry, and another mesh for the totals
 /// and what finer meshes would change: twice as many cells by central differences, or 0.7 times as
-/// many parts where the method is that already or the mesh another one.
+/// many parts where the method is that already or the mesh another one. Where the step belongs to
+/// the mesh, those of cases_beside().
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input);
 
 /// Those that show each source of error by itself: "time", "mesh" (a third mesh, coarser by 0.5,

@@ -1,0 +1,170 @@
+#include "model/mixed_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace subimpact {
+namespace {
+
+constexpr int most_rounds = 40;  // in which flow in some cells brings others to flow
+
+}  // namespace
+
+MixedSections::MixedSections(const MixedMesh& mesh, double stiffness, std::optional<SectionLaw> law)
+    : mesh_(mesh),
+      stiffness_(stiffness),
+      yield_curvature_(law ? law->window({}).high : 1.0),
+      flow_(law ? std::make_unique<Flow>(mesh, *law) : nullptr),
+      elastic_(mesh.n_sections(), 0.0),
+      before_(elastic_),
+      earlier_(elastic_),
+      low_(mesh.n_sections(), -yield_curvature_),
+      high_(mesh.n_sections(), yield_curvature_),
+      p_(mesh.n_sections(), 0.0),
+      scratch_(mesh.n_kept_cells()) {}
+
+bool MixedSections::solve(const double* unknowns, double* moved) {
+  mesh_.jumps(unknowns, p_.data(), elastic_.data());
+  mesh_.solve_hats(elastic_);
+  flowed_ = false;
+  if (!flow_) return true;
+  flow_->equations.forget();
+  active_.clear();
+  if (!find_active()) return true;
+  for (const std::size_t index : flowing_) {
+    if (std::ranges::find(active_, index) == active_.end()) active_.push_back(index);
+  }
+  flowed_ = true;
+  FlowEquations& equations = flow_->equations;
+  for (int round = 0; round < most_rounds; ++round) {
+    std::ranges::sort(active_);
+    if (!equations.solve(active_, moved != nullptr, {elastic_, before_, earlier_})) return false;
+    equations.add_to_moments(1.0, elastic_);
+    if (!find_active()) {
+      if (moved != nullptr) equations.add_to_unknowns(moved);
+      return true;
+    }
+    equations.add_to_moments(-1.0, elastic_);  // once more, with the cells that flow too
+  }
+  return false;
+}
+
+// Adds the cells that would flow at the present moments to active_. Returns whether there are any.
+bool MixedSections::find_active() {
+  const std::size_t n_before = active_.size();
+  const double* now = elastic_.data();
+  const double* low = low_.data();
+  const double* high = high_.data();
+  const auto are_outside = [=](std::size_t i) {
+    const Lanes here = lanes_at(now + i);
+    return (here > lanes_at(high + i)) | (here < lanes_at(low + i));
+  };
+  const auto is_outside = [=](std::size_t i) { return now[i] > high[i] || now[i] < low[i]; };
+  for_each_found(elastic_.size(), are_outside, is_outside, [&](std::size_t i) {
+    const std::size_t node = i + mesh_.first_moment();
+    for (const std::size_t cell : {node - 1, node}) {
+      if (cell >= mesh_.n_kept_cells()) continue;
+      const std::size_t index = flow_->cells.make(cell);
+      if (std::ranges::find(active_, index) != active_.end()) continue;
+      if (flow_->cells.flows(index, moments_at(cell))) active_.push_back(index);
+    }
+  });
+  return active_.size() > n_before;
+}
+
+// In M_y; zero at an end without a moment.
+SubCellSections::Ends MixedSections::moments_at(std::size_t cell) const {
+  const auto at = [&](std::size_t node) {
+    const std::size_t section = node - mesh_.first_moment();
+    return section < elastic_.size() ? elastic_[section] / yield_curvature_ : 0.0;
+  };
+  return {at(cell), at(cell + 1)};
+}
+
+bool MixedSections::commit() {
+  earlier_.swap(before_);
+  std::ranges::copy(elastic_, before_.begin());
+  flowing_.clear();
+  if (!flow_) return false;
+  if (!flowed_) {
+    flow_->equations.commit_rest();
+    return false;
+  }
+  flow_->equations.add_to_p(p_);
+  flow_->equations.commit(flowing_);
+  for (const std::size_t index : flowing_) narrow_windows(flow_->cells.cell_of(index));
+  flow_->equations.forget();
+  flowed_ = false;
+  return true;
+}
+
+// Of the nodes of a cell whose sections have flowed: nothing flows beside a node while its moment
+// lies within the windows of both cells beside it.
+void MixedSections::narrow_windows(std::size_t cell) {
+  for (const std::size_t node : {cell, cell + 1}) {
+    const std::size_t section = node - mesh_.first_moment();
+    if (section >= elastic_.size()) continue;
+    SubCellSections::Window both{-MomentLaw::limit, MomentLaw::limit};
+    for (const std::size_t beside : {node - 1, node}) {
+      if (beside >= mesh_.n_kept_cells()) continue;
+      const std::size_t index = flow_->cells.find(beside);
+      SubCellSections::Window window;
+      if (index != SubCellSections::none) window = flow_->cells.window(index);
+      both = {std::max(both.low, window.low), std::min(both.high, window.high)};
+    }
+    low_[section] = both.low * yield_curvature_;
+    high_[section] = both.high * yield_curvature_;
+  }
+}
+
+MixedSections::Energies MixedSections::energies() const {
+  Energies sum;
+  const std::size_t n = elastic_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t node = i + mesh_.first_moment();
+    const double before = node > 0 ? mesh_.cell_length(node - 1) : 0.0;
+    const double after = node < mesh_.n_kept_cells() ? mesh_.cell_length(node) : 0.0;
+    const double next = i + 1 < n ? elastic_[i + 1] : 0.0;
+    sum.elastic += elastic_[i] * (elastic_[i] * (before + after) + next * after) / 3.0;
+  }
+  sum.elastic *= 0.5 * stiffness_;
+  if (flow_) {
+    for (std::size_t index = 0; index < flow_->cells.n_made(); ++index) {
+      sum.elastic += flow_->cells.energies_at_rest(index).elastic;
+      sum.plastic += flow_->cells.energies_at_rest(index).plastic;
+    }
+    for (std::size_t k = 0; flowed_ && k < active_.size(); ++k) {
+      const auto [elastic, plastic] =
+          flow_->cells.energies(active_[k], moments_at(flow_->cells.cell_of(active_[k])));
+      sum.elastic += elastic - flow_->cells.energies_at_rest(active_[k]).elastic;
+      sum.plastic += plastic - flow_->cells.energies_at_rest(active_[k]).plastic;
+    }
+    const double unit = stiffness_ * yield_curvature_ * yield_curvature_;
+    sum.plastic += unit * flow_->equations.hinge_work();
+  }
+  return {mesh_.copies_of_part() * sum.elastic, mesh_.copies_of_part() * sum.plastic};
+}
+
+void MixedSections::read_bending(std::span<double> curvatures, std::span<double> moments) const {
+  std::ranges::copy(p_, curvatures.begin());
+  if (flowed_) flow_->equations.add_to_p(curvatures);
+  for (std::size_t i = 0; i < elastic_.size(); ++i) {
+    curvatures[i] =
+        elastic_[i] + mesh_.copies_of_part() * curvatures[i] / mesh_.section_weights()[i];
+    moments[i] = stiffness_ * elastic_[i];
+  }
+}
+
+double MixedSections::outer_stress_at_strike(double outer_stiffness) const {
+  const std::size_t cell = mesh_.struck_node() - 1;
+  const std::size_t index = flow_ ? flow_->cells.find(cell) : SubCellSections::none;
+  if (index == SubCellSections::none) return -outer_stiffness * elastic_[mesh_.struck_section()];
+  return flow_->cells.outer_stress(index, moments_at(cell));
+}
+
+std::size_t MixedSections::n_yielded() const {
+  return static_cast<std::size_t>(std::ranges::count_if(p_, [](double p) { return p != 0.0; }));
+}
+
+}  // namespace subimpact

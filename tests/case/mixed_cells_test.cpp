@@ -1,0 +1,241 @@
+// The paper's strike on mixed cells: times against limits of fine meshes, accounts, refusals.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <ostream>
+
+#include "paper_case.h"
+#include "yielding_limit.h"
+
+namespace subimpact {
+namespace {
+
+Case mixed_case(SectionKind section, int cells, double end_time = 0.84e-3) {
+  Case input = paper_case(section, end_time);
+  input.model.mesh = MeshKind::mixed;
+  input.model.segments = cells;
+  input.solver = {};
+  input.solver.method = Method::central_difference;
+  return input;
+}
+
+// The largest error of the first nine starts and ends, us; infinite where one is missing.
+double error_of_yielding(const Result& result) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    if (i >= result.sub_impacts.size()) return HUGE_VAL;
+    const SubImpact& here = result.sub_impacts[i];
+    largest = std::max(largest, std::abs(start_us(here) - yielding_limit_us[i][0]));
+    largest = std::max(largest, std::abs(end_us(here) - yielding_limit_us[i][1]));
+  }
+  return largest;
+}
+
+struct Bar {
+  int cells;
+  double error_us;
+};
+void PrintTo(const Bar& bar, std::ostream* out) { *out << bar.cells << "_cells"; }
+
+class MixedCellsThatYield : public testing::TestWithParam<Bar> {};
+
+INSTANTIATE_TEST_SUITE_P(, MixedCellsThatYield,
+                         testing::Values(Bar{180, 1.2}, Bar{200, 1.0}, Bar{230, 1.2}, Bar{260, 1.2},
+                                         Bar{400, 0.1}, Bar{418, 0.1}, Bar{1000, 0.05}),
+                         NamedAsPrinted{});
+
+TEST_P(MixedCellsThatYield, FindEverySubImpactWithinTheBar) {
+  const Result result = simulate(mixed_case(SectionKind::exact, GetParam().cells));
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  const double error = error_of_yielding(result);
+  std::printf("%d cells: largest error %.3f us\n", GetParam().cells, error);
+  EXPECT_LT(error, GetParam().error_us);
+  EXPECT_LT(*result.max_momentum_error, 1e-13);
+}
+
+TEST(MixedCells, FindElasticTimesAtAnOrderNearThree) {
+  const std::vector<ReferenceEvent> reference = reference_table("mesh_limit_elastic");
+  const auto error = [&](int cells) {
+    const Result result = simulate(mixed_case(SectionKind::elastic, cells));
+    EXPECT_EQ(result.sub_impacts.size(), 9u);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
+      const SubImpact& here = result.sub_impacts[i];
+      sum += std::pow(end_us(here) - reference[i].end_us, 2);
+      if (i > 0) sum += std::pow(start_us(here) - reference[i].start_us, 2);
+    }
+    return std::sqrt(sum / 17.0);
+  };
+  const double coarse = error(126), fine = error(500);
+  std::printf("root mean square of errors: %.2e us on 126 cells, %.2e us on 500\n", coarse, fine);
+  EXPECT_LT(fine, 0.01);
+  const double order = std::log(coarse / fine) / std::log(500.0 / 126.0);
+  EXPECT_GT(order, 2.5);
+  EXPECT_LT(order, 4.5);
+}
+
+TEST(MixedCells, KeepEnergyToSecondOrderInTheirLength) {
+  const auto error = [](int cells) {
+    const Result result = simulate(mixed_case(SectionKind::exact, cells));
+    EXPECT_TRUE(result.outcome.completed());
+    return result.max_energy_error;
+  };
+  const double coarse = error(200), fine = error(800);
+  EXPECT_LT(coarse, 5e-4);
+  EXPECT_LT(fine, coarse / 8.0);
+}
+
+TEST(MixedCells, RepeatEveryDigit) {
+  const Case input = mixed_case(SectionKind::exact, 200);
+  const Result here = simulate(input), there = simulate(input);
+  ASSERT_EQ(here.sub_impacts.size(), there.sub_impacts.size());
+  for (std::size_t i = 0; i < here.sub_impacts.size(); ++i) {
+    EXPECT_EQ(here.sub_impacts[i].start, there.sub_impacts[i].start);
+    EXPECT_EQ(here.sub_impacts[i].striker_velocity, there.sub_impacts[i].striker_velocity);
+  }
+}
+
+TEST(MixedCells, ShowTheSameMotionWhateverRowsAreWritten) {
+  Case input = mixed_case(SectionKind::exact, 200);
+  const Result without = simulate(input);
+  input.output.interval = 1e-6;
+  const Result with = simulate(input);
+  ASSERT_EQ(without.sub_impacts.size(), with.sub_impacts.size());
+  for (std::size_t i = 0; i < with.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(start_us(without.sub_impacts[i]), start_us(with.sub_impacts[i]), 0.01);
+  }
+}
+
+TEST(MixedCells, MoveAlikeAsAHalfAndAsAWhole) {
+  Case input = mixed_case(SectionKind::exact, 200);
+  const Result half = simulate(input);
+  input.model.symmetry = SymmetryUse::off;
+  const Result whole = simulate(input);
+  EXPECT_TRUE(half.used.half_model);
+  EXPECT_FALSE(whole.used.half_model);
+  ASSERT_EQ(half.sub_impacts.size(), whole.sub_impacts.size());
+  for (std::size_t i = 0; i < half.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(start_us(half.sub_impacts[i]), start_us(whole.sub_impacts[i]), 0.01);
+  }
+  EXPECT_NEAR(half.final_energies.bending_plastic, whole.final_energies.bending_plastic,
+              1e-4 * whole.final_energies.bending_plastic);
+}
+
+struct Scene {
+  const char* name;
+  std::array<EndSupport, 2> ends;
+  double position;
+};
+void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
+
+class MixedCellsOffMidSpan : public testing::TestWithParam<Scene> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    , MixedCellsOffMidSpan,
+    testing::Values(Scene{"free", {EndSupport::free, EndSupport::free}, 0.37},
+                    Scene{"pinned", {EndSupport::pinned, EndSupport::pinned}, 0.37},
+                    Scene{"clamped", {EndSupport::clamped, EndSupport::clamped}, 0.41},
+                    Scene{"clamped_and_free", {EndSupport::clamped, EndSupport::free}, 0.61},
+                    Scene{"pinned_and_clamped", {EndSupport::pinned, EndSupport::clamped}, 0.3}),
+    NamedAsPrinted{});
+
+TEST_P(MixedCellsOffMidSpan, AgreeWithCells) {
+  const auto set = [](Case input) {
+    input.scene.beam.ends = GetParam().ends;
+    input.scene.striker.position = GetParam().position;
+    input.output.interval = 5e-5;
+    return input;
+  };
+  const Result mixed = simulate(set(mixed_case(SectionKind::exact, 400, 0.3e-3)));
+  Case in_cells = mixed_case(SectionKind::exact, 2001, 0.3e-3);
+  in_cells.model.mesh = MeshKind::cells;
+  const Result cells = simulate(set(in_cells));
+  ASSERT_TRUE(mixed.outcome.completed()) << mixed.outcome.message;
+  ASSERT_GE(mixed.sub_impacts.size(), 2u);
+  EXPECT_NEAR(end_us(mixed.sub_impacts[0]), end_us(cells.sub_impacts[0]), 0.3);
+  EXPECT_NEAR(start_us(mixed.sub_impacts[1]), start_us(cells.sub_impacts[1]), 0.3);
+  EXPECT_NEAR(mixed.final_energies.bending_plastic, cells.final_energies.bending_plastic,
+              5e-3 * cells.final_energies.bending_plastic);
+  ASSERT_EQ(mixed.history.size(), cells.history.size());
+  const HistoryRow& here = mixed.history.back();
+  const HistoryRow& there = cells.history.back();
+  EXPECT_EQ(here.first_reaction.has_value(), there.first_reaction.has_value());
+  EXPECT_EQ(here.last_reaction.has_value(), there.last_reaction.has_value());
+  EXPECT_NEAR(here.first_reaction.value_or(0.0), there.first_reaction.value_or(0.0), 60.0);
+  EXPECT_NEAR(here.last_reaction.value_or(0.0), there.last_reaction.value_or(0.0), 60.0);
+}
+
+TEST(MixedCells, LeaveThePermanentSetOfCells) {
+  Case input = mixed_case(SectionKind::exact, 400, 0.3e-3);
+  input.output.shapes = 1e-4;
+  const Result mixed = simulate(input);
+  input.model.mesh = MeshKind::cells;
+  input.model.segments = 2001;
+  const Result cells = simulate(input);
+  const auto set_at_middle = [](const Result& result) {
+    const auto middle = std::ranges::min_element(result.envelope, {}, [](const EnvelopeRow& row) {
+      return std::abs(row.position - 0.3556);
+    });
+    return middle->permanent_set;
+  };
+  EXPECT_NEAR(set_at_middle(mixed), set_at_middle(cells), 5e-3 * std::abs(set_at_middle(cells)));
+}
+
+struct Refusal {
+  const char* what;
+  const char* key;
+  std::function<void(Case&)> spoil;
+};
+void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.what; }
+
+class MixedCellsRefuse : public testing::TestWithParam<Refusal> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    ByName, MixedCellsRefuse,
+    testing::Values(
+        Refusal{"euler_bernoulli", "beam.theory",
+                [](Case& c) { c.scene.beam.theory = BeamTheory::euler_bernoulli; }},
+        Refusal{"shear", "model.mesh",
+                [](Case& c) {
+                  c.scene.beam.theory = BeamTheory::timoshenko;
+                  c.scene.beam.poisson = 0.3;
+                }},
+        Refusal{"layers", "model.section", [](Case& c) { c.model.section = SectionKind::layers; }},
+        Refusal{"own_section", "model.section",
+                [](Case& c) { c.parts.section = Fibres::layered(10); }},
+        Refusal{"damping", "beam.damping", [](Case& c) { c.scene.beam.damping.mass = 1.0; }},
+        Refusal{"nystrom", "solver.method", [](Case& c) { c.solver.method = Method::nystrom; }},
+        Refusal{"step", "solver.step", [](Case& c) { c.solver.step = 1e-7; }},
+        Refusal{"located_events", "solver.events",
+                [](Case& c) { c.solver.events = EventHandling::located; }},
+        Refusal{"proof_of_no_contact", "time.stop",
+                [](Case& c) { c.stop = StopRule::no_more_contact; }},
+        Refusal{"strike_near_end", "striker.position",
+                [](Case& c) { c.scene.striker.position = 0.01; }},
+        Refusal{"odd_half", "model.segments", [](Case& c) { c.model.segments = 201; }},
+        Refusal{"stiff_contact", "model.segments",
+                [](Case& c) {
+                  c.scene.contact.kind = ContactKind::linear;
+                  c.scene.contact.stiffness = 1e12;
+                }}),
+    NamedAsPrinted{});
+
+TEST_P(MixedCellsRefuse, WhatTheyDoNotCarry) {
+  Case input = mixed_case(SectionKind::exact, 200);
+  GetParam().spoil(input);
+  try {
+    resolve(input);
+    FAIL() << "not refused";
+  } catch (const InvalidCase& refused) {
+    EXPECT_EQ(refused.key, GetParam().key) << refused.what();
+    const std::string message = refused.what();
+    EXPECT_TRUE(
+        message.find("use") != std::string::npos || message.find("leave") != std::string::npos ||
+        message.find("choose") != std::string::npos || message.find("set") != std::string::npos)
+        << message;
+  }
+}
+
+}  // namespace
+}  // namespace subimpact

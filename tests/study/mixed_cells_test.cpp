@@ -1,0 +1,48 @@
+// Error bars of runs on mixed cells.
+
+#include <gtest/gtest.h>
+
+#include "paper_scene.h"
+#include "subimpact/case/simulate.h"
+#include "subimpact/study/judgement.h"
+#include "subimpact/study/run_as_asked.h"
+
+namespace subimpact {
+namespace {
+
+Case mixed_case() {
+  Case input;
+  input.scene = paper_scene();
+  input.model.mesh = MeshKind::mixed;
+  input.model.segments = 400;
+  input.end_time = 0.4e-3;
+  input.solver.method = Method::central_difference;
+  input.output.interval = 0.0;
+  return input;
+}
+
+TEST(MixedCells, AreJudgedByCoarserMixedCellsAtTheirOwnSteps) {
+  const Case input = mixed_case();
+  const std::vector<CaseBeside> beside = cases_beside_on_given_mesh(input);
+  ASSERT_EQ(beside.size(), 2u);
+  for (const CaseBeside& other : beside) {
+    EXPECT_EQ(other.input.model.mesh, MeshKind::mixed);
+    EXPECT_LT(other.input.model.segments, 400);
+    EXPECT_FALSE(other.input.solver.step);
+  }
+  const Result result = simulate_judged(input, beside, 1);
+  ASSERT_TRUE(result.outcome.completed());
+  ASSERT_TRUE(result.error_estimate);
+  EXPECT_GT(result.error_estimate->largest_error, 0.0);
+  EXPECT_LT(result.error_estimate->largest_error, 1e-6);
+}
+
+TEST(MixedCells, HaveNoErrorOfTimeAlone) {
+  EXPECT_TRUE(cases_beside_in_time(mixed_case()).empty());
+  RunRequest request;
+  request.error_bars = ErrorBars::time;
+  EXPECT_THROW(run_as_asked(mixed_case(), {}, std::move(request)), InvalidCase);
+}
+
+}  // namespace
+}  // namespace subimpact
