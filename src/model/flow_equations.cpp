@@ -9,8 +9,8 @@ namespace {
 constexpr auto none = SubCellSections::none;
 constexpr double tolerance = 1e-5;  // of the equations, in M_y
 constexpr int most_iterations = 300;
-constexpr int bold_iterations = 10;  // after which the error must fall in each
-constexpr int most_releases = 4;     // of hinges, in one solution
+constexpr int bold_iterations = 10;
+constexpr int most_releases = 4;  // of hinges, in one solution
 // Distance from M_p, in M_y, where a hinge that stops turning is left, and within which one begins
 // to turn, at first and after one has stopped.
 constexpr double off_hinge = 1e-4;
@@ -83,6 +83,13 @@ bool FlowEquations::solve(const std::vector<std::size_t>& active, bool coupled,
                           const Moments& moments) {
   gather(active, coupled);
   start(moments);
+  if (iterate(bold_iterations)) return true;
+  // Again from the moments of the last commit, by short steps alone.
+  start({moments.without_flow, moments.before, moments.before});
+  return iterate(0);
+}
+
+bool FlowEquations::iterate(int bold) {
   int releases = 0;
   for (int k = 0; k < most_iterations; ++k) {
     const double error = evaluate();
@@ -93,7 +100,7 @@ bool FlowEquations::solve(const std::vector<std::size_t>& active, bool coupled,
       continue;
     }
     find_step();
-    if (k < bold_iterations) {
+    if (k < bold) {
       advance();
     } else {
       descend(error);

@@ -65,6 +65,8 @@ class FlowEquations {
   void resize(std::size_t stride);
   void read_responses();
   void start(const Moments& moments);
+  // Newton's method; after so many bold iterations the error must fall in each.
+  bool iterate(int bold);
   double evaluate();
   void subtract_response(std::size_t node, double p, double b, double* column) const;
   void find_step();

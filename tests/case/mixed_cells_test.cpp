@@ -86,6 +86,13 @@ TEST(MixedCells, KeepEnergyToSecondOrderInTheirLength) {
   EXPECT_LT(fine, coarse / 8.0);
 }
 
+// With bold steps alone the law of the sections that flow finds no solution at 6.448 ms.
+TEST(MixedCells, OfFineMeshesCompleteAStrikeOfManyReversals) {
+  const Result result = simulate(mixed_case(SectionKind::exact, 1600, 6.5e-3));
+  EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_GT(result.sub_impacts.size(), 40u);
+}
+
 TEST(MixedCells, RepeatEveryDigit) {
   const Case input = mixed_case(SectionKind::exact, 200);
   const Result here = simulate(input), there = simulate(input);
