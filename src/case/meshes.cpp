@@ -94,10 +94,12 @@ void check_mixed_model(const Case& input) {
                       "is \"euler-bernoulli\", but mixed cells need rotary inertia; allowed with "
                       "model.mesh = \"mixed\": \"rayleigh\"; choose it, or another mesh");
   }
-  if (!input.scene.beam.damping.is_none()) {
+  if (const BeamDamping& damping = input.scene.beam.damping; !damping.is_none()) {
     throw InvalidCase(
-        "beam.damping",
-        "is given, but mixed cells have no damping; leave it out, or use another mesh");
+        damping.ratio > 0.0  ? "beam.damping.ratio"
+        : damping.mass > 0.0 ? "beam.damping.mass"
+                             : "beam.damping.stiffness",
+        "is above 0, but mixed cells have no damping; leave it out, or use another mesh");
   }
   if (input.parts.section || input.model.section == SectionKind::layers) {
     throw InvalidCase(

@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"layers", "model.section", [](Case& c) { c.model.section = SectionKind::layers; }},
         Refusal{"own_section", "model.section",
                 [](Case& c) { c.parts.section = Fibres::layered(10); }},
-        Refusal{"damping", "beam.damping", [](Case& c) { c.scene.beam.damping.mass = 1.0; }},
+        Refusal{"damping", "beam.damping.mass", [](Case& c) { c.scene.beam.damping.mass = 1.0; }},
         Refusal{"nystrom", "solver.method", [](Case& c) { c.solver.method = Method::nystrom; }},
         Refusal{"step", "solver.step", [](Case& c) { c.solver.step = 1e-7; }},
         Refusal{"located_events", "solver.events",
