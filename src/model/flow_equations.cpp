@@ -234,7 +234,7 @@ void FlowEquations::find_step() {
   }
 }
 
-// Moves by step_, each node by the part of it that the sections beside it allow.
+// Moves each node by the part of step_ that the sections beside the node allow.
 void FlowEquations::advance() {
   const std::size_t n = nodes_.size();
   std::ranges::fill(part_, 1.0);

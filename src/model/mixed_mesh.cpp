@@ -304,7 +304,7 @@ SparseFunctional MixedMesh::curvature_functional(std::size_t section) const {
   return result;
 }
 
-// The cell of x and the share of it before x, without rounding at a node.
+// The cell that holds x, and the share of the cell before x, without rounding at a node.
 std::pair<std::size_t, double> MixedMesh::place_of(double x) const {
   const auto after = std::ranges::upper_bound(node_positions_, x);
   const auto past = static_cast<std::size_t>(after - node_positions_.begin());

@@ -29,7 +29,7 @@ class MomentLaw {
 
   struct Flow {
     double plastic;  ///< x - m
-    double slope;    ///< of it over m
+    double slope;    ///< d(x - m)/dm
   };
   /// For any m within the limits.
   Flow at(double m) const {

@@ -33,7 +33,7 @@ class SubCellSections {
   bool flows(std::size_t index, const Ends& moments) const;
   /// Whether every section is short of its full plastic moment.
   bool is_inside(std::size_t index, const Ends& moments) const;
-  /// The part of a step of the moments that leaves the sections well short of it.
+  /// The part of a step of the moments that leaves every section short of its full plastic moment.
   double part_of_step(std::size_t index, const Ends& moments, const Ends& step) const;
   static double part_of_step(double moment, double step);
 

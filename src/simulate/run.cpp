@@ -119,7 +119,7 @@ void add_remedy(Outcome& outcome, const RunParts& parts) {
   const std::optional<double>& step = parts.settings.step;
   const bool failed = outcome.kind == OutcomeKind::solver_failed;
   if (parts.settings.natural_step && (failed || outcome.first_failure)) {
-    outcome.message += "; use more model.segments, or another mesh";
+    outcome.message += "; use another number of model.segments, or another mesh";
   } else if (failed) {
     outcome.message += parts.given.solver.step
                            ? "; use a smaller solver.step or another solver.method"

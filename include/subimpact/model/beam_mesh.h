@@ -167,7 +167,7 @@ class BeamMesh {
 
   /// Coefficients of the moments M in the work -g^T B^T W M of displacements g, m.
   virtual void moment_weights(std::span<const double> unknowns, std::span<double> weights) const;
-  /// The solver of this mesh's mass matrix, where mass() does not hold all of it; else none.
+  /// The solver of the mass matrix on meshes where mass() holds only a part of it; else null.
   virtual std::unique_ptr<MassSolver> make_mass_solver() const;
   /// The step (s) of central differences that the mesh is made for; else none.
   virtual std::optional<double> natural_step() const { return {}; }
