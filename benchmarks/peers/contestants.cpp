@@ -72,13 +72,12 @@ Contestant central_difference(const Case& input) {
 // Where sections yield: accounts of sections as here, or at the ends of steps, which must then be
 // short.
 struct SectionWay {
-  const char* text;
   ReversalHandling reversals;
   std::vector<std::pair<double, std::optional<double>>> steps;  // rtol, longest step in s
 };
 std::vector<SectionWay> section_ways(const Case& input) {
   const auto located = ReversalHandling::located;
-  SectionWay corrected{"rtol {:.0e}", located, {}};
+  SectionWay corrected{located, {}};
   if (is_elastic(input)) {
     for (const double rtol : tolerances(1e-4, 1e-10, 0.316227766)) {
       corrected.steps.push_back({rtol, {}});
@@ -86,26 +85,41 @@ std::vector<SectionWay> section_ways(const Case& input) {
     return {corrected};
   }
   for (const double rtol : tolerances(1e-5, 1e-10, 0.1)) corrected.steps.push_back({rtol, {}});
-  SectionWay at_ends{"rtol {:.0e}, sections at step ends", ReversalHandling::step_end, {}};
+  SectionWay at_ends{ReversalHandling::step_end, {}};
   for (const double rtol : {1e-6, 1e-7, 1e-8}) at_ends.steps.push_back({rtol, {}});
-  SectionWay capped{"rtol {:.0e}, steps up to {:.3g} us, sections at their ends",
-                    ReversalHandling::step_end,
-                    {{1e-7, 0.1 * us}, {1e-8, 0.05 * us}, {1e-9, 0.025 * us}}};
+  SectionWay capped{ReversalHandling::step_end,
+                    {{1e-7, 0.1 * us}, {1e-8, 0.05 * us}, {1e-9, 0.025 * us}, {1e-9, 0.0125 * us}}};
   return {corrected, at_ends, capped};
 }
 
+std::string text_of(double rtol, std::optional<double> longest) {
+  const std::string cap = longest ? fmt::format(", steps up to {:.3g} us", *longest / us) : "";
+  return fmt::format("rtol {:.0e}{}", rtol, cap);
+}
+
+// Peers as their users have them, and where sections yield once more with the section correction of
+// this program.
+bool is_corrected(const SectionWay& way, const Case& input) {
+  return !is_elastic(input) && way.reversals == ReversalHandling::located;
+}
+Contestant& of_way(std::vector<Contestant>& list, const std::string& name, const SectionWay& way,
+                   const Case& input) {
+  const std::string full = is_corrected(way, input) ? name + ", section correction" : name;
+  for (Contestant& contestant : list) {
+    if (contestant.name == full) return contestant;
+  }
+  return list.emplace_back(Contestant{.name = full, .ours = false, .sweeps = {}});
+}
+
 // A peer in this program's loop.
-Contestant in_loop(const Case& input, const Peer& peer) {
-  Contestant contestant{.name = peer.name, .ours = false, .sweeps = {}};
+void add_in_loop(std::vector<Contestant>& list, const Case& input, const Peer& peer) {
   for (const SectionWay& way : section_ways(input)) {
-    auto& sweep = contestant.sweeps.emplace_back();
+    auto& sweep = of_way(list, peer.name, way, input).sweeps.emplace_back();
     for (const auto& [rtol, longest] : way.steps) {
       Case changed = with(input, Method::erk, {}, rtol);
       changed.solver.reversals = way.reversals;
       const StepControl control{rtol, longest};
-      const std::string text = longest ? fmt::format(fmt::runtime(way.text), rtol, *longest / us)
-                                       : fmt::format(fmt::runtime(way.text), rtol);
-      sweep.push_back({.text = text, .run = [changed, control, make = peer.make] {
+      sweep.push_back({.text = text_of(rtol, longest), .run = [changed, control, make = peer.make] {
                          ResolvedRun run = resolve(changed);
                          run.parts().complete();
                          const auto integrator = make(run.parts().beam, control);
@@ -113,31 +127,24 @@ Contestant in_loop(const Case& input, const Peer& peer) {
                        }});
     }
   }
-  return contestant;
 }
 
 // SUNDIALS as packaged: its vector operations, its root-finding.
-Contestant plain_sundials(const Case& input, const char* name, Method method,
-                          const std::string& table) {
-  Contestant contestant{.name = name, .ours = false, .sweeps = {}};
+void add_plain_sundials(std::vector<Contestant>& list, const Case& input, const char* name,
+                        Method method, const std::string& table) {
   for (const SectionWay& way : section_ways(input)) {
-    if (method == Method::adams && way.reversals == ReversalHandling::located &&
-        !is_elastic(input)) {
-      continue;
-    }
-    auto& sweep = contestant.sweeps.emplace_back();
+    // A multistep method that stops at every section event begins again at order one each time.
+    if (method == Method::adams && is_corrected(way, input)) continue;
+    auto& sweep = of_way(list, name, way, input).sweeps.emplace_back();
     for (const auto& [rtol, longest] : way.steps) {
       Case changed = with(input, method, table, rtol);
       changed.solver.events = EventHandling::library;
       changed.solver.reversals = way.reversals;
       changed.solver.max_step = longest;
       changed.study.vector_operations = VectorOperationsKind::library;
-      sweep.push_back(setting_of(longest ? fmt::format(fmt::runtime(way.text), rtol, *longest / us)
-                                         : fmt::format(fmt::runtime(way.text), rtol),
-                                 changed));
+      sweep.push_back(setting_of(text_of(rtol, longest), changed));
     }
   }
-  return contestant;
 }
 
 }  // namespace
@@ -150,15 +157,14 @@ std::vector<Contestant> contestants(const Case& input, std::vector<std::string>&
   list.push_back(central_difference(input));
   const auto add = [&](const char* library, const std::vector<Peer>& peers) {
     if (peers.empty()) skipped.emplace_back(library);
-    for (const Peer& peer : peers) list.push_back(in_loop(input, peer));
+    for (const Peer& peer : peers) add_in_loop(list, input, peer);
   };
   add("Boost.odeint", odeint_peers());
   add("GSL", gsl_peers());
   add("PETSc", petsc_peers());
-  list.push_back(
-      plain_sundials(input, "ARKODE dormand-prince, plain", Method::erk, "dormand-prince"));
-  list.push_back(plain_sundials(input, "ARKODE dop853, plain", Method::erk, "dop853"));
-  list.push_back(plain_sundials(input, "CVODE Adams, plain", Method::adams, {}));
+  add_plain_sundials(list, input, "ARKODE dormand-prince", Method::erk, "dormand-prince");
+  add_plain_sundials(list, input, "ARKODE dop853", Method::erk, "dop853");
+  add_plain_sundials(list, input, "CVODE Adams", Method::adams, {});
   return list;
 }
 

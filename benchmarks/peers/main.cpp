@@ -15,8 +15,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "contestants.h"
 #include "../measure.h"
+#include "contestants.h"
 #include "report/files.h"
 #include "report/gnuplot.h"
 #include "subimpact/study/event_errors.h"
@@ -29,7 +29,7 @@ using namespace subimpact::peers;
 constexpr double us = 1e6;
 constexpr double wanted_errors[] = {1e-8, 1e-9, 1e-10};  // s
 constexpr double reference_share = 0.3;  // of the smallest of them, the reference may be off by
-constexpr double longest_run = 4.0;      // s: what comes after it in a sweep is left out
+constexpr double longest_run = 2.0;      // s: what comes after it in a sweep is left out
 constexpr int rounds = 3;                // of those compared, side by side
 
 double processor_seconds() {
