@@ -87,6 +87,8 @@ std::vector<Finder> finders() {
       {"located, exponential", true,
        simulated({Method::exponential, "", EventHandling::located, tight})},
       {"located, nystrom", true, simulated({Method::nystrom, "", EventHandling::located, tight})},
+      {"located, nystrom dprkn12", true,
+       simulated({Method::nystrom, "dprkn12", EventHandling::located, tight})},
       {"located, erk", true, simulated({Method::erk, "", EventHandling::located, tight})},
       {"Taylor series, roots isolated", false, events_by_taylor_series},
       {"ARKODE roots, gap and rate", false,
