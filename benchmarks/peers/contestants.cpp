@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -30,7 +31,8 @@ Setting setting_of(std::string text, const Case& input) {
 // Tolerances, a half or a whole decade apart.
 std::vector<double> tolerances(double from, double to, double factor) {
   std::vector<double> list;
-  for (double rtol = from; rtol > 0.99 * to; rtol *= factor) list.push_back(rtol);
+  const int steps = static_cast<int>(std::lround(std::log(to / from) / std::log(factor)));
+  for (int i = 0; i <= steps; ++i) list.push_back(from * std::pow(factor, i));
   return list;
 }
 
@@ -61,7 +63,8 @@ Contestant central_difference(const Case& input) {
   Case changed = input;
   changed.solver.method = Method::central_difference;
   const double critical = resolve(changed).settings().critical_step;
-  for (double part = 0.9; part > 0.005; part *= 0.6) {
+  for (int i = 0; i <= 10; ++i) {
+    const double part = 0.9 * std::pow(0.6, i);
     changed.solver.step = part * critical;
     contestant.sweeps[0].push_back(
         setting_of(fmt::format("step {:.3g} us", part * critical / us), changed));
@@ -137,6 +140,7 @@ void add_plain_sundials(std::vector<Contestant>& list, const Case& input, const 
     if (method == Method::adams && is_corrected(way, input)) continue;
     auto& sweep = of_way(list, name, way, input).sweeps.emplace_back();
     for (const auto& [rtol, longest] : way.steps) {
+      if (method == Method::adams && rtol > 1.1e-7) continue;  // grows without bound
       Case changed = with(input, method, table, rtol);
       changed.solver.events = EventHandling::library;
       changed.solver.reversals = way.reversals;

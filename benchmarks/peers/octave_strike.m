@@ -49,9 +49,10 @@ whole = sparse(cells, n);
 for i = 1:cells
   whole(i, min(i, cells + 1 - i)) = 1;
 end
-mass = spdiags([-coupling*ones(cells,1), (area + 2*coupling)*ones(cells,1), -coupling*ones(cells,1)], -1:1, cells, cells);
+one = ones(cells, 1);
+mass = spdiags([-coupling*one, (area + 2*coupling)*one, -coupling*one], -1:1, cells, cells);
 mass(1,1) -= coupling; mass(end,end) -= coupling;
-bend = spdiags([ones(cells,1), -2*ones(cells,1), ones(cells,1)], -1:1, cells, cells) / dx^2;
+bend = spdiags([one, -2*one, one], -1:1, cells, cells) / dx^2;
 bend(1,:) = 0; bend(end,:) = 0;
 half_mass = whole' * mass * whole;
 half_stiffness = whole' * bend' * (EI * dx) * bend * whole;
@@ -70,7 +71,8 @@ for tolerance = [1e-6 1e-8]
   while t < last / unit
     options = odeset('RelTol', 1e-13, 'AbsTol', tolerance * scale, 'InitialStep', first, ...
                      'Events', @(t, y) events(y, n, branch, largest, yields));
-    [ts, ys, te, ye, ie] = ode45(@(t, y) motion(y, n, A, p, branch, largest, yields, K, unit), [t last/unit], y, options);
+    rate = @(t, y) motion(y, n, A, p, branch, largest, yields, K, unit);
+    [ts, ys, te, ye, ie] = ode45(rate, [t last/unit], y, options);
     t = ts(end); y = ys(end,:)';
     if numel(ts) > 2, first = ts(end-1) - ts(end-2); end
     if isempty(te) || t >= last / unit, break; end

@@ -2,8 +2,8 @@
 
     python3 scipy_strike.py LIBRARY OUT SECTION      writes OUT.SECTION: setting seconds count start end ...
 
-The steps are SciPy's; events are roots of the event functions on its dense output, found with brentq; histories of sections
-advance at the ends of steps.
+The steps are SciPy's; events are roots of the event functions on its dense output, found with brentq; histories of
+sections advance at the ends of steps.
 """
 
 import ctypes
@@ -71,7 +71,9 @@ class Strike:
 def run(library, section, solver_class, tolerance, longest):
     strike = Strike(library, section)
     end = END / strike.unit
-    options = {"rtol": 3e-14, "atol": tolerance * strike.scale, "max_step": longest * US / strike.unit if longest else numpy.inf}
+    options = {"rtol": 3e-14, "atol": tolerance * strike.scale}
+    if longest:
+        options["max_step"] = longest * US / strike.unit
     y = strike.start()
     t, first = 0.0, 1e-3
     contacts = [[0.0, 0.0]]

@@ -1,8 +1,8 @@
 """Grazes whose answers are known to fifty digits: scenes and all their events, one line each.
 
-A mass meets a beam of one or more modes through a spring that can push only. In contact and apart the equations are
-linear, so the indentation is a sum of sines and a straight line on each piece; the pieces end at its roots. One stiffness is
-tuned until a local extremum of the indentation lies a wanted depth beyond zero, or short of it.
+A mass meets a beam of one or more modes through a spring that can push only. In contact and apart the equations
+are linear, so the indentation is a sum of sines and a straight line on each piece; the pieces end at its roots. One
+stiffness is tuned until a local extremum of the indentation lies a wanted depth beyond zero, or short of it.
 
     python3 scenes.py OUT [--one-mode N] [--beams N] [--seed S]
 """
@@ -191,7 +191,8 @@ class Path:
             side = 1 if closed else -1
             left = float(end - start)
             # Roots may lie close to the start: the first steps are graded.
-            times = numpy.concatenate([step * numpy.geomspace(1e-9, 1.0, 60)[:-1], numpy.arange(step, left + step, step)])
+            graded = step * numpy.geomspace(1e-9, 1.0, 60)[:-1]
+            times = numpy.concatenate([graded, numpy.arange(step, left + step, step)])
             _, rate = piece.on_grid(times)
             turns = numpy.nonzero(numpy.sign(rate[1:]) != numpy.sign(rate[:-1]))[0]
             before, root, index = mpf(0), None, 0
@@ -292,7 +293,8 @@ def make(task):
                 continue
             choice = min(choices, key=lambda e: abs(e.value))
             sign = -1 if choice.closed == touches else 1
-            scene = tuned(scene, choice.time * mpf("1.02") + mpf(0.3 / scene.fastest()), choice, sign * mpf(10) ** mpf(decade))
+            until = choice.time * mpf("1.02") + mpf(0.3 / scene.fastest())
+            scene = tuned(scene, until, choice, sign * mpf(10) ** mpf(decade))
             end = float(choice.time) + 1.0 / scene.highest()
             path = Path(scene, mpf(end))
         except (ArithmeticError, ValueError, ZeroDivisionError):
@@ -302,7 +304,8 @@ def make(task):
             continue
         amplitude = max(value for n, value in path.depths.items() if n <= choice.piece)
         others = [e for e in path.extrema if e is not graze and abs(e.value) < LEAST_OTHER * amplitude]
-        excursions = [d for n, d in path.depths.items() if n not in (choice.piece + 1, len(path.events)) and d < LEAST_OTHER * amplitude]
+        excursions = [d for n, d in path.depths.items()
+                      if n not in (choice.piece + 1, len(path.events)) and d < LEAST_OTHER * amplitude]
         if others or excursions or (path.events and float(path.events[-1][0]) > end - 0.02 / scene.fastest()):
             continue
         if touches:
@@ -313,15 +316,14 @@ def make(task):
             duration = path.events[choice.piece + 1][0] - path.events[choice.piece][0]
         else:
             depth, duration = -abs(graze.value) / amplitude, mpf(0)
-        words = [family, number, "opening" if choice.closed else "closing", mpmath.nstr(depth, 17), float(graze.time).hex(),
-                 mpmath.nstr(duration, 17), repr(end), repr(scene.striker_mass), repr(scene.velocity), repr(scene.stiffness),
-                 len(scene.modes)]
+        words = [family, number, "opening" if choice.closed else "closing", mpmath.nstr(depth, 17),
+                 repr(float(graze.time)), mpmath.nstr(duration, 17), repr(end), repr(scene.striker_mass),
+                 repr(scene.velocity), repr(scene.stiffness), len(scene.modes)]
         for mode in scene.modes:
             words += [repr(x) for x in mode]
         words.append(len(path.events))
         for time, begins in path.events:
             words += ["begins" if begins else "ends", mpmath.nstr(time, 25)]
-        words[4] = repr(float(graze.time))
         return " ".join(str(word) for word in words)
 
 

@@ -2,9 +2,9 @@
 
     python3 scipy_events.py SCENES OUT [--rate]
 
-Writes the processor time in seconds, then per scene the number of events with kinds and times. With --rate a step also ends
-where the rate of the gap changes its sign, so that no step has two roots of the gap; solve_ivp looks at the gap at the ends of
-whole steps only, so that a root before such an end is looked for here, on the solver's dense output.
+Writes the processor time in seconds, then per scene the number of events with kinds and times. With --rate a step
+also ends where the rate of the gap changes its sign, so that no step has two roots of the gap; solve_ivp looks at the
+gap at the ends of whole steps only, so that a root before such an end is looked for here, on the solver's dense output.
 """
 
 import argparse

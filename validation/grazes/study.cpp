@@ -285,9 +285,7 @@ void draw(const std::string& directory, const std::vector<Score>& scores) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   CLI::App app{"Grazes found, missed and invented, by ways to find events."};
   std::string file;
   std::vector<std::string> others;
@@ -301,52 +299,57 @@ int main(int argc, char** argv) {
       "Exit status: 0 if located events miss none deeper than 1e-12 of the amplitude and "
       "invent none; 1 if not so.");
   CLI11_PARSE(app, argc, argv);
+  const std::vector<Scene> all = read_scenes(file);
+  std::vector<std::string> families;
+  for (const Scene& scene : all) {
+    if (std::ranges::find(families, scene.family) == families.end()) {
+      families.push_back(scene.family);
+    }
+  }
+  const auto table_of = [&](const std::string& family, const std::vector<Score>& scores) {
+    fmt::print(
+        "\n{}: {} scenes, {} of them grazes\n\n", family,
+        std::ranges::count_if(all, [&](const Scene& s) { return of(s, family); }),
+        std::ranges::count_if(all, [&](const Scene& s) { return of(s, family) && s.touches(); }));
+    print(scores);
+    std::fflush(stdout);
+  };
+  std::vector<Score> sums;
+  for (const std::string& family : families) {
+    std::vector<Score> scores;
+    for (const Finder& finder : finders()) {
+      if (finder.name.find(only) == std::string::npos) continue;
+      scores.push_back(score_of(finder, family, all));
+    }
+    for (const std::string& other : others) {
+      const std::size_t split = other.find('=');
+      if (split == std::string::npos) throw std::runtime_error("--also: not NAME=FILE");
+      scores.push_back(score_of_file(other.substr(0, split), other.substr(split + 1), family, all));
+    }
+    table_of(family, scores);
+    if (sums.empty()) {
+      sums = scores;
+    } else {
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i].add(scores[i]);
+    }
+  }
+  if (!figure.empty()) draw(figure, sums);
+  const bool kept = std::ranges::all_of(sums, [](const Score& s) {
+    return !s.ours || (s.missed_above_promise == 0 && s.invented == 0 && s.failed == 0);
+  });
+  fmt::print("\nLocated events: {}\n",
+             kept ? "none deeper than 1e-12 of the amplitude missed, none invented, no run failed"
+                  : "MISSED, INVENTED or FAILED");
+  return kept ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const std::vector<Scene> all = read_scenes(file);
-    std::vector<std::string> families;
-    for (const Scene& scene : all) {
-      if (std::ranges::find(families, scene.family) == families.end()) {
-        families.push_back(scene.family);
-      }
-    }
-    const auto table_of = [&](const std::string& family, const std::vector<Score>& scores) {
-      fmt::print(
-          "\n{}: {} scenes, {} of them grazes\n\n", family,
-          std::ranges::count_if(all, [&](const Scene& s) { return of(s, family); }),
-          std::ranges::count_if(all, [&](const Scene& s) { return of(s, family) && s.touches(); }));
-      print(scores);
-      std::fflush(stdout);
-    };
-    std::vector<Score> sums;
-    for (const std::string& family : families) {
-      std::vector<Score> scores;
-      for (const Finder& finder : finders()) {
-        if (finder.name.find(only) == std::string::npos) continue;
-        scores.push_back(score_of(finder, family, all));
-      }
-      for (const std::string& other : others) {
-        const std::size_t split = other.find('=');
-        if (split == std::string::npos) throw std::runtime_error("--also: not NAME=FILE");
-        scores.push_back(
-            score_of_file(other.substr(0, split), other.substr(split + 1), family, all));
-      }
-      table_of(family, scores);
-      if (sums.empty()) {
-        sums = scores;
-      } else {
-        for (std::size_t i = 0; i < sums.size(); ++i) sums[i].add(scores[i]);
-      }
-    }
-    if (!figure.empty()) draw(figure, sums);
-    const bool kept = std::ranges::all_of(sums, [](const Score& s) {
-      return !s.ours || (s.missed_above_promise == 0 && s.invented == 0 && s.failed == 0);
-    });
-    fmt::print("\nLocated events: {}\n",
-               kept ? "none deeper than 1e-12 of the amplitude missed, none invented, no run failed"
-                    : "MISSED, INVENTED or FAILED");
-    return kept ? 0 : 1;
+    return run_program(argc, argv);
   } catch (const std::exception& failure) {
-    fmt::print(stderr, "subimpact_grazes: {}\n", failure.what());
+    std::fprintf(stderr, "subimpact_grazes: %s\n", failure.what());
     return 2;
   }
 }
