@@ -223,11 +223,11 @@ void draw(const std::string& directory, const std::vector<std::string>& panels) 
   script += fmt::format(
       "set logscale xy\nset format xy '10^{{%T}}'\nset xrange [1e-5:10]\n"
       "set xlabel 'largest error of an event time, us'\nset ylabel 'processor time, s'\n"
-      "set key outside below columns 2 Left reverse font ',9'\nset multiplot layout 1,{}\n",
+      "set key outside below maxcols 2 Left reverse font ',8'\nset multiplot layout 1,{}\n",
       panels.size());
   for (const std::string& one : panels) script += one;
   script += "unset multiplot\n";
-  draw_figure(directory, "peers", script, {1500, 720});
+  draw_figure(directory, "peers", script, {1700, 900});
   for (const char* other : {".gp", ".png", ".pdf"}) {
     std::filesystem::remove(directory + "/peers" + other);
   }
