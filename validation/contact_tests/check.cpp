@@ -127,8 +127,10 @@ void add_lammps(Outcome& outcome) {
   } const printed[] = {{1008, -9.8629436218504573e-03, 8.8771553283535053e-03},
                        {2008, -9.9982053375566714e-03, -9.9999015425187849e+00}};
   Case input = case_of_spheres(tests[0]);
-  input.scene.contact = {.kind = ContactKind::hertz,
-                         .stiffness = contact_stiffness * std::sqrt(0.5 * radius)};
+  Contact& contact = input.scene.contact;
+  contact = {};
+  contact.kind = ContactKind::hertz;
+  contact.stiffness = contact_stiffness * std::sqrt(0.5 * radius);
   input.scene.beam.poisson.reset();
   input.solver.method = Method::central_difference;
   input.solver.step = step;
