@@ -49,6 +49,7 @@ std::string table_head(bool with_name);
 Outcome check_bending();
 Outcome check_conservation();
 Outcome check_contact();
+Outcome check_contact_tests();
 Outcome check_damped_contact();
 Outcome check_frequencies();
 Outcome check_glued_mass();

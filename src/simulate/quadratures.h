@@ -43,6 +43,7 @@ class ForceQuadrature {
   struct Step {
     Node start;
     double length, integral;
+    double constant;  // of its error, constant length^5; 0 where no step before it tells
   };
   double tolerance_;
   std::optional<Step> previous_;

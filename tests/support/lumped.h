@@ -102,11 +102,11 @@ inline State in_unknowns_of(const StruckBeam& beam, const State& y) {
 
 /// Runs from a state [w, w_m, v, v_m], or from the first touch if it is empty.
 inline Result run_two_bodies(StruckBeam& beam, const Way& way, double end_time,
-                             const State& from = {}) {
+                             const State& from = {}, AuditLimits limits = {}) {
   const auto integrator = way.make(beam);
   Result result;
   const State initial = from.empty() ? beam.initial_state() : in_unknowns_of(beam, from);
-  Audit audit(beam, initial);
+  Audit audit(beam, initial, limits);
   Recorder recorder(beam, 0.0, way.events, audit, result);
   EventLoop loop(beam, *integrator, recorder, audit,
                  {end_time, way.events, std::numeric_limits<double>::infinity(), 1e30});

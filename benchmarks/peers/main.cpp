@@ -1,0 +1,300 @@
+// The published strike by this program and by the integrators of other libraries: error of event
+// times over processor time, on the same mesh, with the same right-hand sides, against the same
+// reference.
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "../measure.h"
+#include "contestants.h"
+#include "report/files.h"
+#include "report/gnuplot.h"
+#include "subimpact/study/event_errors.h"
+
+namespace {
+
+using namespace subimpact;
+using namespace subimpact::peers;
+
+constexpr double us = 1e6;
+constexpr double wanted_errors[] = {1e-8, 1e-9, 1e-10};  // s
+constexpr double reference_share = 0.3;  // of the smallest of them, the reference may be off by
+constexpr double longest_run = 4.0;      // s: what comes after it in a sweep is left out
+constexpr int rounds = 3;                // of those compared, side by side
+
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+struct Section {
+  SectionKind kind;
+  const char* name;
+};
+constexpr Section sections[] = {{SectionKind::elastic, "elastic"},
+                                {SectionKind::exact, "exact"},
+                                {SectionKind::layers, "layered"}};
+
+void run(Setting& setting, const std::vector<SubImpact>& reference) {
+  const double start = processor_seconds();
+  Result result;
+  try {
+    result = setting.run();
+  } catch (const InvalidCase& refused) {
+    result.outcome.kind = OutcomeKind::solver_failed;
+    fmt::print(stderr, "{}: {}\n", setting.text, refused.what());
+  }
+  const double seconds = processor_seconds() - start;
+  setting.seconds = setting.seconds > 0.0 ? std::min(setting.seconds, seconds) : seconds;
+  judge(setting, result.sub_impacts, reference);
+  setting.right = setting.right && result.outcome.completed();
+  if (!result.outcome.completed()) setting.error = std::numeric_limits<double>::infinity();
+}
+
+void run_sweeps(Contestant& contestant, const std::vector<SubImpact>& reference, double enough) {
+  for (std::vector<Setting>& sweep : contestant.sweeps) {
+    for (std::size_t i = 0; i < sweep.size(); ++i) {
+      if (sweep[i].run) run(sweep[i], reference);
+      const bool two_good = i > 0 && sweep[i].error <= enough && sweep[i - 1].error <= enough;
+      if (sweep[i].seconds > longest_run || two_good) {
+        sweep.resize(i + 1);
+        break;
+      }
+    }
+  }
+}
+
+// The cheapest setting that comes within an error, and whose tighter neighbour, if it was run, does
+// too: what is good by chance does not count.
+Setting* cheapest(Contestant& contestant, double wanted) {
+  Setting* best = nullptr;
+  for (std::vector<Setting>& sweep : contestant.sweeps) {
+    for (std::size_t i = 0; i < sweep.size(); ++i) {
+      const auto good = [&](const Setting& s) { return s.right && s.error <= wanted; };
+      if (!good(sweep[i]) || (i + 1 < sweep.size() && !good(sweep[i + 1]))) continue;
+      if (best == nullptr || sweep[i].seconds < best->seconds) best = &sweep[i];
+    }
+  }
+  return best;
+}
+
+std::string digits(double seconds) { return fmt::format("{:.3g}", seconds); }
+
+std::string ratio_text(double ratio) {
+  return ratio < 9.95 ? fmt::format("{:.1f}", ratio) : fmt::format("{:.0f}", ratio);
+}
+
+// The smallest error of any run that found all sub-impacts, for those that reach nothing.
+std::string best_text(const Contestant& contestant) {
+  double best = HUGE_VAL;
+  for (const std::vector<Setting>& sweep : contestant.sweeps) {
+    for (const Setting& setting : sweep) {
+      if (setting.right) best = std::min(best, setting.error);
+    }
+  }
+  return std::isfinite(best) ? fmt::format("not reached (best {:.0e} us)", us * best)
+                             : "no run has all sub-impacts";
+}
+
+// Whether this program reaches every wanted error.
+bool compare(const Section& section, std::vector<Contestant>& all,
+             const std::vector<SubImpact>& reference) {
+  // Side by side: every setting that wins for its contestant, in turn, several times.
+  std::vector<Setting*> chosen;
+  for (Contestant& contestant : all) {
+    for (const double wanted : wanted_errors) {
+      Setting* setting = cheapest(contestant, wanted);
+      if (setting != nullptr && setting->run &&
+          std::ranges::find(chosen, setting) == chosen.end()) {
+        chosen.push_back(setting);
+      }
+    }
+  }
+  for (int round = 0; round < rounds; ++round) {
+    for (Setting* setting : chosen) run(*setting, reference);
+  }
+  fmt::print(
+      "\n{}: seconds for the largest error of an event time, and ratios to the fastest of "
+      "subimpact\n\n",
+      section.name);
+  fmt::print("|  |");
+  for (const double wanted : wanted_errors)
+    fmt::print(" {:.0e} us | ratio | setting |", us * wanted);
+  fmt::print("\n|---|");
+  for (std::size_t i = 0; i < std::size(wanted_errors); ++i) fmt::print("---|---|---|");
+  fmt::print("\n");
+  std::map<double, double> ours;
+  std::map<double, std::pair<double, std::string>> others;
+  for (Contestant& contestant : all) {
+    for (const double wanted : wanted_errors) {
+      const Setting* setting = cheapest(contestant, wanted);
+      if (setting == nullptr) continue;
+      if (contestant.ours) {
+        double& least = ours.try_emplace(wanted, HUGE_VAL).first->second;
+        least = std::min(least, setting->seconds);
+      } else {
+        auto& least = others.try_emplace(wanted, HUGE_VAL, "").first->second;
+        if (setting->seconds < least.first) least = {setting->seconds, contestant.name};
+      }
+    }
+  }
+  for (Contestant& contestant : all) {
+    fmt::print("| {} |", contestant.name);
+    for (const double wanted : wanted_errors) {
+      const Setting* setting = cheapest(contestant, wanted);
+      if (setting == nullptr) {
+        fmt::print(" {} | | |", best_text(contestant));
+      } else {
+        fmt::print(" {} | {} | {} |", digits(setting->seconds),
+                   ours.contains(wanted) ? ratio_text(setting->seconds / ours[wanted]) : "",
+                   setting->text);
+      }
+    }
+    fmt::print("\n");
+  }
+  fmt::print("\n");
+  for (const double wanted : wanted_errors) {
+    if (!ours.contains(wanted)) {
+      fmt::print("{}, {:.0e} us: not reached by subimpact\n", section.name, us * wanted);
+    } else if (!others.contains(wanted)) {
+      fmt::print("{}, {:.0e} us: subimpact {} s; no other reaches it\n", section.name, us * wanted,
+                 digits(ours[wanted]));
+    } else {
+      fmt::print("{}, {:.0e} us: the fastest other, {}, takes {} times subimpact's {} s\n",
+                 section.name, us * wanted, others[wanted].second,
+                 ratio_text(others[wanted].first / ours[wanted]), digits(ours[wanted]));
+    }
+  }
+  std::fflush(stdout);
+  return ours.size() == std::size(wanted_errors);
+}
+
+// The lower left of what a contestant has reached: its best error for the time.
+std::vector<const Setting*> front(const Contestant& contestant) {
+  std::vector<const Setting*> points;
+  for (const std::vector<Setting>& sweep : contestant.sweeps) {
+    for (const Setting& setting : sweep) {
+      if (setting.right && setting.error > 0.0) points.push_back(&setting);
+    }
+  }
+  std::ranges::sort(points, {}, &Setting::seconds);
+  double least = HUGE_VAL;
+  std::erase_if(points, [&](const Setting* s) {
+    if (!(s->error < least)) return true;
+    least = s->error;
+    return false;
+  });
+  return points;
+}
+
+std::string panel(const Section& section, const std::vector<Contestant>& all) {
+  std::string data;
+  std::string plots;
+  int number = 0;
+  for (const Contestant& contestant : all) {
+    ++number;
+    const auto points = front(contestant);
+    if (points.empty()) continue;
+    const std::string block = fmt::format("${}{}", section.name, number);
+    data += block + " << EOD\n";
+    for (const Setting* s : points)
+      data += fmt::format("{:.4e} {:.4e}\n", us * s->error, s->seconds);
+    data += "EOD\n";
+    plots += fmt::format("{}{} using 1:2 with linespoints lw {} lt {} title '{}'",
+                         plots.empty() ? "plot " : ", ", block, contestant.ours ? 3.0 : 1.2, number,
+                         contestant.name);
+  }
+  return data + fmt::format("set title '{}'\n", section.name) + plots + "\n";
+}
+
+void draw(const std::string& directory, const std::vector<std::string>& panels) {
+  std::string script(embedded_file("figures/style.gp"));
+  script += fmt::format(
+      "set logscale xy\nset format xy '10^{{%T}}'\nset xrange [1e-5:10]\n"
+      "set xlabel 'largest error of an event time, us'\nset ylabel 'processor time, s'\n"
+      "set key outside below maxcols 2 Left reverse font ',8'\nset multiplot layout 1,{}\n",
+      panels.size());
+  for (const std::string& one : panels) script += one;
+  script += "unset multiplot\n";
+  draw_figure(directory, "peers", script, {1700, 900});
+  for (const char* other : {".gp", ".png", ".pdf"}) {
+    std::filesystem::remove(directory + "/peers" + other);
+  }
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app{"The published strike by this program and by integrators of other libraries."};
+  std::vector<std::string> names;
+  std::vector<std::string> others;
+  std::string figure;
+  std::string only;
+  double end = 2e-3;
+  app.add_option("--sections", names, "elastic, exact, layered (default: all)")->delimiter(',');
+  app.add_option("--end", end, "s")->capture_default_str();
+  app.add_option("--only", only, "contestants whose name contains this, and subimpact");
+  app.add_option(
+      "--also", others,
+      "NAME=FILE.SECTION: runs of another program, one file per section (read where it exists)");
+  app.add_option("--figure", figure, "directory for the chart");
+  app.footer("Exit status: 0 if this program reaches every wanted error, 1 if not.");
+  CLI11_PARSE(app, argc, argv);
+  std::vector<std::string> panels;
+  bool reached = true;
+  for (const Section& section : sections) {
+    if (!names.empty() && std::ranges::find(names, section.name) == names.end()) continue;
+    Case input = benchmarks::paper_case(section.kind);
+    input.end_time = end;
+    input.output.shapes = 0.0;
+    const Reference reference =
+        compute_reference(input, reference_share * wanted_errors[std::size(wanted_errors) - 1]);
+    input.end_time = reference.horizon;
+    fmt::print("\n== {} section, to {:.2f} ms: {} sub-impacts; reference to {:.1e} us ({}; {})\n",
+               section.name, 1e3 * reference.horizon, reference.sub_impacts.size(),
+               us * reference.error, reference.description, reference.horizon_reason);
+    std::vector<std::string> skipped;
+    std::vector<Contestant> all = contestants(input, skipped);
+    std::erase_if(all, [&](const Contestant& c) {
+      return !c.ours && c.name.find(only) == std::string::npos;
+    });
+    for (Contestant& contestant : all) {
+      run_sweeps(contestant, reference.sub_impacts, wanted_errors[std::size(wanted_errors) - 1]);
+    }
+    for (const std::string& other : others) {
+      const std::size_t split = other.find('=');
+      if (split == std::string::npos) throw std::runtime_error("--also: not NAME=FILE");
+      const std::string file = other.substr(split + 1) + "." + section.name;
+      if (std::filesystem::exists(file)) {
+        all.push_back(read_contestant(other.substr(0, split), file, reference.sub_impacts));
+      } else {
+        skipped.push_back(other.substr(0, split) + " (" + section.name + ")");
+      }
+    }
+    for (const std::string& name : skipped) fmt::print("skipped: {}\n", name);
+    reached = compare(section, all, reference.sub_impacts) && reached;
+    panels.push_back(panel(section, all));
+  }
+  if (!figure.empty()) draw(figure, panels);
+  return reached ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "subimpact_peers: %s\n", failure.what());
+    return 1;
+  }
+}
