@@ -15,6 +15,7 @@ struct RunOptions {
   std::string directory;
   std::string within;      // empty, or a time with its unit
   bool all = false;        // rows of the table
+  bool verbose = false;
   std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
   Jobs jobs = n_processors();
   bool quiet = false;
@@ -99,7 +100,7 @@ int run(RunOptions& options) {
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {
-    print("{}\n{}", run_summary(input, result), sub_impact_table(result, !options.all));
+    print("{}\n{}", run_summary(input, result, options.verbose), sub_impact_table(result, !options.all));
     if (result.predictability) print("\n{}", scatter_table(result));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
@@ -145,6 +146,8 @@ void add_run(CLI::App& program, int& status) {
       ->check(CLI::IsMember({"all", "time", "off"}));
   add_jobs_option(command, options.jobs);
   command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+  command.add_flag("--verbose", options.verbose,
+                   "Print mesh, method, errors by source, conservation and work too");
   command.add_flag("--all", options.all,
                    "Print every sub-impact, also those that are not certain one by one");
   command.footer(

@@ -88,6 +88,7 @@ const RunTable<SubImpact>& run_table() {
        {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
        {"striker_velocity_m_per_s", "velocity of the striker at the end",
         &SubImpact::striker_velocity},
+       {"peak_time_s", "instant of the largest force", &SubImpact::peak_time},
        {"certain", "1: exists, alone, in this place; 0: uncertain; empty: without error bars",
         &SubImpact::certain},
        {"probability", "of that; 1 where certain", &SubImpact::probability},
