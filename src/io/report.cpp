@@ -25,11 +25,10 @@ bool has_first_touch_alone(const Result& result) {
   return result.sub_impacts.size() == 1 && !result.sub_impacts.front().end;
 }
 
-// What is certain: "41 of 58 sub-impacts are certain, their times to 2 us; <first reason why not>".
+// How certain: "times of the certain ones to 2 us; <first reason why others are not>".
 std::string certain_text(const Result& result, double largest_error,
                          const std::optional<std::size_t>& first_unresolved,
                          const std::string& reason) {
-  const std::size_t n = result.sub_impacts.size();
   if (!first_unresolved) {
     return has_first_touch_alone(result)
                ? "no event time up to " + duration_text(result.outcome.time) +
@@ -37,11 +36,11 @@ std::string certain_text(const Result& result, double largest_error,
                : fmt::format("all times to {} up to {}", error_text(largest_error),
                              duration_text(result.outcome.time));
   }
-  const std::size_t n_certain = *result.n_certain();
   const std::string which = place_of_doubt(result, *first_unresolved, reason);
-  if (n_certain == 0) return fmt::format("no sub-impact is certain; {}: {}", which, reason);
-  return fmt::format("{} of {} certain, their times to {}; {}: {}", n_certain,
-                     counted(n, "sub-impact"), error_text(largest_error), which, reason);
+  if (result.n_certain() == std::size_t{0})
+    return fmt::format("no sub-impact is certain; {}: {}", which, reason);
+  return fmt::format("times of the certain ones to {}; {}: {}", error_text(largest_error), which,
+                     reason);
 }
 
 // The setting that makes the errors of a part smaller; empty for a part without one.
@@ -128,7 +127,7 @@ std::string outcome_caveat(const Result& result) {
 
 std::string error_words(const Case& input, const Result& result) {
   if (!result.error_estimate) {
-    return "not known; without --error-bars=off runs on coarser meshes estimate it";
+    return "errors are not known; without --error-bars=off runs on coarser meshes estimate them";
   }
   const ErrorEstimate& estimate = *result.error_estimate;
   const std::string text =

@@ -12,6 +12,7 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/study/advice.h"
 
 namespace subimpact {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 constexpr std::size_t line_width = 100;
 constexpr int label_width = 19;
 constexpr std::size_t most_zones = 4;        // with a line of their own
-constexpr double notable_shear = 5e-3;       // change of the end of the first contact
 constexpr int digits_of_energies = 4;        // at most
 constexpr int least_digits_of_energies = 2;  // whatever their errors
 
@@ -28,7 +28,8 @@ std::string labelled(const std::string& label, const std::string& words) {
   std::string text = fmt::format("  {:<{}}", label, label_width);
   std::size_t column = text.size();
   for (std::size_t at = 0; at < words.size();) {
-    const std::size_t end = std::min(words.find(' ', at), words.size());
+    std::size_t end = std::min(words.find(' ', at), words.size());
+    while (words.substr(end, 4) == " +- ") end = std::min(words.find(' ', end + 4), words.size());
     if (column + 1 + end - at > line_width && column > label_width + 2) {
       text += fmt::format("\n{:{}}", "", label_width + 2);
       column = label_width + 2;
@@ -60,18 +61,19 @@ double all_seconds(const Result& result) {
 Answer strike(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
   const double x = scene.striker.position;
-  const std::string where = x == 0.5               ? std::string("the middle")
-                            : x == 0.0 || x == 1.0 ? std::string("an end")
-                                                   : fmt::format("{:.4g} of the length", x);
+  const std::string where = x == 0.5 ? std::string("the middle")
+                            : x == 0.0 || x == 1.0
+                                ? fmt::format("the {} end", name_of(scene.beam.ends[x == 1.0]))
+                                : fmt::format("{:.4g} of the length", x);
   const std::string reached = duration_text(result.outcome.time);
   const std::string end = duration_text(input.end_time);
-  return {"strike",
-          fmt::format("{} at {:.4g} m/s, at {} of a {}-{} beam of {}",
-                      mass_text(scene.striker.mass), scene.striker.velocity, where,
-                      name_of(scene.beam.ends[0]), name_of(scene.beam.ends[1]),
-                      mass_text(scene.beam.mass())),
-          fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
-                      all_seconds(result))};
+  return {
+      "strike",
+      fmt::format("{} at {:.4g} m/s, at {} of a {}-{} beam of {}", mass_text(scene.striker.mass),
+                  scene.striker.velocity, where, name_of(scene.beam.ends[0]),
+                  name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
+      fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
+                  all_seconds(result))};
 }
 
 Answer restitution(const Case& input, const Result& result) {
@@ -113,9 +115,10 @@ void add_impulses(const Result& result, std::vector<Answer>& answers) {
     answers.push_back(
         {fmt::format("  zone {}", zone.zone),
          (totals ? text_of(totals->impulse, 1.0, 6) : fmt::format("{:.6f}", zone.impulse)) + " N s",
-         fmt::format("{} sub-impact{} in {}, {} to {} us",
+         fmt::format("{} {}{}, {} to {} us",
                      totals ? count_text(totals->sub_impacts) : std::to_string(zone.n_sub_impacts),
-                     zone.n_sub_impacts == 1 ? "" : "s", counted(zone.n_subzones, "sub-zone"),
+                     noun_after(zone.n_sub_impacts, "sub-impact"),
+                     zone.n_subzones > 1 ? fmt::format(" in {} sub-zones", zone.n_subzones) : "",
                      time(zone.start, &ZoneTotals::start),
                      zone.end ? time(*zone.end, &ZoneTotals::end) : "(open)")});
   }
@@ -150,14 +153,14 @@ Answer permanent_set(const Case& input, const Result& result) {
                                result.used.n_sections);
     answer.note = "the set is not computed with output.shapes = 0";
   } else if (!result.plastic_zones.empty()) {
-    const EnvelopeRow& most = where_largest(
-        result, [](const EnvelopeRow& row) { return std::abs(row.permanent_set); });
-    const PlasticZone& hinge =
-        *std::ranges::max_element(result.plastic_zones, {}, [](const PlasticZone& zone) {
-          return std::abs(zone.rotation);
-        });
-    answer.value =
-        total_text(result, "permanent_set_m", std::abs(most.permanent_set), mm, 3, "mm");
+    const EnvelopeRow& most =
+        where_largest(result, [](const EnvelopeRow& row) { return std::abs(row.permanent_set); });
+    const PlasticZone& hinge = *std::ranges::max_element(
+        result.plastic_zones, {}, [](const PlasticZone& zone) { return std::abs(zone.rotation); });
+    const double set = std::abs(most.permanent_set);
+    const double error = error_of_total(result, "permanent_set_m").value_or(0.0);
+    answer.value = set < error ? fmt::format("below {} mm", rounding_of(mm * error, 6)->error)
+                               : total_text(result, "permanent_set_m", set, mm, 3, "mm");
     answer.note = fmt::format(
         "at {:.4g} m, against the chord; largest plastic hinge {} at {:.4g} m", most.position,
         total_text(result, "hinge_rotation_rad", std::abs(hinge.rotation), 1.0, 4, "rad"),
@@ -165,15 +168,15 @@ Answer permanent_set(const Case& input, const Result& result) {
   } else if (!(first_yield_strain(input, result) < HUGE_VAL)) {
     answer.note = "the beam has no yield stress";
   } else if (!result.envelope.empty()) {
-    const EnvelopeRow& most = where_largest(
-        result, [](const EnvelopeRow& row) { return magnitude(row.strain); });
+    const EnvelopeRow& most =
+        where_largest(result, [](const EnvelopeRow& row) { return magnitude(row.strain); });
     const std::string share = total_text(result, "max_strain", magnitude(most.strain),
                                          100.0 / first_yield_strain(input, result), 0, "%");
     const bool is_kept_elastic = input.model.section == SectionKind::elastic;
-    answer.note = fmt::format("{}reaches {} of first yield, at {:.4g} m",
-                              is_kept_elastic ? "sections are kept elastic by the case; the beam "
-                                              : "",
-                              share, most.position);
+    answer.note =
+        fmt::format("{}reaches {} of first yield, at {:.4g} m",
+                    is_kept_elastic ? "sections are kept elastic by the case; the beam " : "",
+                    share, most.position);
   }
   return answer;
 }
@@ -198,12 +201,14 @@ Answer energy(const Result& result) {
   const Energies& end = result.final_energies;
   const double initial = result.used.initial_energy;
   const int digits_before = 1 + static_cast<int>(std::floor(std::log10(initial)));
-  const auto error_of = [&](const char* name) { return error_of_total(result, name).value_or(0.0); };
+  const auto error_of = [&](const char* name) {
+    return error_of_total(result, name).value_or(0.0);
+  };
   const double error =
       std::max(error_of("dissipated_J"), initial * error_of("striker_energy_share"));
   const auto rounding = rounding_of(error, digits_of_energies - digits_before);
-  const int decimals = std::max(rounding ? rounding->decimals : 0,
-                                least_digits_of_energies - digits_before);
+  const int decimals =
+      std::max(rounding ? rounding->decimals : 0, least_digits_of_energies - digits_before);
   const std::pair<const char*, double> shares[] = {
       {"striker", end.striker},
       {"motion and vibration of the beam", end.beam_kinetic + end.bending_elastic},
@@ -220,10 +225,10 @@ Answer energy(const Result& result) {
     sum += share;
     const double printed = (std::round(sum * power) - before) / power;
     if (printed == 0.0) continue;
-    words += fmt::format("{}{} {}", words.empty() ? "" : " + ", with_decimals(printed, decimals),
-                         name);
+    words +=
+        fmt::format("{}{} {}", words.empty() ? "" : " + ", with_decimals(printed, decimals), name);
   }
-  return {"energy", with_decimals(initial, decimals) + " J", "at the end " + words};
+  return {"energy", with_decimals(initial, decimals) + " J", words + ", at the end"};
 }
 
 // How far shear, which bending theory leaves out, moves the end of the first contact.
@@ -266,11 +271,10 @@ std::string details(const Case& input, const Result& result) {
   if (!result.envelope.empty() && result.used.section != "rigid") {
     line("bending", bending_text(result));
   }
-  line("first yield",
-       fmt::format("section {}, contact {}; {} of {} sections have yielded",
-                   time_or_never(result.first_section_yield),
-                   time_or_never(result.first_contact_yield), result.n_yielded_sections,
-                   result.used.n_sections));
+  line("first yield", fmt::format("section {}, contact {}; {} of {} sections have yielded",
+                                  time_or_never(result.first_section_yield),
+                                  time_or_never(result.first_contact_yield),
+                                  result.n_yielded_sections, result.used.n_sections));
   line("model", fmt::format("{}; section {}; {}", result.used.mesh,
                             to_text(*find_case_key("model.section")->get(input)),
                             counted(result.used.n_unknowns, "unknown")));
@@ -295,23 +299,19 @@ std::string details(const Case& input, const Result& result) {
 
 }  // namespace
 
-bool is_notable(const NeglectedShear& shear) {
-  return !shear.with || std::abs(*shear.with - shear.without) >= notable_shear * shear.without;
-}
-
 std::string contact_over_words(const Result& result) {
   if (result.contact_over) {
-    return fmt::format("proven{}: striker and beam never touch again",
+    return fmt::format("proven{}, striker and beam never touch again",
                        result.error_estimate ? "" : " on this mesh");
   }
   if (result.sub_impacts.empty() || !result.sub_impacts.back().end) {
     return "striker and beam are still in contact";
   }
   const std::optional<ClosestApproach>& closest = result.closest_approach;
-  if (!closest) return "not proven; the gap grows until the run ends";
+  if (!closest) return "the gap grows until the run ends, but no proof excludes a later contact";
   const Total gap{closest->gap, closest->error};
-  return fmt::format("not proven; the gap falls to {} um at {:.4g} us", text_of(gap, um, 3),
-                     us * closest->time);
+  return fmt::format("the gap falls to {} um at {:.4g} us, and no proof excludes a later contact",
+                     text_of(gap, um, 3), us * closest->time);
 }
 
 std::vector<Answer> answers(const Case& input, const Result& result) {
@@ -321,8 +321,7 @@ std::vector<Answer> answers(const Case& input, const Result& result) {
                  fmt::format("{} in {}", result.sub_impacts.size(),
                              counted(summarise_zones(result.sub_impacts).size(), "zone")) +
                      certain_words(result),
-                 ""});
-  all.push_back({"certain", error_words(input, result), ""});
+                 error_words(input, result)});
   all.push_back(restitution(input, result));
   if (!result.sub_impacts.empty()) {
     all.push_back(largest_force(result));
@@ -347,8 +346,7 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
   if (const std::string caveat = outcome_caveat(result); !caveat.empty()) line("outcome", caveat);
   if (result.wish) line("wish", wish_words(*result.wish, result));
   for (const Answer& answer : answers(input, result)) {
-    text += labelled(answer.name,
-                     answer.value + (answer.note.empty() ? "" : ": " + answer.note));
+    text += labelled(answer.name, answer.value + (answer.note.empty() ? "" : ": " + answer.note));
   }
   if (result.error_estimate && result.error_estimate->finer_meshes) {
     line("finer meshes", finer_meshes_words(result));

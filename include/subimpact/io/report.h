@@ -19,8 +19,8 @@ namespace subimpact {
 /// the results passed every check, in one line; empty for a run that completed.
 std::string outcome_caveat(const Result& result);
 
-/// What is certain, in one line: how many sub-impacts, the error of their times, and why the first
-/// of the others is not; where none is, which setting to try.
+/// How certain, in one line: the error of the certain times, and why the first of the other
+/// sub-impacts is not certain; where none is, which setting to try.
 std::string error_words(const Case& input, const Result& result);
 
 /// ", 9 certain", ", all certain": continues a number of sub-impacts. Empty without error estimate.
@@ -51,9 +51,6 @@ std::string finer_meshes_words(const Result& result);
 
 /// The error of each source by itself, with the runs that show it: "mesh error" and its words.
 std::vector<std::pair<std::string, std::string>> error_part_words(const Result& result);
-
-/// Whether shear moves the end of the first contact by half a per cent or more.
-bool is_notable(const NeglectedShear& shear);
 
 /// What is asked of a strike first: a line of the summary, a tile of the page.
 struct Answer {
