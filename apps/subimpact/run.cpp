@@ -129,13 +129,7 @@ std::string next_steps(const RunOptions& options, const GivenKeys& given, const 
 }
 
 int run(RunOptions& options) {
-  std::vector<Override> by_options;
-  if (!options.within.empty()) {
-    by_options.push_back({"accuracy.event_times",
-                          fmt::format("{}", seconds_of(options.within).value()),
-                          "--within " + options.within});
-  }
-  LoadedCase loaded = options.input.load(by_options);
+  LoadedCase loaded = options.input.load();
   error_bars_of(loaded, options);
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = with_places(loaded, [&] { return resolve(loaded.value); });
@@ -192,10 +186,7 @@ void add_run(CLI::App& program, int& status) {
       "summary.json, manifest.json and, where asked for, sections.csv and points.csv; made if "
       "missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
-  add_time_option(command, "--within", options.within,
-                  "Wished bound on the error of every event time, with its unit: 1us. The program "
-                  "chooses what the case leaves open of mesh, method and tolerance. Instead of "
-                  "accuracy.event_times");
+  options.input.add_within_to(command);
   command
       .add_flag("--error-bars{all}", options.error_bars,
                 "By default all errors are estimated from runs on two coarser meshes, which take "

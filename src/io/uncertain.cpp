@@ -259,8 +259,7 @@ std::string total_text(const Result& result, const char* name, double value, dou
   const Number error = scaled(error_of_total(result, name), factor);
   const auto rounding = rounding_of(error.value_or(HUGE_VAL), decimals);
   if (!rounding) {
-    return fmt::format("{}{} (a run beside did not complete, so that no error is known)",
-                       with_digits(value, digits_if_uncertain), in_unit);
+    return with_digits(value, digits_if_uncertain) + in_unit;
   }
   return fmt::format("{} +- {}{}", rounded(value, rounding->decimals), rounding->error, in_unit);
 }

@@ -11,7 +11,7 @@
 namespace subimpact {
 namespace {
 
-constexpr double least_change_by_shear = 5e-3;   // of the end of the first contact
+constexpr double least_change_by_shear = 5e-3;  // of the end of the first contact
 constexpr const char* usual_poisson = "0.3";
 constexpr double times_more_accurate = 5.0;
 constexpr double times_longer = 2.0;
@@ -29,8 +29,8 @@ double seconds_of_work(double work, const Result& result) {
 // Runs on the way to smaller errors, whose last mesh takes most of the time.
 Advice smaller_errors(const Case& input, const Result& result) {
   const double error = result.error_estimate->largest_error;
-  const double within = error > 0.0 ? error / times_more_accurate
-                                    : share_of_contact * result.used.contact_time;
+  const double within =
+      error > 0.0 ? error / times_more_accurate : share_of_contact * result.used.contact_time;
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
   const double order = refinement ? refinement->order(input) : 1.0;
   const double growth = std::pow(times_more_accurate, growth_of_work / order);

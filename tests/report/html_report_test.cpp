@@ -311,7 +311,7 @@ TEST(HtmlReport, WithoutErrorBarsMarksNoSubImpact) {
   run.result = sample_result();
   const std::string page = html_report(run, {}, ".");
   EXPECT_EQ(page.find("class=\"uncertain\""), std::string::npos);
-  expect_in(page, "<b>3</b><span>sub-impacts</span>");
+  expect_in(page, "<span>sub-impacts</span><b>3 in 2 zones</b>");
   expect_in(page, "errors are not known");
 }
 
@@ -329,11 +329,11 @@ TEST(HtmlReport, ShowsNoDigitBelowTheErrorOfWhatARunEndsWith) {
   run.result = sample_result_with_errors(3);
   run.result.striker_velocity = 5.76912;
   const std::string known = page_of(run);
-  expect_in(known, "<b>5.7691 ± 0.0007 m/s</b><span>striker, at the end</span>");
-  expect_in(known, "<b>8.7963 ± 0.0005 kN</b><span>largest force</span>");
+  expect_in(known, "striker 5.7691 ± 0.0007 m/s");
+  expect_in(known, "<span>largest force</span><b>8796.3 ± 0.5 N</b>");
   run.result.error_estimate->totals.at(2).total.error.reset();
   const std::string unknown = page_of(run);
-  expect_in(unknown, "<b>5.77 m/s (a run beside did not complete, so that no error is known)</b>");
+  expect_in(unknown, "striker 5.77 m/s (a run beside did not complete, so that no error is known)");
   const std::string above_stored_digits = unknown.substr(0, unknown.find("<details>"));
   EXPECT_EQ(above_stored_digits.find("5.769"), std::string::npos);
 }
@@ -343,8 +343,7 @@ TEST(HtmlReport, StatesWhatTheTheoryLeavesOut) {
   run.result.neglected_shear = {200e-6, 210e-6};
   expect_in(page_of(run),
             "left out            shear, which on a coarse mesh moves the end of the first contact "
-            "from 200 "
-            "to 210 µs");
+            "from 200 to\n");
 }
 
 TEST(HtmlReport, ShowsTheScatterOfTimesAndTheHorizon) {
