@@ -116,7 +116,11 @@ std::string next_steps(const RunOptions& options, const GivenKeys& given, const 
       command += fmt::format(" {} {}", option, quoted(value));
     };
     if (!options.input.method.empty()) append("--method", options.input.method);
-    for (const std::string& setting : options.input.settings) append("--set", setting);
+    for (const std::string& setting : options.input.settings) {
+      const std::string key = setting.substr(0, setting.find('=') + 1);
+      const auto replaces = [&](const auto& option) { return option.second.starts_with(key); };
+      if (std::ranges::none_of(advice.options, replaces)) append("--set", setting);
+    }
     for (const auto& [option, value] : advice.options) {
       append(option, value);
       if (option == "--set") settings.push_back(value);

@@ -88,7 +88,6 @@ const RunTable<SubImpact>& run_table() {
        {"residual_indentation_m", "indentation that remains", &SubImpact::residual_indentation},
        {"striker_velocity_m_per_s", "velocity of the striker at the end",
         &SubImpact::striker_velocity},
-       {"peak_time_s", "instant of the largest force", &SubImpact::peak_time},
        {"certain", "1: exists, alone, in this place; 0: uncertain; empty: without error bars",
         &SubImpact::certain},
        {"probability", "of that; 1 where certain", &SubImpact::probability},
@@ -116,7 +115,8 @@ const RunTable<SubImpact>& run_table() {
         &SubImpact::residual_indentation_error},
        {"striker_velocity_error_m_per_s", "error of striker_velocity_m_per_s",
         &SubImpact::striker_velocity_error},
-       {"doubt", "why it is not certain", &SubImpact::doubt}},
+       {"doubt", "why it is not certain", &SubImpact::doubt},
+       {"peak_time_s", "instant of the largest force", &SubImpact::peak_time}},
       &Result::sub_impacts,
       one};
   return table;

@@ -74,10 +74,12 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
       all.back().options.emplace_back("--set", std::string("beam.poisson=") + usual_poisson);
     }
   }
-  if (result.error_estimate && !result.all_certain()) {
-    if (result.error_estimate->finer_meshes) {
-      all.push_back(chosen_mesh(given, result));
-    } else if (!result.wish) {
+  const auto& estimate = result.error_estimate;
+  if (estimate && estimate->finer_meshes) {
+    const bool is_confirmed = estimate->finer_meshes->n_same == result.sub_impacts.size();
+    if (!is_confirmed || !result.all_certain()) all.push_back(chosen_mesh(given, result));
+  } else if (estimate && !result.all_certain()) {
+    if (!result.wish) {
       all.push_back(smaller_errors(input, result));
     } else if (result.wish->key == "accuracy.work_limit") {
       all.push_back({{{"--within", fmt::format("{:.3g}us", 1e6 * result.wish->wished)},
