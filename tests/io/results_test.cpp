@@ -78,7 +78,7 @@ TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
 
 TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
   const Table rows = parse_csv(csv_of<SubImpact>(sample_result()));
-  ASSERT_EQ(rows[3].size(), 29u);
+  ASSERT_EQ(rows[3].size(), 30u);
   EXPECT_EQ(rows[3][4], "");
   EXPECT_EQ(rows[3][5], "");
   EXPECT_NE(rows[3][6], "");
