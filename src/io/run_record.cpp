@@ -541,8 +541,7 @@ Record<DescribedRun> make_run_record() {
       {"work.nonlinear_failures", "of implicit methods", work(&Work::nonlinear_failures)},
       {"work.setup_s", "time spent before the first step", work(&Work::setup_seconds)},
       {"work.wall_s", "time spent in all", work(&Work::wall_seconds)},
-      {"work.all_s", "the same with the runs beside it and before it; 0: there were none",
-       work(&Work::all_seconds)}};
+      {"work.all_s", "the same with the runs beside it and before it", work(&Work::all_seconds)}};
 }
 
 }  // namespace

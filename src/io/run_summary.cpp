@@ -54,10 +54,6 @@ std::string count_text(const Total& total) {
                      : fmt::format("{:.0f}", total.value);
 }
 
-double all_seconds(const Result& result) {
-  return std::max(result.work.all_seconds, result.work.wall_seconds);
-}
-
 Answer strike(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
   const double x = scene.striker.position;
@@ -73,7 +69,7 @@ Answer strike(const Case& input, const Result& result) {
                   scene.striker.velocity, where, name_of(scene.beam.ends[0]),
                   name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
       fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
-                  all_seconds(result))};
+                  result.work.all_seconds)};
 }
 
 Answer restitution(const Case& input, const Result& result) {
@@ -244,19 +240,6 @@ std::string neglected_shear_words(const NeglectedShear& shear) {
       change);
 }
 
-// Strains where sections yield are those of a hinge, which depend on the size of the mesh.
-std::string bending_text(const Result& result) {
-  const auto moment = [](const EnvelopeRow& row) { return magnitude(row.moment); };
-  const EnvelopeRow& most_bent = where_largest(result, moment);
-  const std::string text =
-      fmt::format("moment up to {:.4g} N m at {:.4g} m", moment(most_bent), most_bent.position);
-  if (result.n_yielded_sections > 0) return text;
-  const auto strain = [](const EnvelopeRow& row) { return magnitude(row.strain); };
-  const EnvelopeRow& most_strained = where_largest(result, strain);
-  return text + fmt::format(", outer strain to {:.3g} % at {:.4g} m", 100.0 * strain(most_strained),
-                            most_strained.position);
-}
-
 std::string time_or_never(const std::optional<double>& time) {
   return time ? fmt::format("{:.4f} us", *time * us) : "never";
 }
@@ -269,7 +252,10 @@ std::string details(const Case& input, const Result& result) {
     text += labelled(label, words);
   };
   if (!result.envelope.empty() && result.used.section != "rigid") {
-    line("bending", bending_text(result));
+    const EnvelopeRow& most =
+        where_largest(result, [](const EnvelopeRow& row) { return magnitude(row.moment); });
+    line("bending",
+         fmt::format("moment up to {:.4g} N m at {:.4g} m", magnitude(most.moment), most.position));
   }
   line("first yield", fmt::format("section {}, contact {}; {} of {} sections have yielded",
                                   time_or_never(result.first_section_yield),

@@ -100,6 +100,15 @@ bool may_write_case(const fs::path& directory) {
   return (manifest && manifest->files.contains(case_name)) || !fs::exists(directory / case_name);
 }
 
+// Figures of an older run in their folder; left where another command writes there.
+void remove_old_figures(const fs::path& directory) {
+  if (!fs::exists(directory / "figures" / manifest_name)) return;
+  try {
+    OutputDirectory(directory / "figures", "figures", read_manifest(directory)->identity).commit();
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
+  }
+}
+
 void check_space(const OutputDirectory& directory, const Case& input) {
   std::error_code error;
   const auto available = static_cast<double>(fs::space(directory.path(), error).available);
@@ -204,6 +213,7 @@ void ResultWriter::finish(const Case& input, const Result& result) {
     if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
     directory_.commit();
   });
+  remove_old_figures(directory_.path());
 }
 
 void write_results(const fs::path& directory, const Case& input, const Result& result) {

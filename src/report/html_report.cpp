@@ -152,12 +152,13 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/report.js"});
 }
 
-WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,
-                                const std::filesystem::path& dygraphs) {
-  DrawnFigures figures = draw_figures(directory, run.input, run.result);
+WrittenReport write_html_report(const std::filesystem::path& directory,
+                                const std::filesystem::path& figure_directory,
+                                const FinishedRun& run, const std::filesystem::path& dygraphs) {
+  DrawnFigures figures = draw_figures(figure_directory, run.input, run.result);
   std::filesystem::path path = directory / "report.html";
   try {
-    write_file(path, html_report(run, figures, directory, dygraphs));
+    write_file(path, html_report(run, figures, figure_directory, dygraphs));
   } catch (const OutputError& error) {
     figures.failed.push_back(error.what());
     std::error_code ignored;

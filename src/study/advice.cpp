@@ -18,10 +18,6 @@ constexpr double times_longer = 2.0;
 constexpr double growth_of_work = 2.5;    // with the number of cells or elements
 constexpr double share_of_contact = 0.1;  // an error that serves the shortest contacts
 
-double seconds_of_all(const Result& result) {
-  return std::max(result.work.all_seconds, result.work.wall_seconds);
-}
-
 double seconds_of_work(double work, const Result& result) {
   return work * result.work.wall_seconds / counted_work(result);
 }
@@ -35,7 +31,7 @@ Advice smaller_errors(const Case& input, const Result& result) {
   const double order = refinement ? refinement->order(input) : 1.0;
   const double growth = std::pow(times_more_accurate, growth_of_work / order);
   return {{{"--within", fmt::format("{:.1g}us", 1e6 * within)}},
-          std::min(seconds_of_all(result) * (1.0 + growth),
+          std::min(result.work.all_seconds * (1.0 + growth),
                    seconds_of_work(input.accuracy.work_limit, result)),
           "makes more of them certain, and the errors smaller"};
 }
@@ -68,7 +64,7 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
   if (!result.outcome.completed()) return all;
   if (result.neglected_shear && is_notable(*result.neglected_shear)) {
     all.push_back({{{"--set", "beam.theory=timoshenko"}},
-                   seconds_of_all(result),
+                   result.work.all_seconds,
                    "has the shear that is left out here"});
     if (!input.scene.beam_poisson()) {
       all.back().options.emplace_back("--set", std::string("beam.poisson=") + usual_poisson);
@@ -85,13 +81,13 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
       all.push_back({{{"--within", fmt::format("{:.3g}us", 1e6 * result.wish->wished)},
                       {"--set", fmt::format("accuracy.work_limit={:.3g}",
                                             times_more_accurate * input.accuracy.work_limit)}},
-                     times_more_accurate * seconds_of_all(result),
+                     times_more_accurate * result.work.all_seconds,
                      "goes on to finer meshes"});
     }
   }
   if (!result.contact_over) {
     all.push_back({{{"--set", fmt::format("time.end={:.4g}", times_longer * input.end_time)}},
-                   times_longer * seconds_of_all(result),
+                   times_longer * result.work.all_seconds,
                    "shows whether contact is over"});
   }
   return all;
