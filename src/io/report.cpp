@@ -4,21 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "case/counted.h"
-#include "case/meshes.h"
-#include "io/printable.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"
-#include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {
-
-constexpr double share_of_contact = 0.1;  // of the shortest ones, an error that serves them
 
 // Whether the only event time is that of the first touch, which is exact.
 bool has_first_touch_alone(const Result& result) {
@@ -41,31 +34,6 @@ std::string certain_text(const Result& result, double largest_error,
     return fmt::format("no sub-impact is certain; {}: {}", which, reason);
   return fmt::format("times of the certain ones to {}; {}: {}", error_text(largest_error), which,
                      reason);
-}
-
-// The setting that makes the errors of a part smaller; empty for a part without one.
-std::string setting_against(const std::string& part, const Case& input, const Result& result) {
-  if (part == "layers") return "model.section = \"exact\"";
-  if (part == "time") return result.used.step ? "a shorter solver.step" : "a smaller solver.rtol";
-  if (part != "mesh" || input.parts.mesh) return {};
-  const auto& refinement = descriptor_of(input.model.mesh).refinement;
-  if (!refinement || result.wish) return {};  // a wish names what stands in its way
-  const std::string within = fmt::format(
-      "--within {}us", with_digits(share_of_contact * us * result.used.contact_time, 1));
-  if (!result.choice.empty()) return within;
-  return fmt::format("{}, with {} left to the program", within, refinement->key);
-}
-
-// Which setting to try where no sub-impact is decided: that of the first part to blame.
-std::string setting_to_try(const Case& input, const Result& result) {
-  for (const ErrorEstimate::Part& part : result.error_estimate->parts) {
-    if (part.first_unresolved != std::size_t{0}) continue;
-    const std::string setting = setting_against(part.name, input, result);
-    if (!setting.empty()) return "; try " + setting;
-  }
-  // Only the length of the contacts shows that the mesh is too coarse.
-  const std::string finer = setting_against("mesh", input, result);
-  return finer.empty() ? finer : "; try " + finer;
 }
 
 std::string first_failure_text(const Outcome& outcome) {
@@ -125,16 +93,12 @@ std::string outcome_caveat(const Result& result) {
   return fmt::format("{} at {:.6g} us", kind, outcome.time * us);
 }
 
-std::string error_words(const Case& input, const Result& result) {
+std::string error_words(const Result& result) {
   if (!result.error_estimate) {
     return "errors are not known; without --error-bars=off runs on coarser meshes estimate them";
   }
   const ErrorEstimate& estimate = *result.error_estimate;
-  const std::string text =
-      certain_text(result, estimate.largest_error, estimate.first_unresolved, estimate.reason);
-  return result.n_certain() == std::size_t{0} && !result.sub_impacts.empty()
-             ? text + setting_to_try(input, result)
-             : text;
+  return certain_text(result, estimate.largest_error, estimate.first_unresolved, estimate.reason);
 }
 
 std::string certain_words(const Result& result) {

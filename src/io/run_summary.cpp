@@ -307,7 +307,7 @@ std::vector<Answer> answers(const Case& input, const Result& result) {
                  fmt::format("{} in {}", result.sub_impacts.size(),
                              counted(summarise_zones(result.sub_impacts).size(), "zone")) +
                      certain_words(result),
-                 error_words(input, result)});
+                 error_words(result)});
   all.push_back(restitution(input, result));
   if (!result.sub_impacts.empty()) {
     all.push_back(largest_force(result));

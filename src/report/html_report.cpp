@@ -12,7 +12,6 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {

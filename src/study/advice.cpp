@@ -71,13 +71,16 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
     }
   }
   const auto& estimate = result.error_estimate;
-  if (estimate && estimate->finer_meshes) {
-    const bool is_confirmed = estimate->finer_meshes->n_same == result.sub_impacts.size();
-    if (!is_confirmed || !result.all_certain()) all.push_back(chosen_mesh(given, result));
-  } else if (estimate && !result.all_certain()) {
-    if (!result.wish) {
+  const bool is_confirmed = !estimate || !estimate->finer_meshes ||
+                            estimate->finer_meshes->n_same == result.sub_impacts.size();
+  if (estimate && (!result.all_certain() || !is_confirmed)) {
+    const bool is_stopped_by_work = result.wish && result.wish->key == "accuracy.work_limit";
+    if (result.choice.empty()) {
+      all.push_back(chosen_mesh(given, result));
+      if (all.back().options.empty()) all.pop_back();
+    } else if (!result.wish) {
       all.push_back(smaller_errors(input, result));
-    } else if (result.wish->key == "accuracy.work_limit") {
+    } else if (is_stopped_by_work) {
       all.push_back({{{"--within", fmt::format("{:.3g}us", 1e6 * result.wish->wished)},
                       {"--set", fmt::format("accuracy.work_limit={:.3g}",
                                             times_more_accurate * input.accuracy.work_limit)}},

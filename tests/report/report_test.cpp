@@ -12,6 +12,7 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/simulate/options.h"
+#include "subimpact/study/advice.h"
 #include "unwrapped.h"
 
 namespace subimpact {
@@ -282,8 +283,7 @@ TEST(TheoryTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
 }
 
 TEST(ErrorWords, OfCertainTimesNameTheErrorAndTheEnd) {
-  EXPECT_EQ(error_words(paper_case(), sample_result_with_errors(3)),
-            "all times to 0.3 us up to 8 ms");
+  EXPECT_EQ(error_words(sample_result_with_errors(3)), "all times to 0.3 us up to 8 ms");
   expect_in(summary_of(paper_case(), sample_result_with_errors(3)),
             "3 in 2 zones, all certain: all times to 0.3 us up to 8 ms\n");
 }
@@ -291,12 +291,11 @@ TEST(ErrorWords, OfCertainTimesNameTheErrorAndTheEnd) {
 TEST(ErrorWords, OfTheFirstTouchAloneSayThatItIsExact) {
   Result result = sample_result_with_errors(3);
   result.sub_impacts.erase(result.sub_impacts.begin(), result.sub_impacts.end() - 1);
-  EXPECT_EQ(error_words(paper_case(), result),
-            "no event time up to 8 ms but the first touch, which is exact");
+  EXPECT_EQ(error_words(result), "no event time up to 8 ms but the first touch, which is exact");
 }
 
 TEST(ErrorWords, CountWhatIsCertainAndNameTheFirstDoubt) {
-  EXPECT_EQ(error_words(paper_case(), sample_result_with_errors(2)),
+  EXPECT_EQ(error_words(sample_result_with_errors(2)),
             "times of the certain ones to 0.3 us; sub-impact 3: they part");
   const std::string summary = summary_of(paper_case(), sample_result_with_errors(2));
   expect_in(summary, "3 in 2 zones, 2 certain: times");
@@ -307,37 +306,85 @@ TEST(ErrorWords, CountWhatIsCertainAndNameTheFirstDoubt) {
 TEST(ErrorWords, CountCertainSubImpactsAfterAnUncertainOne) {
   Result result = sample_result_with_errors(1);
   result.sub_impacts[2].certain = true;
-  EXPECT_EQ(error_words(paper_case(), result),
-            "times of the certain ones to 0.017 us; sub-impact 2: they part");
+  EXPECT_EQ(error_words(result), "times of the certain ones to 0.017 us; sub-impact 2: they part");
 }
 
 TEST(ErrorWords, NameTheSubImpactBeforeAFlightThatMayHoldAnother) {
-  EXPECT_EQ(error_words(paper_case(), sample_result_with_an_uncertain_flight(1)),
+  EXPECT_EQ(error_words(sample_result_with_an_uncertain_flight(1)),
             "times of the certain ones to 0.3 us; after sub-impact 2: there is "
             "another one with the same, coarser");
-  EXPECT_EQ(error_words(paper_case(), sample_result_with_an_uncertain_flight(2)),
+  EXPECT_EQ(error_words(sample_result_with_an_uncertain_flight(2)),
             "times of the certain ones to 0.3 us; after the last sub-impact: there "
             "is another one with the same, coarser");
 }
 
-TEST(ErrorWords, OfNothingCertainNameTheSettingToTry) {
-  Result result = sample_result_with_errors(0);
+// The options of all advice, in one text.
+std::string advice_on(const Result& result, const GivenKeys& given = {}) {
+  std::string text;
+  for (const Advice& advised : advice(paper_case(), given, result)) {
+    EXPECT_GT(advised.seconds, 0.0);
+    EXPECT_FALSE(advised.gain.empty());
+    for (const auto& [option, value] : advised.options) text += option + ' ' + value + '\n';
+  }
+  return text;
+}
+
+Result result_that_took_a_while(std::size_t n_certain) {
+  Result result = sample_result_with_errors(n_certain);
+  result.contact_over = true;
   result.used.contact_time = 7e-6;
-  EXPECT_EQ(error_words(paper_case(), result),
-            "no sub-impact is certain; sub-impact 1: they part; try --within 0.7us, with "
-            "model.segments left to the program");
-  result.choice = "sections yield";  // the program's, with less work than a wish may cost
-  EXPECT_TRUE(error_words(paper_case(), result).ends_with("they part; try --within 0.7us"));
-  result.error_estimate->parts.front().name = "time";
-  expect_in(error_words(paper_case(), result), "; try a smaller solver.rtol");
-  result.used.step = 1e-7;
-  expect_in(error_words(paper_case(), result), "; try a shorter solver.step");
-  result.error_estimate->parts.front().name = "layers";
-  expect_in(error_words(paper_case(), result), "; try model.section = \"exact\"");
+  result.work.all_seconds = 1.0;
+  result.work.right_hand_sides = 1000;
+  return result;
+}
+
+TEST(Advice, IsNoneWhereAllIsCertainAndOver) {
+  Result result = result_that_took_a_while(3);
+  EXPECT_EQ(advice_on(result), "");
+  result.contact_over = false;
+  EXPECT_EQ(advice_on(result), "--set time.end=0.016\n");
+  result.outcome.kind = OutcomeKind::stopped;
+  EXPECT_EQ(advice_on(result), "");
+}
+
+TEST(Advice, OnUncertainSubImpactsOfAChosenMeshIsAToleranceBelowTheErrors) {
+  Result result = result_that_took_a_while(2);
+  result.choice = "sections yield";
+  EXPECT_EQ(advice_on(result), "--within 0.05us\n");  // a fifth of 0.26 us
+  result = result_that_took_a_while(0);
+  result.choice = "sections yield";
+  EXPECT_EQ(advice_on(result), "--within 0.7us\n");  // a tenth of the shortest contacts
+}
+
+TEST(Advice, OnUncertainSubImpactsOfAMeshThatTheCaseFixesFreesIt) {
+  GivenKeys given;
+  given.in_file = {"model.segments", "model.section", "solver.rtol", "beam.length"};
+  EXPECT_EQ(advice_on(result_that_took_a_while(2), given),
+            "--set model.segments=default\n--set solver.rtol=default\n");
+  EXPECT_EQ(advice_on(result_that_took_a_while(2)), "") << "nothing is fixed";
+}
+
+TEST(Advice, OnSearchesThatTheLimitOfWorkEndedRaisesIt) {
+  Result result = result_that_took_a_while(2);
+  result.choice = "sections yield";
+  result.wish = WishOutcome{1e-6, false, 2e-6, 1e-3, "", "accuracy.work_limit"};
+  expect_in(advice_on(result), "--within 1us\n--set accuracy.work_limit=");
+  result.wish->key = "model.segments";
+  EXPECT_EQ(advice_on(result), "");
+}
+
+TEST(Advice, OnShearIsTimoshenkosTheoryWhereShearMatters) {
+  Result result = result_that_took_a_while(3);
+  result.neglected_shear = {200e-6, 200.5e-6};
+  EXPECT_EQ(advice_on(result), "");
+  for (const std::optional<double> with : {std::optional(210e-6), std::optional<double>()}) {
+    result.neglected_shear->with = with;
+    EXPECT_EQ(advice_on(result), "--set beam.theory=timoshenko\n--set beam.poisson=0.3\n");
+  }
 }
 
 TEST(ErrorWords, OfARunWithoutErrorBarsSayHowToGetThem) {
-  EXPECT_EQ(error_words(paper_case(), sample_result()),
+  EXPECT_EQ(error_words(sample_result()),
             "errors are not known; without --error-bars=off runs on coarser meshes estimate them");
   expect_in(line_of(summary_of(paper_case(), sample_result()), "sub-impacts"), "not known");
 }
@@ -606,12 +653,6 @@ TEST(Explanation, GivesTheReasonForAWholeModel) {
 TEST(RunSummary, DoesNotCallAllCertainWhereThereMayBeAnother) {
   expect_in(summary_of(paper_case(), sample_result_with_an_uncertain_flight(2)),
             "3 in 2 zones, 3 certain, which may not be all: ");
-}
-
-TEST(RunSummary, NamesTheKeyOfAFinerMeshWhereNothingIsCertain) {
-  Result result = sample_result_with_errors(0);
-  result.error_estimate->parts.clear();
-  expect_in(summary_of(paper_case(), result), "model.segments left to the program");
 }
 
 TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {

@@ -20,8 +20,8 @@ namespace subimpact {
 std::string outcome_caveat(const Result& result);
 
 /// How certain, in one line: the error of the certain times, and why the first of the other
-/// sub-impacts is not certain; where none is, which setting to try.
-std::string error_words(const Case& input, const Result& result);
+/// sub-impacts is not certain.
+std::string error_words(const Result& result);
 
 /// ", 9 certain", ", all certain": continues a number of sub-impacts. Empty without error estimate.
 std::string certain_words(const Result& result);
