@@ -139,7 +139,7 @@ TEST(Plot, DrawsWithScriptsOfAUserAndHandsOutThoseThatAreMissing) {
   const Finished second = run_program({"plot", "here", "--scripts", "mine"}, directory.path);
   EXPECT_EQ(second.status, 3);
   expect_in(second.errors, "timeline.svg: gnuplot failed");
-  EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / "response.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures/response.pdf"));
 }
 
 TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
