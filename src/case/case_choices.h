@@ -39,7 +39,10 @@ inline constexpr Named<EndSupport> choices<EndSupport>[] = {
 
 template <>
 inline constexpr Named<CellSpacing> choices<CellSpacing>[] = {
-    {CellSpacing::cells, "cells", "length/segments: the cells fill the beam"},
+    {CellSpacing::cells, "cells",
+     "length/segments: the cells fill the beam, without the rotary inertia of the outer half cells "
+     "at free ends"},
+    {CellSpacing::whole, "whole", "length/segments, with that inertia; not with shear"},
     {CellSpacing::points, "points",
      "length/(segments - 1): a whole cell at each end, half of it beyond; as the paper's authors "
      "computed, free ends only"},

@@ -27,8 +27,15 @@ ElementGrading grading_of(const Case& input) {
 }
 
 CellMesh::Spacing spacing_of(const Case& input) {
-  return input.model.spacing == CellSpacing::points ? CellMesh::Spacing::points
-                                                    : CellMesh::Spacing::cells;
+  switch (input.model.spacing) {
+    case CellSpacing::points:
+      return CellMesh::Spacing::points;
+    case CellSpacing::whole:
+      return CellMesh::Spacing::whole;
+    case CellSpacing::cells:
+      break;
+  }
+  return CellMesh::Spacing::cells;
 }
 
 // Where a mesh of `count` equal parts cannot be struck.
@@ -72,6 +79,11 @@ void check_points(const Case& input) {
 
 void check_cells(const Case& input) {
   if (input.model.spacing == CellSpacing::points) return check_points(input);
+  if (input.model.spacing == CellSpacing::whole && input.scene.beam.shears()) {
+    throw InvalidCase("model.spacing",
+                      "is \"whole\", but cells that shear have no inertia to add at their ends; "
+                      "allowed with beam.theory = \"timoshenko\": \"cells\"; leave it out");
+  }
   const int cells = input.model.segments;
   const double at = input.scene.striker.position;
   if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
@@ -323,8 +335,9 @@ void check_spacing(const Case& input) {
   }
   if (!mesh_uses(input, "model.spacing") && input.model.spacing != CellSpacing::cells) {
     throw InvalidCase("model.spacing",
-                      "is \"points\", but only cells have a spacing; allowed with this mesh: "
-                      "\"cells\"; leave it out, or set model.mesh = \"cells\"");
+                      fmt::format("is {}, but only cells have a spacing; allowed with this mesh: "
+                                  "\"cells\"; leave it out, or set model.mesh = \"cells\"",
+                                  to_text(*find_case_key("model.spacing")->get(input))));
   }
 }
 

@@ -283,10 +283,12 @@ constexpr std::pair<const char*, Total ZoneTotals::*> zone_totals[] = {
 
 // Names lead to objects of a value and an error; without error bars there are none.
 RunEntry totals_entry() {
-  RunEntry entry("totals",
-                 "numbers of the run as a whole, each with its value and its error, "
-                 "which covers 95 of 100; null: not known. by_zone: for each zone "
-                 "start_s, end_s, impulse_Ns, sub_impacts");
+  RunEntry entry(
+      "totals",
+      "numbers of the run as a whole, each with its value and its error, "
+      "which covers 95 of 100; null: not known, as of the largest strain where a hinge "
+      "forms, in which strains grow without limit on finer meshes. by_zone: for each zone "
+      "start_s, end_s, impulse_Ns, sub_impacts");
   entry.write = [](Json& object, const DescribedRun& run) {
     Json& totals = object["totals"] = nullptr;
     if (!run.result->error_estimate) return;

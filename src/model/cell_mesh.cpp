@@ -54,6 +54,7 @@ CellMesh::CellMesh(const Beam& beam, double position, std::size_t n_cells, Exten
       first_centre_(spacing == Spacing::points ? 0.0 : 0.5),
       mass_per_length_(beam.mass_per_length()),
       rotary_inertia_(beam.rotary_inertia()),
+      whole_(spacing == Spacing::whole),
       ends_(beam.ends) {
   if (symmetric() && (n_cells % 2 == 0 || position != 0.5 || ends_[0] != ends_[1])) {
     throw std::invalid_argument(
@@ -88,9 +89,15 @@ SparseFunctional CellMesh::cell(std::size_t i) const {
   return {{{i - slaved, 1.0}}, {}};
 }
 
+double CellMesh::link(std::size_t i) const {
+  double share = 1.0;
+  if (whole_ && i == 0 && ends_[0] == EndSupport::free) share += 0.5;
+  if (whole_ && i + 2 == n_cells_ && ends_[1] == EndSupport::free) share += 0.5;
+  return share;
+}
+
 void CellMesh::assemble_mass() {
   const double cell_mass = mass_per_length_ * spacing_;
-  const double coupling = rotary_inertia_ / spacing_;
   const std::size_t n_kept = symmetric() ? n_cells_ / 2 + 1 : n_cells_;
   momentum_functional_.assign(n_unknowns(), 0.0);
   for (std::size_t i = 0; i < n_kept; ++i) {
@@ -100,6 +107,7 @@ void CellMesh::assemble_mass() {
     momentum_functional_[unknown] += mass * share;
     if (i + 1 == n_kept) break;
     const auto [next, next_share] = cell(i + 1).terms.front();
+    const double coupling = link(i) * rotary_inertia_ / spacing_;
     mass_.at(unknown, unknown) += copies() * coupling * share * share;
     mass_.at(next, next) += copies() * coupling * next_share * next_share;
     // The same entry twice over if both cells share one unknown.
@@ -107,19 +115,25 @@ void CellMesh::assemble_mass() {
         (unknown == next ? 2.0 : 1.0) * copies() * coupling * share * next_share;
   }
   // Half a link to the upside-down mirror image.
-  if (ends_[0] == EndSupport::pinned) mass_.at(0, 0) += copies() * 2.0 * coupling;
+  const double of_half = 2.0 * rotary_inertia_ / spacing_;
+  if (ends_[0] == EndSupport::pinned) mass_.at(0, 0) += copies() * of_half;
   if (!symmetric() && ends_[1] == EndSupport::pinned) {
-    mass_.at(n_unknowns() - 1, n_unknowns() - 1) += 2.0 * coupling;
+    mass_.at(n_unknowns() - 1, n_unknowns() - 1) += of_half;
   }
 }
 
-// Between two centres the rotary inertia of a link has the momentum J (v[i+1] - v[i]); at a pinned
-// end half a link has J v.
+// Between two centres the rotary inertia of a link has the momentum J (v[i+1] - v[i]), which
+// telescopes; at a pinned end half a link has J v.
 void CellMesh::assemble_moment() {
   moment_functional_.assign(n_unknowns(), 0.0);
   for (std::size_t i = 0; i < n_cells_; ++i) {
     const double x = (static_cast<double>(i) + first_centre_) * spacing_;
     cell(i).add_to(moment_functional_, mass_per_length_ * spacing_ * x);
+  }
+  for (const std::size_t i : {std::size_t{0}, n_cells_ - 2}) {
+    const double more = (link(i) - 1.0) * rotary_inertia_;
+    cell(i).add_to(moment_functional_, -more);
+    cell(i + 1).add_to(moment_functional_, more);
   }
   if (ends_[0] != EndSupport::pinned) cell(0).add_to(moment_functional_, -rotary_inertia_);
   if (ends_[1] != EndSupport::pinned) {
@@ -270,7 +284,8 @@ double CellMesh::highest_frequency(double bending_stiffness) const {
 }
 
 bool CellMesh::has_closed_modes() const {
-  return ends_[0] == EndSupport::free && ends_[1] == EndSupport::free;
+  const bool is_even = !whole_ || rotary_inertia_ == 0.0;
+  return is_even && ends_[0] == EndSupport::free && ends_[1] == EndSupport::free;
 }
 
 NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
@@ -283,7 +298,10 @@ NaturalModes CellMesh::natural_modes(double bending_stiffness) const {
 }
 
 std::string CellMesh::description() const {
-  return std::to_string(n_cells_) + (first_centre_ == 0.0 ? " points" : " cells") +
+  return std::to_string(n_cells_) +
+         (first_centre_ == 0.0 ? " points"
+          : whole_             ? " whole cells"
+                               : " cells") +
          (symmetric() ? ", one half by symmetry" : "");
 }
 

@@ -8,11 +8,13 @@
 namespace subimpact {
 
 /// N equal cells of length dx = l/N with the displacement at their centres, second order in dx, or
-/// of dx = l/(N - 1) with the spacing `points` (docs/theory.md, "Cells"). In the symmetric half
-/// model (strike at mid-span, N odd, ends alike) the last unknown is the struck cell, N/2.
+/// of dx = l/(N - 1) with the spacing `points` (docs/theory.md, "Cells"). `whole` is `cells` with
+/// the rotary inertia of the outer half cells at free ends, which `cells` leaves out. In the
+/// symmetric half model (strike at mid-span, N odd, ends alike) the last unknown is the struck
+/// cell, N/2.
 class CellMesh final : public BeamMesh {
  public:
-  enum class Spacing { cells, points };
+  enum class Spacing { cells, whole, points };
 
   static constexpr std::size_t fewest_cells = 5;
   static constexpr std::size_t fewest_cells_if_clamped = 7;
@@ -34,7 +36,7 @@ class CellMesh final : public BeamMesh {
   std::optional<SparseFunctional> rotation_at(double x) const override;
   /// The infinite grid's, which the constraints of supported ends on mirrored grids cannot exceed.
   double highest_frequency(double bending_stiffness) const override;
-  /// In closed form if both ends are free (see free_cell_modes).
+  /// In closed form if both ends are free and all links alike (see free_cell_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override;
   std::string description() const override;
@@ -45,6 +47,8 @@ class CellMesh final : public BeamMesh {
 
   SparseFunctional cell(std::size_t i) const;
   SparseFunctional continued_cell(long i) const;
+  // The rotary inertia between the cells i and i + 1 over that of a whole length dx.
+  double link(std::size_t i) const;
   void assemble_mass();
   void assemble_moment();
   void place_sections();
@@ -55,6 +59,7 @@ class CellMesh final : public BeamMesh {
   double first_centre_;  // its distance from the end of the beam, in spacings
   double mass_per_length_;
   double rotary_inertia_;
+  bool whole_;
   std::array<EndSupport, 2> ends_;
   std::vector<EndStencil> first_sections_;  // outermost first
   std::vector<EndStencil> last_sections_;   // outermost last; unknowns in order

@@ -10,6 +10,7 @@
 #include "case/problem.h"
 #include "simulate/methods.h"
 #include "study/parallel.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/study/judgement.h"
 #include "subimpact/study/other_mesh.h"
 
@@ -19,9 +20,10 @@ namespace {
 constexpr double sizes[] = {0.85, 0.7};  // of the meshes beside, over that of the case
 // Where those are refused: strikes too close to an end for a coarser mesh.
 constexpr double finer_sizes[] = {1.2, 1.45};
+// Neighbouring meshes may share an error that a far one shows; it lacks sub-impacts that they have.
+constexpr double far_size = 0.5;
 constexpr double most_gain = 2.0;  // of differences
-constexpr double size_for_limit = 0.5;
-constexpr double looser = 10.0;  // rtol, for a mesh of 0.7 and in time alone
+constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
 constexpr double loosest = 1e-1;
 constexpr double gain_of_tolerance = 1.0 / 3.0;  // a ninth, and room for errors that fall unevenly
 constexpr double shorter = 0.7;                  // step
@@ -62,7 +64,7 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     const double ratio = static_cast<double>(mesh_count(input)) / mesh_count(beside.input);
     beside.gain = gain_of_mesh(ratio, std::max(mesh_order(input).value_or(2), 2));
     beside.input.output = output_beside(input);
-    resolve(beside.input);
+    check(beside.input);
     return beside;
   } catch (const InvalidCase&) {  // of the other mesh
     return std::nullopt;
@@ -126,7 +128,12 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
     if (auto beside = in_mesh_and_time(size, input)) all.push_back(std::move(*beside));
   };
   std::ranges::for_each(sizes, include);
-  if (all.size() < std::size(sizes)) std::ranges::for_each(finer_sizes, include);
+  if (all.size() < std::size(sizes)) {
+    std::ranges::for_each(finer_sizes, include);
+  } else if (auto far = in_mesh_and_time(far_size, input)) {
+    far->of_existence = false;
+    all.push_back(std::move(*far));
+  }
   if (!all.empty()) return all;
   all = cases_beside_in_time(input);
   if (all.empty()) return all;
@@ -150,10 +157,11 @@ std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
 
 std::vector<CaseBeside> cases_beside_by_part(const Case& input) {
   std::vector<CaseBeside> all = cases_beside_in_time(input);
-  for (const double size : {sizes[0], sizes[1], size_for_limit}) {
+  for (const double size : {sizes[0], sizes[1], far_size}) {
     std::optional<CaseBeside> beside = on_mesh_of(size, input);
     if (!beside) continue;
     beside->part = "mesh";
+    beside->of_existence = size != far_size;
     all.push_back(std::move(*beside));
   }
   const bool has_layers = descriptor_of(input.model.section).has_layers && !input.parts.section;

@@ -60,6 +60,9 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
     model.mesh = prefers_cells ? default_mesh(input)
                  : shears      ? MeshKind::spectral
                                : MeshKind::hermite;
+    if (model.mesh == MeshKind::cells && !shears && input.accuracy.event_times) {
+      model.spacing = CellSpacing::whole;  // on fine meshes what free ends leave would outlast
+    }
   }
   if (open.method && !yields) solver.method = Method::exponential;
   if (open.method && yields) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -22,10 +23,10 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 // Measured on random scenes (validation/judgement).
-constexpr double time_safety = 2.7;
-constexpr double value_safety = 4.0;
+constexpr double time_safety = 2.4;
+constexpr double value_safety = 2.8;
 constexpr double margin_safety = 2.5;
-constexpr double existence_safety = 0.85;
+constexpr double existence_safety = 0.75;
 // More of these where one run alone shows a part of the error; of those of existence after an
 // uncertain sub-impact of the same sub-zone.
 constexpr double of_one_run = 1.5;
@@ -33,7 +34,7 @@ constexpr double after_uncertain = 1.5;
 constexpr double end_safety = 4.0;  // of what free ends leave
 constexpr double depth_safety = 0.5;
 constexpr double steepest = 1.5;  // slope of a contact law over that of the secant, at most
-// Events on either side from which the error of the indentation at an event is taken.
+// Events or sub-impacts on either side whose errors count for one.
 constexpr std::size_t half_window = 3;
 // Near misses correspond if they are closer than this share of the contact or the flight.
 constexpr double near_share = 0.25;
@@ -110,16 +111,15 @@ class Judge {
     return std::max(time_safety * of_runs_ * std::max(here.error, least), end_safety * of_ends);
   }
 
-  // `least`: the smallest error to be stated.
+  // At least the median of those around, in which agreement by chance does not count. `least`: the
+  // smallest error to be stated.
   double value_error(std::size_t i, double SubImpact::*value, double least = 0.0) const {
-    std::optional<double> error;
-    for (std::size_t k = 0; k < beside_.size(); ++k) {
-      const SubImpact* there = partners_[k].of[i].there;
-      if (!there) continue;
-      const double here = beside_[k].of.gain * std::abs(all_[i].*value - there->*value);
-      error = std::max(error.value_or(0.0), here);
-    }
-    return error ? std::max(value_safety * of_runs_ * *error, least) : unknown;
+    const std::optional<double> own = difference(i, value);
+    if (!own) return unknown;
+    const double around =
+        median_around(i, all_.size(), [&](std::size_t k) { return difference(k, value); });
+    const double error = std::max(*own, around);
+    return std::max(value_safety * of_runs_ * error, least);
   }
 
   // What the error of the indentation leaves of the largest one, m, and of the force, N.
@@ -132,7 +132,7 @@ class Judge {
   std::string doubt_of(std::size_t i, double strictness) const {
     for (std::size_t k = 0; k < beside_.size(); ++k) {
       const Partner& partner = partners_[k].of[i];
-      if (partner.there && partner.alone) continue;
+      if (!beside_[k].of.of_existence || (partner.there && partner.alone)) continue;
       return (partner.there ? "it is split or merged or does not end with "
                             : "it does not exist with ") +
              beside_[k].of.description;
@@ -168,6 +168,7 @@ class Judge {
   std::string doubt_of_flight(std::size_t i) const {
     if (!all_[i].end) return {};
     for (std::size_t k = 0; k < beside_.size(); ++k) {
+      if (!beside_[k].of.of_existence) continue;
       for (const SubImpact* extra : partners_[k].extra) {
         if (extra->start < flight_end(i) && beside_[k].result.end_of(*extra) > *all_[i].end) {
           return "there is another one with " + beside_[k].of.description;
@@ -187,9 +188,13 @@ class Judge {
 
   // The share of the runs that have it, with one run more that does not.
   double probability(std::size_t i) const {
-    const auto n = std::ranges::count_if(
-        partners_, [i](const Partners& other) { return other.of[i].there && other.of[i].alone; });
-    return (1.0 + static_cast<double>(n)) / (2.0 + static_cast<double>(beside_.size()));
+    int n = 0, n_with = 0;
+    for (std::size_t k = 0; k < beside_.size(); ++k) {
+      if (!beside_[k].of.of_existence) continue;
+      ++n;
+      n_with += partners_[k].of[i].there && partners_[k].of[i].alone;
+    }
+    return (1.0 + n_with) / (2.0 + n);
   }
 
  private:
@@ -203,7 +208,7 @@ class Judge {
       end.time = run_.end_of(all_[i]);
       end.rate = std::abs(all_[i].end_rate);
       for (std::size_t k = 0; k < beside_.size(); ++k) {
-        const SubImpact* there = partners_[k].of[i].there;
+        const SubImpact* there = shown_by(k, i);
         if (!there) continue;
         const auto include = [&](Event& event, double time) {
           event.known = true;
@@ -215,15 +220,42 @@ class Judge {
     }
   }
 
+  // The sub-impact of a run beside that shows errors of one; none: it has none.
+  const SubImpact* shown_by(std::size_t k, std::size_t i) const {
+    const Partner& partner = partners_[k].of[i];
+    return partner.alone || beside_[k].of.of_existence ? partner.there : nullptr;
+  }
+
   void set_deltas() {
+    const auto depth = [this](std::size_t k) -> std::optional<double> {
+      if (k == 0 || !events_[k].known) return std::nullopt;
+      return events_[k].error * events_[k].rate;
+    };
     for (std::size_t e = 0; e < events_.size(); ++e) {
-      std::vector<double> around;
-      const std::size_t end = std::min(e + half_window + 1, events_.size());
-      for (std::size_t k = std::max(e, half_window + 1) - half_window; k < end; ++k) {
-        if (events_[k].known) around.push_back(events_[k].error * events_[k].rate);
-      }
-      deltas_.push_back(median(std::move(around)));
+      deltas_.push_back(median_around(e, events_.size(), depth));
     }
+  }
+
+  static double median_around(std::size_t i, std::size_t n,
+                              const std::function<std::optional<double>(std::size_t)>& value) {
+    std::vector<double> around;
+    const std::size_t end = std::min(i + half_window + 1, n);
+    for (std::size_t k = std::max(i, half_window) - half_window; k < end; ++k) {
+      if (const auto here = value(k)) around.push_back(*here);
+    }
+    return median(std::move(around));
+  }
+
+  // The largest between a value of a sub-impact and those of its counterparts; none: it has none.
+  std::optional<double> difference(std::size_t i, double SubImpact::*value) const {
+    std::optional<double> largest;
+    for (std::size_t k = 0; k < beside_.size(); ++k) {
+      const SubImpact* there = shown_by(k, i);
+      if (!there) continue;
+      const double here = beside_[k].of.gain * std::abs(all_[i].*value - there->*value);
+      largest = std::max(largest.value_or(0.0), here);
+    }
+    return largest;
   }
 
   // The error of the indentation from an event to the next, m.
@@ -253,6 +285,7 @@ class Judge {
   double margin_error(const NearMiss& here, double length, double delta) const {
     double error = 0.0;
     for (const RunBeside& other : beside_) {
+      if (!other.of.of_existence) continue;
       const double safety = margin_safety * of_runs_;
       double distance = near_share * length, difference = delta / safety;
       const auto include = [&](double time, double margin) {
@@ -382,7 +415,8 @@ bool is_over(const Case& input, const Result& run, std::span<const RunBeside> be
   const double tolerated = alike * input.scene.striker.velocity;
   return run.no_more_contact && std::ranges::all_of(beside, [&](const RunBeside& other) {
            const double difference = other.result.striker_velocity - run.striker_velocity;
-           return other.result.no_more_contact && std::abs(difference) < tolerated;
+           return !other.of.of_existence ||
+                  (other.result.no_more_contact && std::abs(difference) < tolerated);
          });
 }
 

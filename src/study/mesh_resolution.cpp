@@ -173,7 +173,8 @@ std::string mesh_doubt(const Case& input, const ResolvedSettings& used) {
 
 double free_end_error(const Case& input, double contact_time, double time) {
   const Beam& beam = input.scene.beam;
-  const bool cells = input.model.mesh == MeshKind::cells && !input.parts.mesh;
+  const bool cells = input.model.mesh == MeshKind::cells && !input.parts.mesh &&
+                     input.model.spacing != CellSpacing::whole;
   if (!cells || beam.theory != BeamTheory::rayleigh) return 0.0;
   const auto n_free = std::count(beam.ends.begin(), beam.ends.end(), EndSupport::free);
   if (n_free == 0) return 0.0;

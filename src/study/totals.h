@@ -7,11 +7,10 @@
 namespace subimpact {
 
 /// Sets the totals of an error estimate: numbers of the run as a whole, each with the largest of
-/// 3.3 gain |difference| over the runs beside it, summed over the parts (dissipated energy: 4.5,
-/// restitution: 4, mean velocity of the beam: 5; 1.5 times more for a part of one run). The largest
-/// force and indentation have at least the error of the sub-impact that has them. Counts
-/// have the largest difference itself, and at least the number of sub-impacts and flights that are
-/// not certain.
+/// 2.7 gain |difference| over the runs beside it, summed over the parts (mean velocity of the beam:
+/// 3.5, dissipated energy: 4, largest force and indentation: 5; 1.5 times more for a part of one
+/// run). Counts have the largest difference itself, and at least the number of sub-impacts and
+/// flights that are not certain.
 void set_totals(const Case& input, const Result& run, std::span<const RunBeside> beside,
                 ErrorEstimate& estimate);
 

@@ -19,6 +19,7 @@ namespace {
 // on errors of too coarse a mesh.
 constexpr double least_refinement = 1.25;
 constexpr double usual_refinement = 2.0;
+constexpr double largest_refinement = 4.0;  // while less than half of the sub-impacts are certain
 // Of the refinement that the stated error asks for.
 constexpr double margin = 1.1;
 // Of the time scale of the shortest contacts, where the case has no tolerance.
@@ -26,7 +27,7 @@ constexpr double default_share_of_contact = 0.1;
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
 // Work of a run and of those beside it over that of the run.
-constexpr double work_with_others = 2.1;
+constexpr double work_with_others = 2.4;
 constexpr double usual_growth = 2.5;  // of the work with the mesh
 
 double default_tolerance(const Refinement& refinement) {
@@ -176,9 +177,12 @@ class Search {
     return best_->result.all_certain() && largest_error() / falls <= tolerance_;
   }
 
-  // What the largest error asks for; the usual refinement while sub-impacts are uncertain.
+  // What the largest error asks for; the usual refinement, or a larger one, while sub-impacts are
+  // uncertain.
   double ratio_wanted() const {
-    if (!best_->result.all_certain()) return usual_refinement;
+    const Result& best = best_->result;
+    if (2 * best.n_certain().value_or(0) < best.sub_impacts.size()) return largest_refinement;
+    if (!best.all_certain()) return usual_refinement;
     const double asked =
         margin * std::pow(largest_error() / tolerance_, 1.0 / refinement_->order());
     return std::clamp(asked, least_refinement, usual_refinement);

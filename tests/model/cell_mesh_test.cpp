@@ -137,7 +137,7 @@ TEST(CellMesh, ParabolaHasItsCurvatureInEverySection) {
   }
 }
 
-TEST(CellMesh, HasTheBeamsMassAndTheRotaryInertiaOfAnInnerRotation) {
+TEST(CellMesh, HasTheBeamsMassAndTheRotaryInertiaOfAnInnerRotationOrOfAWholeOne) {
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
     const Beam beam = beam_of(theory);
     const CellMesh half(beam, 0.5, 41, Extent::half);
@@ -154,6 +154,9 @@ TEST(CellMesh, HasTheBeamsMassAndTheRotaryInertiaOfAnInnerRotation) {
     const double links = beam.rotary_inertia() * dx * 199.0;
     EXPECT_NEAR(mesh.mass().quadratic_form(rotation), points + links, 1e-12 * points);
     EXPECT_EQ(links > 0.0, theory == BeamTheory::rayleigh);
+    const CellMesh whole(beam, 0.5, 200, Extent::whole, CellMesh::Spacing::whole);
+    const double all = points + beam.rotary_inertia() * beam.length;
+    EXPECT_NEAR(whole.mass().quadratic_form(rotation), all, 1e-12 * points);
   }
 }
 
@@ -206,8 +209,9 @@ TEST(CellMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
     for (const std::size_t n : {5u, 7u, 51u}) {
       const Beam beam = beam_of(theory);
-      const CellMesh whole(beam, 0.5, n, Extent::whole);
-      const CellMesh half(beam, 0.5, n, Extent::half);
+      const auto spacing = n == 7 ? CellMesh::Spacing::whole : CellMesh::Spacing::cells;
+      const CellMesh whole(beam, 0.5, n, Extent::whole, spacing);
+      const CellMesh half(beam, 0.5, n, Extent::half, spacing);
       const std::vector<double> w = random_numbers(3, half.n_unknowns());
       std::vector<double> both(n);
       for (std::size_t i = 0; i < w.size(); ++i) both[i] = both[n - 1 - i] = w[i];

@@ -24,7 +24,7 @@ Case mixed_case() {
 TEST(MixedCells, AreJudgedByCoarserMixedCellsAtTheirOwnSteps) {
   const Case input = mixed_case();
   const std::vector<CaseBeside> beside = cases_beside_on_given_mesh(input);
-  ASSERT_EQ(beside.size(), 2u);
+  ASSERT_EQ(beside.size(), 3u);
   for (const CaseBeside& other : beside) {
     EXPECT_EQ(other.input.model.mesh, MeshKind::mixed);
     EXPECT_LT(other.input.model.segments, 400);

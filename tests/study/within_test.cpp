@@ -195,9 +195,12 @@ TEST(CasesBeside, AreCoarserInMeshAndTime) {
   input.model.segments = 401;
   input.solver.method = Method::central_difference;
   const std::vector<CaseBeside> cases = cases_beside(input);
-  ASSERT_EQ(cases.size(), 2u);
+  ASSERT_EQ(cases.size(), 3u);
   EXPECT_EQ(cases[0].input.model.segments, 341);
   EXPECT_EQ(cases[1].input.model.segments, 281);
+  EXPECT_EQ(cases[2].input.model.segments, 201);
+  EXPECT_TRUE(cases[1].of_existence);
+  EXPECT_FALSE(cases[2].of_existence);
   EXPECT_EQ(cases[1].part, "mesh and time");
   EXPECT_GT(*resolve(cases[1].input).settings().step, 1.05 * *resolve(input).settings().step);
   input.solver.method = Method::erk;

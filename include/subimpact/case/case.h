@@ -30,9 +30,10 @@ enum class MeshKind {
   rigid      ///< the beam as a rigid body
 };
 
-/// Length of N equal cells of a beam of length l.
+/// Length of N equal cells of a beam of length l, and what they have at free ends.
 enum class CellSpacing {
   cells,  ///< l/N: the cells fill the beam
+  whole,  ///< l/N, with the rotary inertia of the outer half cells, which `cells` leaves out
   points  ///< l/(N - 1): their centres do, from end to end
 };
 

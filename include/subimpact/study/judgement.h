@@ -20,6 +20,8 @@ struct CaseBeside {
   double gain = 1.0;
   /// Whether sub-impacts carry this part of the error; if not, only totals do.
   bool of_rows = true;
+  /// Whether a certain sub-impact must exist there; if not, it shows errors alone.
+  bool of_existence = true;
 };
 
 struct RunBeside {
@@ -28,9 +30,9 @@ struct RunBeside {
 };
 
 /// The cases beside a case that show the error of its mesh and of its integration in time
-/// together: meshes coarser by the factors 0.85 and 0.7, with the accuracy in time that goes with
-/// them; finer by 1.2 and 1.45 where a strike is too near an end for coarser ones. In time alone
-/// where the mesh cannot be coarser.
+/// together: meshes coarser by the factors 0.85 and 0.7, and by 0.5 for errors alone, with the
+/// accuracy in time that goes with them; finer by 1.2 and 1.45 where a strike is too near an end
+/// for coarser ones. In time alone where the mesh cannot be coarser.
 std::vector<CaseBeside> cases_beside(const Case& input);
 /// Those that show the error in time alone, on the mesh of the case; none where the step belongs to
 /// the mesh.
@@ -51,14 +53,15 @@ std::vector<CaseBeside> cases_beside_by_part(const Case& input);
 /// (docs/theory.md, "Error estimates"; measured in validation/judgement).
 ///
 /// e: the largest gain |difference| over the runs beside; d: the median of e |indentation rate|
-/// over seven events. Errors: of a time 2.7 max(e, d/rate), at least what free ends leave; of a
-/// value 4 e; of totals as set_totals(). A sub-impact is certain if each run has one counterpart,
-/// if 0.85 d is below its indentation and the openings of the gap beside it, if its errors are
-/// below its duration and the separations, and near misses within it keep margins above 2.5 e;
-/// after an uncertain one of its sub-zone all this with 1.5 times the errors. A flight is certain
-/// by its near misses. Where one run alone shows a part, factors are 1.5 times as large. Contact is
-/// over where that is proven for all runs and the final velocities of their strikers differ by less
-/// than 2.5 % of the strike's. Several parts are judged one by one; errors are the sums.
+/// over seven events. Errors: of a time 2.4 max(e, d/rate), at least what free ends leave; of a
+/// value 2.8 times its e, at least the median of seven; of totals as set_totals(). A sub-impact is
+/// certain if each run that counts for existence has one counterpart, if 0.75 d is below its
+/// indentation and the openings of the gap beside it, if its errors are below its duration and the
+/// separations, and near misses within it keep margins above 2.5 e; after an uncertain one of its
+/// sub-zone all this with 1.5 times the errors. A flight is certain by its near misses. Where one
+/// run alone shows a part, factors are 1.5 times as large. Contact is over where that is proven for
+/// all runs that count for existence and the final velocities of their strikers differ by less than
+/// 2.5 % of the strike's. Several parts are judged one by one; errors are the sums.
 void judge(const Case& input, Result& run, std::span<const RunBeside> beside);
 
 /// Threads that a function may use for runs beside one another; results do not depend on it.
