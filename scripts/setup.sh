@@ -90,7 +90,12 @@ install_missing_packages() {
     is_installed "$name" || missing+=("$name")
   done
   install_or_name "${missing[@]}"
-  missing=()
+}
+
+install_python_packages() {
+  has_command apt-get && has_command dpkg-query || return 0
+  local -a missing=()
+  local name
   for name in "${python_packages[@]}"; do
     is_installed "$name" || missing+=("$name")
   done
@@ -116,6 +121,7 @@ build() {
   local preset=$1
   shift
   install_missing_packages
+  install_python_packages
   if ! has_command cmake || ! has_command ninja; then
     say "CMake and Ninja are needed to build, and are not there."
     return 1
@@ -125,4 +131,32 @@ build() {
     cmake --preset "$preset"
     cmake --build --preset "$preset" ${1:+--target "$@"}
   )
+}
+
+# build_quietly PRESET TARGET: the same with a line per step; what it printed is shown if it fails.
+build_quietly() {
+  local log
+  log=$(mktemp)
+  say "1 of 3  Installing what is missing, and configuring"
+  if ! { install_missing_packages && cd "$project_root" && cmake --preset "$1"; } >"$log" 2>&1; then
+    cat "$log" >&2
+    return 1
+  fi
+  say "2 of 3  Building the program (up to five minutes the first time)"
+  if ! cmake --build --preset "$1" --target "$2" 2>&1 | tee "$log" | show_time_left; then
+    grep -v '^\[' "$log" >&2
+    return 1
+  fi
+}
+
+# Shows the share that is done, and the time left, of a build by Ninja; on a terminal alone.
+show_time_left() {
+  local line started=$SECONDS
+  while IFS= read -r line; do
+    [[ -t 2 && $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    local n=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+    printf '\r        %d of %d, some %d s left \033[K' "$n" "$all" \
+      $(((SECONDS - started) * (all - n) / n)) >&2
+  done
+  [[ ! -t 2 ]] || printf '\r\033[K' >&2
 }

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "case/slips.h"
+#include "case/units.h"
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
@@ -72,6 +73,13 @@ void CaseOptions::add_to(CLI::App& command) {
       ->check(not_empty);
 }
 
+void CaseOptions::add_within_to(CLI::App& command) {
+  add_time_option(command, "--within", within,
+                  "Wished bound on the error of every event time, with its unit: 1us. The program "
+                  "chooses what the case leaves open of mesh, method and tolerance. Instead of "
+                  "accuracy.event_times");
+}
+
 void CaseOptions::add_case_to(CLI::App& command) {
   command.add_option("CASE", file, "Case file (TOML); `subimpact keys` lists its keys")->required();
   command
@@ -86,6 +94,10 @@ LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
   std::vector<Override> overrides;
   for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
   if (!method.empty()) overrides.push_back({"solver.method", method, "--method " + method});
+  if (!within.empty()) {
+    overrides.push_back({"accuracy.event_times", fmt::format("{}", seconds_of(within).value()),
+                         "--within " + within});
+  }
   overrides.insert(overrides.end(), by_options.begin(), by_options.end());
   return read_case_file(file, overrides);
 }
@@ -105,16 +117,8 @@ void add_jobs_option(CLI::App& command, Jobs& jobs) {
 }
 
 std::optional<double> seconds_of(const std::string& text) {
-  char* rest = nullptr;
-  const double value = std::strtod(text.c_str(), &rest);
-  if (rest == text.c_str() || !(value > 0.0) || !std::isfinite(value)) return std::nullopt;
-  while (*rest == ' ') ++rest;
-  constexpr std::pair<std::string_view, double> units[] = {
-      {"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
-  for (const auto& [unit, seconds] : units) {
-    if (rest == unit) return value * seconds;
-  }
-  return std::nullopt;
+  const std::optional<double> value = value_in("s", text);
+  return value && *value > 0.0 && std::isfinite(*value) ? value : std::nullopt;
 }
 
 CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,

@@ -46,8 +46,10 @@ struct CaseOptions {
   std::string file;
   std::string method;
   std::vector<std::string> settings;
+  std::string within;  // empty, or a time with its unit
 
   void add_to(CLI::App& command);
+  void add_within_to(CLI::App& command);
   /// Without --method, for commands that run methods of their own choice.
   void add_case_to(CLI::App& command);
   /// With `by_options` after the settings of --set and --method. Throws CaseFileError.
@@ -142,6 +144,6 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& program, int& status, const
 
 using AddCommands = void(CLI::App& program, int& status);
 AddCommands add_run, add_compare, add_work_precision, add_stability, add_plan, add_sensitivity,
-    add_explain, add_plot_and_report, add_listings;
+    add_explain, add_new, add_plot_and_report, add_listings;
 
 }  // namespace subimpact::app

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "report/files.h"
 #include "subimpact/io/report.h"
 
 namespace subimpact::app {
@@ -11,6 +12,15 @@ int explain(CaseOptions& options) {
     print_doubts(loaded);
     print("{}", text);
   });
+  return done;
+}
+
+struct NewOptions {
+  std::string scene = "hammer";
+};
+
+int print_new_case(NewOptions& options) {
+  print("{}", embedded_file("../../examples/cases/" + options.scene + ".toml"));
   return done;
 }
 
@@ -36,11 +46,23 @@ void add_explain(CLI::App& program, int& status) {
       program, status, "explain",
       "Show how a case will be modelled and what it will cost, without running it", explain);
   options.add_to(command);
+  options.add_within_to(command);
   command.footer(
       "Examples:\n"
       "  subimpact explain case.toml\n"
       "  subimpact explain case.toml --method central-difference --set model.segments=1001\n"
       "Exit status: 0 done; 2 bad command line or case file.");
+}
+
+void add_new(CLI::App& program, int& status) {
+  auto [command, options] = add_command(
+      program, status, "new", "Print a commented case file to begin with", print_new_case);
+  command.add_option("SCENE", options.scene, "hammer (default), ball-drop or cantilever")
+      ->check(CLI::IsMember({"hammer", "ball-drop", "cantilever"}));
+  command.footer(
+      "Examples:\n"
+      "  subimpact new > case.toml\n"
+      "  subimpact new cantilever > case.toml && subimpact run case.toml");
 }
 
 void add_listings(CLI::App& program, int& status) {

@@ -87,6 +87,20 @@ bool occupy_closed_streams() {
   return true;
 }
 
+// "--error-bars off" is "--error-bars=off": its value may be left out, so that CLI11 takes none
+// after a blank.
+std::vector<std::string> joined(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const bool is_value = words[i] == "off" || words[i] == "time" || words[i] == "all";
+    if (!is_value || words[i - 1] != "--error-bars") continue;
+    words[i - 1] += "=" + words[i];
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  std::ranges::reverse(words);  // as CLI11 takes them
+  return words;
+}
+
 int run_command_line(int argc, char** argv) {
   using namespace subimpact;
   std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit fails then, like writing to a full disk
@@ -96,6 +110,7 @@ int run_command_line(int argc, char** argv) {
                    "subimpact");
   program.footer(
       "Examples:\n"
+      "  subimpact new > case.toml\n"
       "  subimpact explain case.toml\n"
       "  subimpact run case.toml --out out/first\n"
       "  subimpact plot out/first\n"
@@ -107,9 +122,9 @@ int run_command_line(int argc, char** argv) {
                            "Print the versions of program and libraries");
   program.require_subcommand(1);
   program.failure_message(usage_error);
-  for (const auto add :
-       {app::add_run, app::add_compare, app::add_work_precision, app::add_stability, app::add_plan,
-        app::add_sensitivity, app::add_explain, app::add_plot_and_report, app::add_listings}) {
+  for (const auto add : {app::add_new, app::add_run, app::add_compare, app::add_work_precision,
+                         app::add_stability, app::add_plan, app::add_sensitivity, app::add_explain,
+                         app::add_plot_and_report, app::add_listings}) {
     add(program, status);
   }
   if (const auto message = unknown_command(program, argc, argv)) {
@@ -117,7 +132,7 @@ int run_command_line(int argc, char** argv) {
     return app::refused;
   }
   try {
-    program.parse(argc, argv);
+    program.parse(joined(argc, argv));
   } catch (const CLI::ParseError& error) {
     return checked_output(program.exit(error) == 0 ? app::done : app::refused);
   } catch (const Error& error) {

@@ -19,6 +19,9 @@ struct FinishedRunOptions {
   const std::string& directory_or_first_run() const {
     return directory.empty() ? runs.front() : directory;
   }
+  std::filesystem::path figures() const {
+    return std::filesystem::path(directory_or_first_run()) / "figures";
+  }
 };
 
 // After the figures of a run: what they leave out, and how a run ended that did not complete.
@@ -46,7 +49,9 @@ void check_scripts(const std::string& scripts, const std::vector<std::filesystem
 
 int plot(FinishedRunOptions& options) {
   const FinishedRun run = read_results(options.runs.front());
-  OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
+  const bool goes_beside = options.directory.empty();
+  OutputDirectory directory(goes_beside ? options.figures().string() : options.directory, "figures",
+                            run.identity);
   if (!options.scripts.empty()) {
     check_scripts(options.scripts, {options.runs.front(), directory.path()});
     for (const std::string& file : write_figure_scripts(options.scripts)) {
@@ -67,7 +72,10 @@ int plot(FinishedRunOptions& options) {
 int report(const FinishedRunOptions& options) {
   const FinishedRun run = read_results(options.runs.front());
   OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
-  WrittenReport written = write_html_report(directory.staging(), run, options.dygraphs);
+  OutputDirectory figures(options.figures(), "figures", run.identity);
+  WrittenReport written =
+      write_html_report(directory.staging(), figures.staging(), run, options.dygraphs);
+  commit_figures(figures, written.figures);
   const bool is_there = commit_figures(directory, written.figures) && !written.page.empty();
   if (is_there) print("{}\n", (directory.path() / written.page.filename()).string());
   print_notes(directory, run);
@@ -126,7 +134,7 @@ void add_plot(CLI::App& program, int& status) {
   command.add_option("DIR", options.runs.front(), "Output directory of `subimpact run`")
       ->required();
   add_directory_option(command, options.directory,
-                       "Directory for the figures; made if missing. Default: DIR");
+                       "Directory for the figures; made if missing. Default: DIR/figures");
   command.add_option("--scripts", options.scripts,
                      "Directory of gnuplot scripts to draw with; those it lacks are put there "
                      "first, to be changed. For scripts alone: not that of a run or of figures");
@@ -155,8 +163,8 @@ void add_report(CLI::App& program, int& status) {
       ->required();
   add_directory_option(
       command, options.directory,
-      "Directory for report.html and its figures, comparison.html or sweep.html; made if "
-      "missing. Default: DIR; needed with several");
+      "Directory for report.html, with its figures in the folder figures, comparison.html or "
+      "sweep.html; made if missing. Default: DIR; needed with several");
   command.add_option("--dygraphs", options.dygraphs,
                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                      "Default: that of Debian's libjs-dygraphs");

@@ -1,9 +1,12 @@
 
 #include <algorithm>
+#include <cerrno>
 
 #include "commands.h"
+#include "io/uncertain.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/study/advice.h"
 #include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
 
@@ -13,8 +16,9 @@ namespace {
 struct RunOptions {
   CaseOptions input;
   std::string directory;
-  std::string within;      // empty, or a time with its unit
-  bool all = false;        // rows of the table
+  std::string within;  // empty, or a time with its unit
+  bool all = false;    // rows of the table
+  bool verbose = false;
   std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
   Jobs jobs = n_processors();
   bool quiet = false;
@@ -71,14 +75,65 @@ std::string write(ResultWriter& files, const Case& input, const Result& result) 
   }
 }
 
-int run(RunOptions& options) {
-  std::vector<Override> by_options;
-  if (!options.within.empty()) {
-    by_options.push_back({"accuracy.event_times",
-                          fmt::format("{}", seconds_of(options.within).value()),
-                          "--within " + options.within});
+// As the shell takes it.
+std::string quoted(const std::string& word) {
+  constexpr const char* plain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%";
+  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+  std::string text;
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return '\'' + text + '\'';
+}
+
+bool is_runnable(const CaseOptions& input, const std::vector<std::string>& more) {
+  CaseOptions advised = input;
+  advised.settings.insert(advised.settings.end(), more.begin(), more.end());
+  try {
+    const LoadedCase loaded = advised.load();
+    resolve(first_run(loaded.value, loaded.given).input);
+    return true;
+  } catch (const Error&) {
+    return false;
   }
-  LoadedCase loaded = options.input.load(by_options);
+}
+
+// The end of the summary: commands that go on from here, what they show and how long they take.
+std::string next_steps(const RunOptions& options, const GivenKeys& given, const WithinRun& run,
+                       const std::string& directory) {
+  const std::string program = quoted(program_invocation_name);
+  std::string text;
+  const auto add = [&](const std::string& command, const std::string& gain) {
+    text += fmt::format("  {:<19} {}\n{:24}{}\n", text.empty() ? "next" : "", command, "", gain);
+  };
+  if (!directory.empty()) {
+    add(fmt::format("{} report {}", program, quoted(directory)),
+        "draws it: the moving beam, charts, every number on one page (some seconds)");
+  }
+  for (const Advice& advice : advice(run.input, given, run.result)) {
+    std::vector<std::string> settings;
+    std::string command = fmt::format("{} run {}", program, quoted(options.input.file));
+    const auto append = [&](const std::string& option, const std::string& value) {
+      command += fmt::format(" {} {}", option, quoted(value));
+    };
+    if (!options.input.method.empty()) append("--method", options.input.method);
+    for (const std::string& setting : options.input.settings) {
+      const std::string key = setting.substr(0, setting.find('=') + 1);
+      const auto replaces = [&](const auto& option) { return option.second.starts_with(key); };
+      if (std::ranges::none_of(advice.options, replaces)) append("--set", setting);
+    }
+    for (const auto& [option, value] : advice.options) {
+      append(option, value);
+      if (option == "--set") settings.push_back(value);
+    }
+    if (!is_runnable(options.input, settings)) continue;
+    add(command,
+        fmt::format("{} (about {} s)", advice.gain, with_digits(std::max(1.0, advice.seconds), 1)));
+  }
+  return text;
+}
+
+int run(RunOptions& options) {
+  LoadedCase loaded = options.input.load();
   error_bars_of(loaded, options);
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = with_places(loaded, [&] { return resolve(loaded.value); });
@@ -99,7 +154,10 @@ int run(RunOptions& options) {
   // Before anything is printed: the reader of a pipe may leave early and end the program.
   const std::string unwritten = write(files, input, result);
   if (!options.quiet || !unwritten.empty()) {
-    print("{}\n{}", run_summary(input, result), sub_impact_table(result, !options.all));
+    print("{}{}\n{}", run_summary(input, result, options.verbose),
+          next_steps(options, loaded.given, finished,
+                     unwritten.empty() ? files.directory().path().string() : std::string()),
+          sub_impact_table(result, !options.all));
     if (result.predictability) print("\n{}", scatter_table(result));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
@@ -132,10 +190,7 @@ void add_run(CLI::App& program, int& status) {
       "summary.json, manifest.json and, where asked for, sections.csv and points.csv; made if "
       "missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
-  add_time_option(command, "--within", options.within,
-                  "Wished bound on the error of every event time, with its unit: 1us. The program "
-                  "chooses what the case leaves open of mesh, method and tolerance. Instead of "
-                  "accuracy.event_times");
+  options.input.add_within_to(command);
   command
       .add_flag("--error-bars{all}", options.error_bars,
                 "By default all errors are estimated from runs on two coarser meshes, which take "
@@ -145,6 +200,8 @@ void add_run(CLI::App& program, int& status) {
       ->check(CLI::IsMember({"all", "time", "off"}));
   add_jobs_option(command, options.jobs);
   command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");
+  command.add_flag("--verbose", options.verbose,
+                   "Print mesh, method, errors by source, conservation and work too");
   command.add_flag("--all", options.all,
                    "Print every sub-impact, also those that are not certain one by one");
   command.footer(

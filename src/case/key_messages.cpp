@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "case/slips.h"
+#include "case/units.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -79,6 +80,11 @@ std::string spelling_hint(const CaseKey& key, const KeyValue& value) {
   if (key.type == KeyType::flag) return "; write it without quotes";
   if (key.type != KeyType::number && key.type != KeyType::count) return {};
   const std::string hint = key.type == KeyType::number ? decimal_comma_hint(*text) : "";
+  if (const std::string_view unit = split_unit(*text).unit; hint.empty() && !unit.empty()) {
+    const std::string units = units_beside(key.unit);
+    return units.empty() ? "; write the number without a unit"
+                         : fmt::format("; \"{}\" is none of its units: {}", unit, units);
+  }
   return hint.empty() ? "; numbers are written without quotes" : hint;
 }
 

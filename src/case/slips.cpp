@@ -109,19 +109,24 @@ std::vector<std::string> keys_called(const std::string& leaf) {
   return names;
 }
 
-// For a key that `table` does not have: its key with the nearest name, else the keys of that name
-// in other tables.
+// For a key that `table` does not have: the keys of that name in other tables, else its own key
+// with the nearest name.
 std::string suggestion(const std::string& table, const std::string& leaf) {
+  std::vector<std::string> elsewhere = keys_called(leaf);
+  const bool is_moved = !elsewhere.empty() && !table.starts_with("scatter");
   const std::string near = nearest_name(leaf, leaves_of(table));
-  if (!near.empty()) return fmt::format("; did you mean \"{}\"?", full_key_name(table, near));
+  if (!near.empty() && !is_moved) {
+    return fmt::format("; did you mean \"{}\"?", full_key_name(table, near));
+  }
   for (const CaseKey& key : case_keys()) {
     const bool is_within = !table.empty() && key.name.starts_with(table + ".");
     if (is_within && key.leaf() == leaf) return fmt::format("; did you mean \"{}\"?", key.name);
   }
   if (is_case_table(full_key_name(table, leaf))) return "; it is a table";
-  const std::vector<std::string> elsewhere = keys_called(leaf);
-  if (elsewhere.empty() || table.starts_with("scatter")) return "; correct or remove it";
-  return fmt::format("; did you mean \"{}\"?", fmt::join(elsewhere, "\" or \""));
+  if (!is_moved) return "; correct or remove it";
+  if (!near.empty()) elsewhere.push_back(full_key_name(table, near));
+  return fmt::format("; {} is a key of [{}]: did you mean \"{}\"?", leaf,
+                     find_case_key(elsewhere.front())->table(), fmt::join(elsewhere, "\" or \""));
 }
 
 // The text after leading digits; nothing if it begins with none.

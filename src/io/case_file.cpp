@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -15,7 +16,9 @@
 
 #include "case/meshes.h"
 #include "case/slips.h"
+#include "case/units.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/case/doubtful_units.h"
 
 namespace subimpact {
 namespace {
@@ -117,16 +120,33 @@ std::string describe_type(const toml::node& node) {
   return types[static_cast<int>(node.type())];
 }
 
-// The number with a decimal comma in a line (from 1) such as "mass = 0,201"; empty if there is
-// none. Lists are left alone: in [0,5] there are two numbers.
-std::string decimal_comma_in(std::string_view text, std::size_t line_number) {
+// What a line (from 1) such as "mass = 0,201" or "mass = 201 g" has in place of a number, and how
+// to write it; empty if it has no such thing. Lists are left alone: in [0,5] there are two numbers.
+std::string misspelt_number_in(std::string_view text, std::size_t line_number) {
   const std::string_view line = line_of(text, line_number);
   for (std::size_t at = line.find('='); at < line.size(); at = line.find('=', at + 1)) {
     const std::size_t start = std::min(line.find_first_not_of(" \t", at + 1), line.size());
-    const std::string_view number = leading_decimal_comma(line.substr(start));
-    if (!number.empty()) return std::string(number);
+    const std::string_view value = line.substr(start, line.find_first_of("#]}\n", start) - start);
+    const std::string number(leading_decimal_comma(value));
+    if (!number.empty()) return number + " has a decimal comma" + decimal_comma_hint(number);
+    const auto [digits, rest] = split_unit(value.substr(0, value.find(',')));
+    if (digits.empty() || rest.empty() || !std::isalpha(static_cast<unsigned char>(rest[0]))) {
+      continue;
+    }
+    return fmt::format(
+        "{0} {1} is a value with a unit; write it in quotes, \"{0} {1}\", or the number alone, in "
+        "SI units",
+        digits, rest);
   }
   return {};
+}
+
+// The number that a text with a unit stands for.
+KeyValue in_unit_of(const CaseKey& key, KeyValue value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if (text == nullptr || key.type != KeyType::number) return value;
+  if (const std::optional<double> number = value_in(key.unit, *text)) return *number;
+  return value;
 }
 
 // On a command line quotes are a nuisance: what is no TOML is a text where one is wanted.
@@ -134,7 +154,9 @@ std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& tex
   const bool wants_text = key.type == KeyType::text || key.type == KeyType::choice;
   const bool wants_pair = key.type == KeyType::pair && !text.starts_with('[');
   const bool wants_numbers = key.type == KeyType::numbers && !text.starts_with('[');
-  if (wants_text && !text.starts_with('"') && !text.starts_with('\'')) return KeyValue(text);
+  const bool is_quoted = text.starts_with('"') || text.starts_with('\'');
+  if (wants_text && !is_quoted) return KeyValue(text);
+  if (key.type == KeyType::number && !split_unit(text).unit.empty()) return KeyValue(text);
   if (wants_pair) {
     std::vector<std::string> names;
     std::istringstream items(text);
@@ -202,7 +224,7 @@ class Reader {
       return;
     }
     if (std::optional<KeyValue> value = parse_setting(*key, setting.value)) {
-      given_[key->name] = {std::move(*value), setting.origin, false};
+      given_[key->name] = {in_unit_of(*key, std::move(*value)), setting.origin, false};
     } else {
       refused_.push_back(key->name);
       complain(setting.origin, key->name + " " + refusal(*key, "'" + setting.value + "'") +
@@ -258,7 +280,7 @@ class Reader {
   void read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
     std::optional<KeyValue> value = to_key_value(node);
     if (value) {
-      given_[key.name] = {std::move(*value), where, true};
+      given_[key.name] = {in_unit_of(key, std::move(*value)), where, true};
     } else {
       refused_.push_back(key.name);
       complain(where, key.name + " " + refusal(key, describe_type(node)));
@@ -366,14 +388,32 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
+// Results and pictures are mistaken for cases.
+void refuse_other_files(const std::filesystem::path& path) {
+  constexpr std::pair<const char*, const char*> kinds[] = {
+      {".csv", "a table"},   {".json", "a summary of results"},
+      {".html", "a page"},   {".svg", "a picture"},
+      {".png", "a picture"}, {".pdf", "a picture"},
+      {".gp", "a script"},   {".py", "a script"},
+      {".md", "a text"}};
+  for (const auto& [ending, what] : kinds) {
+    if (path.extension() != ending) continue;
+    const std::filesystem::path beside = path.parent_path() / "case.toml";
+    std::error_code ignored;
+    throw CaseFileError(fmt::format(
+        "{}: is {}, no case file (TOML); give the path of one, such as {}", path.string(), what,
+        std::filesystem::exists(beside, ignored)
+            ? beside.string()
+            : "that which `subimpact new > case.toml` writes"));
+  }
+}
+
 std::string malformed(const std::string& text, const std::string& name,
                       const toml::parse_error& error) {
   const toml::source_position at = error.source().begin;
   const std::string place = fmt::format("{}:{}:{}: not valid TOML: ", name, at.line, at.column);
-  const std::string number = decimal_comma_in(text, at.line);
-  if (!number.empty()) {
-    return fmt::format("{}{} has a decimal comma{}", place, number, decimal_comma_hint(number));
-  }
+  const std::string number = misspelt_number_in(text, at.line);
+  if (!number.empty()) return place + number;
   return fmt::format("{}{}; correct this line (a setting is written key = value, a table [name])",
                      place, error.description());
 }
@@ -403,7 +443,11 @@ std::string LoadedCase::message(const InvalidCase& error) const {
   const CaseKey* key = find_case_key(error.key);
   const bool has_value = key == nullptr || key->get(value).has_value();
   const std::string origin = at == places_.end() && has_value ? " (the default)" : "";
-  return fmt::format("{}: {}{} {}", place, error.key, origin, error.what());
+  std::string text;
+  for (const std::string& doubt : doubtful_units(value)) {
+    text += fmt::format("{}: check the unit first: {}\n", path_, doubt);
+  }
+  return text + fmt::format("{}: {}{} {}", place, error.key, origin, error.what());
 }
 
 LoadedCase read_case_text(const std::string& text, const std::string& name,
@@ -432,6 +476,7 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
 
 LoadedCase read_case_file(const std::filesystem::path& path,
                           const std::vector<Override>& overrides) {
+  refuse_other_files(path);
   return read_case_text(read_text(path), path.string(), overrides);
 }
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "case/units.h"
 #include "io/sealed_files.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
@@ -41,6 +42,17 @@ Json number_schema(const char* type, const Limits& limits) {
   return schema;
 }
 
+// A number, or a text of a number with its unit.
+Json number_or_unit_schema(const CaseKey& key) {
+  Json schema = number_schema("number", key.limits);
+  const std::string units = units_beside(key.unit, "|");
+  if (units.empty()) return schema;
+  if (!schema["type"].is_array()) schema["type"] = Json{schema["type"]};
+  schema["type"].push_back("string");
+  schema["pattern"] = "^[-+.0-9eE]+ *(" + units + ")$";
+  return schema;
+}
+
 // The notes on the choices stand where the language server Taplo looks for them.
 Json choice_schema(const std::vector<Choice>& choices) {
   Json names = Json::array(), notes = Json::array();
@@ -58,7 +70,7 @@ Json value_schema(const CaseKey& key) {
     case KeyType::flag:
       return {{"type", "boolean"}};
     case KeyType::number:
-      return number_schema("number", key.limits);
+      return number_or_unit_schema(key);
     case KeyType::count:
       return number_schema("integer", key.limits);
     case KeyType::choice:

@@ -4,74 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "case/counted.h"
-#include "case/meshes.h"
-#include "io/printable.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"
-#include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {
-
-constexpr double share_of_contact = 0.1;  // of the shortest ones, an error that serves them
-
-std::string time_or_never(const std::optional<double>& time) {
-  return time ? fmt::format("{:.4f} us", *time * us) : "never";
-}
-
-// "48 +- 2", "12"; without an error estimate the number alone.
-std::string count_text(const Total& total) {
-  const double error = std::ceil(total.error.value_or(0.0));
-  return error > 0.0 ? fmt::format("{:.0f} +- {:.0f}", total.value, error)
-                     : fmt::format("{:.0f}", total.value);
-}
-
-std::string total_or_value(const Total& total, double factor, int decimals) {
-  const auto rounding = rounding_of(total.error.value_or(HUGE_VAL) * factor, decimals);
-  if (!rounding) return with_digits(total.value * factor, 3);
-  return fmt::format("{} +- {}", with_decimals(total.value * factor, rounding->decimals),
-                     rounding->error);
-}
-
-std::string zone_text(const Result& result) {
-  const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
-  const auto& estimate = result.error_estimate;
-  std::string text;
-  for (std::size_t k = 0; k < zones.size(); ++k) {
-    const ZoneSummary& zone = zones[k];
-    const ZoneTotals* totals =
-        estimate && estimate->zones.size() == zones.size() ? &estimate->zones[k] : nullptr;
-    const auto time = [&](double value, const Total ZoneTotals::*total) {
-      if (!totals) return fmt::format("{:.1f}", value * us);
-      return value == 0.0 ? std::string("0") : total_or_value(totals->*total, us, 4);
-    };
-    text +=
-        fmt::format("  zone {:<14} {} sub-impact{} in {}, {} to {} us", zone.zone,
-                    totals ? count_text(totals->sub_impacts) : std::to_string(zone.n_sub_impacts),
-                    zone.n_sub_impacts == 1 ? "" : "s", counted(zone.n_subzones, "sub-zone"),
-                    time(zone.start, &ZoneTotals::start),
-                    zone.end ? time(*zone.end, &ZoneTotals::end) : "(open)");
-    if (totals) text += fmt::format(", impulse {} N s", total_or_value(totals->impulse, 1.0, 6));
-    text += "\n";
-  }
-  return text;
-}
 
 // Whether the only event time is that of the first touch, which is exact.
 bool has_first_touch_alone(const Result& result) {
   return result.sub_impacts.size() == 1 && !result.sub_impacts.front().end;
 }
 
-// What is certain: "41 of 58 sub-impacts are certain, their times to 2 us; <first reason why not>".
+// How certain: "times of the certain ones to 2 us; <first reason why others are not>".
 std::string certain_text(const Result& result, double largest_error,
                          const std::optional<std::size_t>& first_unresolved,
                          const std::string& reason) {
-  const std::size_t n = result.sub_impacts.size();
   if (!first_unresolved) {
     return has_first_touch_alone(result)
                ? "no event time up to " + duration_text(result.outcome.time) +
@@ -79,36 +29,11 @@ std::string certain_text(const Result& result, double largest_error,
                : fmt::format("all times to {} up to {}", error_text(largest_error),
                              duration_text(result.outcome.time));
   }
-  const std::size_t n_certain = *result.n_certain();
   const std::string which = place_of_doubt(result, *first_unresolved, reason);
-  if (n_certain == 0) return fmt::format("no sub-impact is certain; {}: {}", which, reason);
-  return fmt::format("{} of {} certain, their times to {}; {}: {}", n_certain,
-                     counted(n, "sub-impact"), error_text(largest_error), which, reason);
-}
-
-// The setting that makes the errors of a part smaller; empty for a part without one.
-std::string setting_against(const std::string& part, const Case& input, const Result& result) {
-  if (part == "layers") return "model.section = \"exact\"";
-  if (part == "time") return result.used.step ? "a shorter solver.step" : "a smaller solver.rtol";
-  if (part != "mesh" || input.parts.mesh) return {};
-  const auto& refinement = descriptor_of(input.model.mesh).refinement;
-  if (!refinement || result.wish) return {};  // a wish names what stands in its way
-  const std::string within = fmt::format(
-      "--within {}us", with_digits(share_of_contact * us * result.used.contact_time, 1));
-  if (!result.choice.empty()) return within;
-  return fmt::format("{}, with {} left to the program", within, refinement->key);
-}
-
-// Which setting to try where no sub-impact is decided: that of the first part to blame.
-std::string setting_to_try(const Case& input, const Result& result) {
-  for (const ErrorEstimate::Part& part : result.error_estimate->parts) {
-    if (part.first_unresolved != std::size_t{0}) continue;
-    const std::string setting = setting_against(part.name, input, result);
-    if (!setting.empty()) return "; try " + setting;
-  }
-  // Only the length of the contacts shows that the mesh is too coarse.
-  const std::string finer = setting_against("mesh", input, result);
-  return finer.empty() ? finer : "; try " + finer;
+  if (result.n_certain() == std::size_t{0})
+    return fmt::format("no sub-impact is certain; {}: {}", which, reason);
+  return fmt::format("times of the certain ones to {}; {}: {}", error_text(largest_error), which,
+                     reason);
 }
 
 std::string first_failure_text(const Outcome& outcome) {
@@ -118,109 +43,7 @@ std::string first_failure_text(const Outcome& outcome) {
       failure.from * us, failure.from * us, failure.to * us);
 }
 
-std::string mass_text(double mass) {
-  if (mass >= 1e4) return fmt::format("{:.6g} t", 1e-3 * mass);
-  if (mass < 1e-3) return fmt::format("{:.6g} g", 1e3 * mass);
-  return fmt::format("{:.6g} kg", mass);
-}
-
-// What the runs beside show, by source. A part's reason that stands above already is left out.
-void add_error_parts(const Result& result, fmt::memory_buffer& text) {
-  const ErrorEstimate& estimate = *result.error_estimate;
-  for (const ErrorEstimate::Part& part : estimate.parts) {
-    const bool is_repeated = part.first_unresolved == estimate.first_unresolved &&
-                             part.reason == estimate.reason && !part.reason.empty();
-    const std::string words =
-        is_repeated ? std::string("as above")
-                    : certain_text(result, part.largest_error, part.first_unresolved, part.reason);
-    fmt::format_to(std::back_inserter(text), "  {:<19} {} (runs beside: {})\n",
-                   part.name + " error", words, part.refined_run);
-  }
-}
-
-std::string maxima_text(const Result& result) {
-  return fmt::format("force {}, indentation {}",
-                     total_text(result, "peak_force_N", result.max_force, 1.0, 2, "N"),
-                     total_text(result, "max_indentation_m", result.max_indentation, mm, 6, "mm"));
-}
-
-std::string final_velocities_text(const Case& input, const Result& result) {
-  const double restitution =
-      (result.beam_mean_velocity - result.striker_velocity) / input.scene.striker.velocity;
-  return fmt::format(
-      "striker {}, beam (mean) {}; restitution {}",
-      total_text(result, "striker_velocity_m_per_s", result.striker_velocity, 1.0, 6, "m/s"),
-      total_text(result, "beam_mean_velocity_m_per_s", result.beam_mean_velocity, 1.0, 6, "m/s"),
-      total_text(result, "restitution", restitution, 1.0, 6, ""));
-}
-
-template <class Value>
-const EnvelopeRow& where_largest(const Result& result, Value value) {
-  return *std::max_element(
-      result.envelope.begin(), result.envelope.end(),
-      [&](const EnvelopeRow& a, const EnvelopeRow& b) { return value(a) < value(b); });
-}
-
-double magnitude(const EnvelopeRow::Range& range) {
-  return std::max(range.largest.value, -range.smallest.value);
-}
-
-// Strains where sections yield are those of a hinge, which depend on the size of the mesh.
-std::string bending_text(const Result& result) {
-  const auto moment = [](const EnvelopeRow& row) { return magnitude(row.moment); };
-  const EnvelopeRow& most_bent = where_largest(result, moment);
-  const std::string text =
-      fmt::format("moment up to {:.4g} N m at {:.4g} m", moment(most_bent), most_bent.position);
-  if (result.n_yielded_sections > 0) return text;
-  const auto strain = [](const EnvelopeRow& row) { return magnitude(row.strain); };
-  const EnvelopeRow& most_strained = where_largest(result, strain);
-  return text + fmt::format(", outer strain to {:.3g} % at {:.4g} m", 100.0 * strain(most_strained),
-                            most_strained.position);
-}
-
-std::string permanent_set_text(const Result& result) {
-  const EnvelopeRow& most =
-      where_largest(result, [](const EnvelopeRow& row) { return std::abs(row.permanent_set); });
-  const PlasticZone& hinge =
-      *std::max_element(result.plastic_zones.begin(), result.plastic_zones.end(),
-                        [](const PlasticZone& a, const PlasticZone& b) {
-                          return std::abs(a.rotation) < std::abs(b.rotation);
-                        });
-  return fmt::format(
-      "{:.4g} mm at {:.4g} m against the chord; largest plastic hinge {:.3g} rad at {:.4g} m",
-      1e3 * most.permanent_set, most.position, hinge.rotation, 0.5 * (hinge.from + hinge.to));
-}
-
-// How far shear, which bending theory leaves out, moves the end of the first contact.
-std::string neglected_shear_words(const NeglectedShear& shear) {
-  const bool is_small = shear.with && std::abs(*shear.with - shear.without) < 5e-3 * shear.without;
-  const std::string without = fmt::format("{:.3g}", us * shear.without);
-  const std::string change = is_small ? fmt::format(", at {} us, by less than 0.5 %", without)
-                             : shear.with
-                                 ? fmt::format(" from {} to {:.3g} us", without, us * *shear.with)
-                                 : fmt::format(" from {} us to beyond three times that", without);
-  return fmt::format(
-      "shear, which on a coarse mesh moves the end of the first contact{}; beam.theory = "
-      "\"timoshenko\" has it",
-      change);
-}
-
 }  // namespace
-
-std::string contact_over_words(const Result& result) {
-  if (result.contact_over) {
-    return fmt::format("proven{}: striker and beam never touch again",
-                       result.error_estimate ? "" : " on this mesh");
-  }
-  if (result.sub_impacts.empty() || !result.sub_impacts.back().end) {
-    return "no: striker and beam are still in contact";
-  }
-  const std::optional<ClosestApproach>& closest = result.closest_approach;
-  if (!closest) return "not proven; the gap grows until the run ends";
-  const Total gap{closest->gap, closest->error};
-  return fmt::format("not proven; the gap falls to {} um at {:.4g} us", total_or_value(gap, um, 3),
-                     us * closest->time);
-}
 
 std::string finer_meshes_words(const Result& result) {
   const ErrorEstimate::FinerMeshes& finer = *result.error_estimate->finer_meshes;
@@ -241,6 +64,21 @@ std::string finer_meshes_words(const Result& result) {
   return finer.doubt.empty() ? text : text + "; " + finer.doubt;
 }
 
+std::vector<std::pair<std::string, std::string>> error_part_words(const Result& result) {
+  const ErrorEstimate& estimate = *result.error_estimate;
+  std::vector<std::pair<std::string, std::string>> parts;
+  for (const ErrorEstimate::Part& part : estimate.parts) {
+    const bool is_repeated = part.first_unresolved == estimate.first_unresolved &&
+                             part.reason == estimate.reason && !part.reason.empty();
+    const std::string words =
+        is_repeated ? std::string("as above")
+                    : certain_text(result, part.largest_error, part.first_unresolved, part.reason);
+    parts.emplace_back(part.name + " error",
+                       fmt::format("{} (runs beside: {})", words, part.refined_run));
+  }
+  return parts;
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.4g} us", seconds * 1e6);
   if (seconds < 1.0) return fmt::format("{:.4g} ms", seconds * 1e3);
@@ -255,16 +93,12 @@ std::string outcome_caveat(const Result& result) {
   return fmt::format("{} at {:.6g} us", kind, outcome.time * us);
 }
 
-std::string error_words(const Case& input, const Result& result) {
+std::string error_words(const Result& result) {
   if (!result.error_estimate) {
-    return "not known; without --error-bars=off runs on coarser meshes estimate it";
+    return "errors are not known; without --error-bars=off runs on coarser meshes estimate them";
   }
   const ErrorEstimate& estimate = *result.error_estimate;
-  const std::string text =
-      certain_text(result, estimate.largest_error, estimate.first_unresolved, estimate.reason);
-  return result.n_certain() == std::size_t{0} && !result.sub_impacts.empty()
-             ? text + setting_to_try(input, result)
-             : text;
+  return certain_text(result, estimate.largest_error, estimate.first_unresolved, estimate.reason);
 }
 
 std::string certain_words(const Result& result) {
@@ -368,63 +202,6 @@ std::string sub_impact_table(const Result& result, bool fold) {
     add_line("after the last one there may be another: " + flight.reason);
   }
   return text;
-}
-
-std::string run_summary(const Case& input, const Result& result) {
-  const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
-  const Work& work = result.work;
-  fmt::memory_buffer text;
-  const auto line = [&](const char* label, const std::string& value) {
-    fmt::format_to(std::back_inserter(text), "  {:<19} {}\n", label, value);
-  };
-  fmt::format_to(std::back_inserter(text), "{}\n",
-                 input.title.empty() ? "untitled case" : printable(input.title));
-  line("outcome", fmt::format("{} at {} of {}", to_string(result.outcome.kind),
-                              duration_text(result.outcome.time), duration_text(input.end_time)));
-  if (result.wish) line("wish", wish_words(*result.wish, result));
-  if (result.outcome.first_failure) line("checks", first_failure_text(result.outcome));
-  line("sub-impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
-                                  counted(zones.size(), "zone"), certain_words(result)));
-  text.append(zone_text(result));
-  line("contact over", contact_over_words(result));
-  line("maxima", maxima_text(result));
-  if (!result.envelope.empty() && result.used.section != "rigid") {
-    line("bending", bending_text(result));
-    if (!result.plastic_zones.empty()) line("permanent set", permanent_set_text(result));
-  }
-  line("final velocities", final_velocities_text(input, result));
-  line("error", error_words(input, result));
-  if (result.error_estimate && result.error_estimate->finer_meshes) {
-    line("finer meshes", finer_meshes_words(result));
-  }
-  if (result.predictability) line("predictable", predictability_words(result));
-  line("first yield",
-       fmt::format("section {}, contact {}", time_or_never(result.first_section_yield),
-                   time_or_never(result.first_contact_yield)));
-  line("yielded sections",
-       fmt::format("{} of {}", result.n_yielded_sections, result.used.n_sections));
-  line("model", fmt::format("{}; section {}; {}", result.used.mesh,
-                            to_text(*find_case_key("model.section")->get(input)),
-                            counted(result.used.n_unknowns, "unknown")));
-  if (!result.choice.empty()) line("chosen because", printable(result.choice));
-  line("masses", fmt::format("beam {}, striker {}", mass_text(input.scene.beam.mass()),
-                             mass_text(input.scene.striker.mass)));
-  line("conservation",
-       result.max_momentum_error
-           ? fmt::format("energy to {:.1e}, momentum to {:.1e}, relative", result.max_energy_error,
-                         *result.max_momentum_error)
-           : fmt::format(
-                 "energy to {:.1e}, relative; momentum is not conserved: the supports take it up",
-                 result.max_energy_error));
-  if (result.error_estimate) add_error_parts(result, text);
-  line("method", fmt::format("{}{}", to_string(input.solver.method),
-                             result.used.table ? ", table " + *result.used.table : ""));
-  line("work", fmt::format("{}, {} rejected, {}, {}; {}", counted(work.steps, "step"),
-                           work.rejected_steps, counted(work.right_hand_sides, "right-hand side"),
-                           counted(work.roots, "event"), duration_text(work.wall_seconds)));
-  if (result.neglected_shear) line("left out", neglected_shear_words(*result.neglected_shear));
-  for (const std::string& warning : result.warnings) line("warning", warning);
-  return fmt::to_string(text);
 }
 
 std::string failure_message(const Case& input, const Result& result) {

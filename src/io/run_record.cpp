@@ -402,6 +402,7 @@ RunEntry rest_entry() {
 Record<DescribedRun> make_run_record() {
   using Used = ResolvedSettings;
   const auto outcome = [](auto member) { return result(&Result::outcome, member); };
+  const auto energy = [](auto member) { return result(&Result::final_energies, member); };
   const auto work = [](auto member) { return result(&Result::work, member); };
   return {
       {"layout", "version of the layout of this file",
@@ -498,6 +499,18 @@ Record<DescribedRun> make_run_record() {
        result(&Result::striker_velocity), Form::finite},
       {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass",
        result(&Result::beam_mean_velocity), Form::finite},
+      {"final_energies.striker_J", "at the end; these seven add up to used.initial_energy_J",
+       energy(&Energies::striker)},
+      {"final_energies.beam_kinetic_J", "of the beam's motion", energy(&Energies::beam_kinetic)},
+      {"final_energies.bending_elastic_J", "stored in bending", energy(&Energies::bending_elastic)},
+      {"final_energies.bending_plastic_J", "dissipated by bending",
+       energy(&Energies::bending_plastic)},
+      {"final_energies.contact_elastic_J", "stored in the contact",
+       energy(&Energies::contact_elastic)},
+      {"final_energies.contact_plastic_J", "dissipated by the contact, with its damping",
+       energy(&Energies::contact_plastic)},
+      {"final_energies.beam_damping_J", "dissipated by the damping of the beam",
+       energy(&Energies::beam_damping)},
       {"dissipated_by_damping.contact_J", "energy dissipated by the damping of the contact",
        result(&Result::contact_damping_loss)},
       {"dissipated_by_damping.beam_J", "energy dissipated by the damping of the beam",
@@ -529,7 +542,8 @@ Record<DescribedRun> make_run_record() {
       {"work.nonlinear_iterations", "of implicit methods", work(&Work::nonlinear_iterations)},
       {"work.nonlinear_failures", "of implicit methods", work(&Work::nonlinear_failures)},
       {"work.setup_s", "time spent before the first step", work(&Work::setup_seconds)},
-      {"work.wall_s", "time spent in all", work(&Work::wall_seconds)}};
+      {"work.wall_s", "time spent in all", work(&Work::wall_seconds)},
+      {"work.all_s", "the same with the runs beside it and before it", work(&Work::all_seconds)}};
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ const RunTable<SubImpact>& run_table() {
         &SubImpact::residual_indentation_error},
        {"striker_velocity_error_m_per_s", "error of striker_velocity_m_per_s",
         &SubImpact::striker_velocity_error},
-       {"doubt", "why it is not certain", &SubImpact::doubt}},
+       {"doubt", "why it is not certain", &SubImpact::doubt},
+       {"peak_time_s", "instant of the largest force", &SubImpact::peak_time}},
       &Result::sub_impacts,
       one};
   return table;

@@ -237,18 +237,29 @@ SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus) {
   return table;
 }
 
+std::string text_of(const Total& total, double factor, int decimals) {
+  const double value = total.value * factor;
+  const auto rounding = rounding_of(total.error.value_or(HUGE_VAL) * factor, decimals);
+  if (!rounding) return with_digits(value, digits_if_uncertain);
+  return fmt::format("{} +- {}", rounded(value, rounding->decimals), rounding->error);
+}
+
+std::optional<double> error_of_total(const Result& result, std::string_view name) {
+  if (!result.error_estimate) return std::nullopt;
+  const auto& totals = result.error_estimate->totals;
+  const auto found = std::ranges::find(totals, name, &NamedTotal::name);
+  return found == totals.end() ? std::nullopt : found->total.error;
+}
+
 std::string total_text(const Result& result, const char* name, double value, double factor,
                        int decimals, const char* unit) {
   value *= factor;
   const std::string in_unit = *unit ? std::string(" ") + unit : std::string();
   if (!result.error_estimate) return fmt::format("{:.{}f}{}", value, decimals, in_unit);
-  const auto& totals = result.error_estimate->totals;
-  const auto found = std::ranges::find(totals, name, &NamedTotal::name);
-  const Number error = found == totals.end() ? std::nullopt : scaled(found->total.error, factor);
+  const Number error = scaled(error_of_total(result, name), factor);
   const auto rounding = rounding_of(error.value_or(HUGE_VAL), decimals);
   if (!rounding) {
-    return fmt::format("{}{} (a run beside did not complete, so that no error is known)",
-                       with_digits(value, digits_if_uncertain), in_unit);
+    return with_digits(value, digits_if_uncertain) + in_unit;
   }
   return fmt::format("{} +- {}{}", rounded(value, rounding->decimals), rounding->error, in_unit);
 }

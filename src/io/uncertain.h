@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "subimpact/simulate/result.h"
@@ -50,6 +51,13 @@ struct SubImpactRows {
 
 /// `plus_minus`: what stands between a time and its error.
 SubImpactRows sub_impact_rows(const Result& result, const char* plus_minus = "+-");
+
+/// A number with its error, "8796.3 +- 0.8", with at most so many decimals; three digits where no
+/// error is known. `factor`: from SI to the unit of the text.
+std::string text_of(const Total& total, double factor, int decimals);
+
+/// The error of a total, by its name in summary.json; none where it is not known.
+std::optional<double> error_of_total(const Result& result, std::string_view name);
 
 /// A total of the run with its error: "8796.3 +- 0.8 N"; without an error estimate so many
 /// decimals. `name`: as in summary.json; `factor`: from SI to `unit`.

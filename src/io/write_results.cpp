@@ -7,6 +7,7 @@
 
 #include "io/run_tables.h"
 #include "io/sealed_files.h"
+#include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {
@@ -90,6 +91,23 @@ constexpr double bytes_per_history_row = 345.0;
 constexpr double bytes_per_section_row = 97.0;
 constexpr double bytes_per_point_row = 80.0;
 constexpr double bytes_per_shape_row = 105.0;
+
+constexpr const char* case_name = "case.toml";
+
+// A user's own case in the directory stays as it is.
+bool may_write_case(const fs::path& directory) {
+  const std::optional<Manifest> manifest = read_manifest(directory);
+  return (manifest && manifest->files.contains(case_name)) || !fs::exists(directory / case_name);
+}
+
+// Figures of an older run in their folder; left where another command writes there.
+void remove_old_figures(const fs::path& directory) {
+  if (!fs::exists(directory / "figures" / manifest_name)) return;
+  try {
+    OutputDirectory(directory / "figures", "figures", read_manifest(directory)->identity).commit();
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch)
+  }
+}
 
 void check_space(const OutputDirectory& directory, const Case& input) {
   std::error_code error;
@@ -192,8 +210,10 @@ void ResultWriter::finish(const Case& input, const Result& result) {
     write_table(run_table<SubImpact>());
     write_table(run_table<Transition>());
     write_file(place / "summary.json", summary_json(input, result));
+    if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
     directory_.commit();
   });
+  remove_old_figures(directory_.path());
 }
 
 void write_results(const fs::path& directory, const Case& input, const Result& result) {

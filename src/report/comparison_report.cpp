@@ -11,7 +11,6 @@
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
 #include "subimpact/study/match.h"
 
 namespace subimpact {
@@ -38,19 +37,27 @@ Json differing_keys(const std::vector<FinishedRun>& runs) {
   return list;
 }
 
-Json run_row(const FinishedRun& run, const std::string& name, std::size_t i) {
-  const Result& result = run.result;
-  return {{"letter", letter(i)},
-          {"name", name},
-          {"outcome", fmt::format("{} at {}", to_string(result.outcome.kind),
-                                  duration_text(result.outcome.time))},
-          {"sub_impacts", fmt::format("{} in {}{}", result.sub_impacts.size(),
-                                      counted(summarise_zones(result.sub_impacts).size(), "zone"),
-                                      certain_words(result))},
-          {"force", fmt::format("{:.5g} N", result.max_force)},
-          {"mesh", result.used.mesh},
-          {"method", to_string(run.input.solver.method)},
-          {"wall", duration_text(result.work.wall_seconds)}};
+// What is asked of each run first, and how it was computed.
+Json answer_rows(const std::vector<FinishedRun>& runs) {
+  std::vector<std::vector<Answer>> all;
+  std::vector<std::string> names;
+  for (const FinishedRun& run : runs) {
+    std::vector<Answer>& list = all.emplace_back(answers(run.input, run.result));
+    list.push_back({"outcome", std::string(to_string(run.result.outcome.kind)), ""});
+    list.push_back({"mesh", run.result.used.mesh, ""});
+    list.push_back({"method", std::string(to_string(run.input.solver.method)), ""});
+    list.push_back({"time to compute", duration_text(run.result.work.all_seconds), ""});
+    for (const Answer& answer : list) {
+      if (std::ranges::find(names, answer.name) == names.end()) names.push_back(answer.name);
+    }
+  }
+  return list_of(names, [&](const std::string& name) -> Json {
+    const auto value_in = [&](const std::vector<Answer>& list) {
+      const auto found = std::ranges::find(list, name, &Answer::name);
+      return found == list.end() ? std::string("–") : in_print(found->value);
+    };
+    return {{"name", name}, {"values", list_of(all, value_in)}};
+  });
 }
 
 std::string signed_text(double x, const char* format) {
@@ -92,7 +99,9 @@ std::string pair_words(const std::vector<MatchedPair>& pairs, const Result& firs
     largest = std::max(largest, std::abs(second.sub_impacts[*pairs[i].second].start -
                                          first.sub_impacts[*pairs[i].first].start));
   }
-  std::string text = fmt::format("The first {} correspond one to one", counted(n, "sub-impact"));
+  std::string text =
+      n == 1 ? std::string("The first sub-impacts correspond")
+             : fmt::format("The first {} correspond one to one", counted(n, "sub-impact"));
   if (n > 0) text += fmt::format("; their starts differ by {} at most", error_text(largest));
   if (n == pairs.size()) return text + ".";
   if (const auto other = first_unmatched(pairs, first.sub_impacts, second.sub_impacts)) {
@@ -115,7 +124,7 @@ std::string comparison_report(const std::vector<FinishedRun>& runs,
     const Result& result = runs[i].result;
     labels.push_back(letter(i) + ": " + names[i]);
     results.push_back(&result);
-    rows.push_back(run_row(runs[i], names[i], i));
+    rows.push_back({{"letter", letter(i)}, {"name", names[i]}});
     if (i == 0) continue;
     const auto matched = match_sub_impacts(first.sub_impacts, result.sub_impacts);
     const std::string words = in_print(pair_words(matched, first, result, i));
@@ -135,6 +144,7 @@ std::string comparison_report(const std::vector<FinishedRun>& runs,
                      {"data", comparison_data(labels, results)},
                      {"headlines", lines},
                      {"runs", rows},
+                     {"answers", answer_rows(runs)},
                      {"keys", keys},
                      {"same_keys", keys.empty()},
                      {"pairs", pairs}};

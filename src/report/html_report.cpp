@@ -12,7 +12,6 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {
@@ -53,22 +52,14 @@ Json headlines(const Result& result) {
   return list;
 }
 
-Json tiles(const Result& result) {
-  const std::size_t n = result.sub_impacts.size();
-  const std::size_t n_zones = summarise_zones(result.sub_impacts).size();
-  const auto tile = [&](const char* name, double value, double factor, const char* unit,
-                        const char* label) -> Json {
-    return {{"value", in_print(total_text(result, name, value, factor, 6, unit))},
-            {"label", label}};
-  };
-  return {
-      {{"value", n}, {"label", noun_after(n, "sub-impact") + certain_words(result)}},
-      {{"value", n_zones}, {"label", noun_after(n_zones, "zone")}},
-      tile("peak_force_N", result.max_force, 1e-3, "kN", "largest force"),
-      tile("max_indentation_m", result.max_indentation, 1e3, "mm", "largest indentation"),
-      tile("striker_velocity_m_per_s", result.striker_velocity, 1.0, "m/s", "striker, at the end"),
-      tile("beam_mean_velocity_m_per_s", result.beam_mean_velocity, 1.0, "m/s",
-           "beam (mean), at the end")};
+// The answers of the summary, but for the first: who struck whom stands above.
+Json tiles(const Case& input, const Result& result) {
+  std::vector<Answer> all = answers(input, result);
+  all.erase(all.begin());
+  return list_of(all, [](const Answer& answer) -> Json {
+    return {
+        {"name", answer.name}, {"value", in_print(answer.value)}, {"note", in_print(answer.note)}};
+  });
 }
 
 Json figure_list(const DrawnFigures& figures, const std::filesystem::path& figure_directory) {
@@ -112,16 +103,6 @@ Json flights(const std::optional<ErrorEstimate>& estimate) {
   });
 }
 
-Json final_energies(const Result& result) {
-  if (result.history.empty()) return nullptr;
-  const HistoryRow& last = result.history.back();
-  const double energies[] = {last.striker_energy,  last.beam_kinetic_energy, last.bending_elastic,
-                             last.bending_plastic, last.contact_elastic,     last.contact_plastic,
-                             last.beam_damping};
-  return {{"time", in_print(duration_text(last.time))},
-          {"energies", list_of(energies, [](double x) { return fmt::format("{:.5g}", x); })}};
-}
-
 }  // namespace
 
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
@@ -155,13 +136,12 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"caveat", in_print(outcome_caveat(result))},
       {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
       {"warnings", result.warnings},
-      {"tiles", tiles(result)},
+      {"tiles", tiles(run.input, result)},
       {"flights", flights(result.error_estimate)},
-      {"summary", in_print(run_summary(run.input, result))},
+      {"summary", in_print(run_summary(run.input, result, true))},
       {"figures", figure_list(figures, figure_directory)},
       {"left_out", figures.left_out},
       {"failed", figures.failed},
-      {"final_energies", final_energies(result)},
       {"numbers", list_of(scalars_of(run), [](const NamedScalar& scalar) -> Json {
          return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
        })}};
@@ -171,12 +151,13 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/report.js"});
 }
 
-WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,
-                                const std::filesystem::path& dygraphs) {
-  DrawnFigures figures = draw_figures(directory, run.input, run.result);
+WrittenReport write_html_report(const std::filesystem::path& directory,
+                                const std::filesystem::path& figure_directory,
+                                const FinishedRun& run, const std::filesystem::path& dygraphs) {
+  DrawnFigures figures = draw_figures(figure_directory, run.input, run.result);
   std::filesystem::path path = directory / "report.html";
   try {
-    write_file(path, html_report(run, figures, directory, dygraphs));
+    write_file(path, html_report(run, figures, figure_directory, dygraphs));
   } catch (const OutputError& error) {
     figures.failed.push_back(error.what());
     std::error_code ignored;

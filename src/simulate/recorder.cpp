@@ -103,7 +103,7 @@ void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
   if (in_contact_) {
     ++steps_in_contact_.back();
     integrate_force(step, beam);
-    follow_peak(step.indentation().lambda1, beam);
+    follow_peak(step.t1(), step.indentation().lambda1, beam);
     if (beam.contact().is_damped()) follow_damped_force(step, beam);
     look_for_peak(step, beam);
   }
@@ -185,20 +185,27 @@ void Recorder::integrate_force(const ObservedStep& step, const StruckBeam& beam)
     return;
   }
   integral += force_.over(step, beam);
-  follow_peak(force_.largest_indentation(), beam);
+  follow_peak(0.5 * (step.t0() + step.t1()), force_.largest_indentation(), beam);
 }
 
-void Recorder::follow_peak(double indentation, const StruckBeam& beam) {
+void Recorder::follow_peak(double time, double indentation, const StruckBeam& beam) {
   SubImpact& now = result_.sub_impacts.back();
   if (!(indentation > now.max_indentation)) return;
   now.max_indentation = indentation;
   if (beam.contact().is_damped()) return;
-  now.peak_force = std::max(now.peak_force, beam.contact().force(indentation));
-  largest_force_ = std::max(largest_force_, now.peak_force);
+  follow_force(time, beam.contact().force(indentation));
+}
+
+void Recorder::follow_force(double time, double force) {
+  SubImpact& now = result_.sub_impacts.back();
+  if (!(force > now.peak_force)) return;
+  now.peak_force = force;
+  now.peak_time = time;
+  largest_force_ = std::max(largest_force_, force);
 }
 
 void Recorder::follow_damped_force(const ObservedStep& step, const StruckBeam& beam) {
-  SubImpact& now = result_.sub_impacts.back();
+  const double peak_so_far = result_.sub_impacts.back().peak_force;
   const auto& [t0, t1, lambda0, rate0, lambda1, rate1] = step.indentation();
   const double h = step.length();
   if (!(h > 0.0)) return;
@@ -206,14 +213,17 @@ void Recorder::follow_damped_force(const ObservedStep& step, const StruckBeam& b
   const ContactState& contact = beam.contact();
   const auto force = [&](double s) { return contact.force(path(s), path.slope(s) / h); };
   double peak = std::max(force(0.0), force(1.0));
+  double time = force(0.0) > force(1.0) ? t0 : t1;
   const double at = maximum_in(force, 0.0, 1.0);
   // The force is stationary there, so that its time need not be exact.
-  if (force(at) > peak && force(at) > (1.0 - 1e-3) * now.peak_force) {
+  if (force(at) > peak && force(at) > (1.0 - 1e-3) * peak_so_far) {
     step.state_at(t0 + at * h, state_);
-    peak = std::max(peak, beam.contact_force(state_));
+    if (beam.contact_force(state_) > peak) {
+      time = t0 + at * h;
+      peak = beam.contact_force(state_);
+    }
   }
-  now.peak_force = std::max(now.peak_force, peak);
-  largest_force_ = std::max(largest_force_, now.peak_force);
+  follow_force(time, peak);
 }
 
 void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
@@ -225,18 +235,19 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
   const std::optional<double> peak = path.maximum();
   if (!peak || path(*peak) < result_.sub_impacts.back().max_indentation * (1.0 - 1e-3)) return;
   const double guess = *peak;
+  double time = t0 + guess * h;
   if (events_ == EventHandling::interpolated) {
-    step.state_at(t0 + guess * h, state_);
+    step.state_at(time, state_);
   } else {
-    find_rise(
+    time = find_rise(
         [&](double t) {
           step.state_at(t, state_);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
         rate0 > 0.0 ? t0 : t0 + path.first_extremum() * h,
-        rate1 < 0.0 ? t1 : t0 + path.second_extremum() * h, t0 + guess * h, {1e-2 * h});
+        rate1 < 0.0 ? t1 : t0 + path.second_extremum() * h, time, {1e-2 * h});
   }
-  follow_peak(beam.indentation(state_), beam);
+  follow_peak(time, beam.indentation(state_), beam);
 }
 
 void Recorder::before_event(const Transition& event, const State& y, StruckBeam& beam) {
@@ -255,7 +266,7 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
   } else if (event.kind == EventKind::contact_yields && !result_.first_contact_yield) {
     result_.first_contact_yield = event.time;
   } else if (event.kind == EventKind::contact_unloads) {
-    follow_peak(beam.indentation(y), beam);
+    follow_peak(event.time, beam.indentation(y), beam);
   }
   if (observer_ != nullptr) observer_->before_event(event, {event.time, y, beam});
 }
@@ -344,7 +355,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
 
 void Recorder::add_row(double time, const State& y, Accounts& accounts) {
   HistoryRow row = make_row(time, y, accounts);
-  if (in_contact_) follow_peak(row.indentation, accounts.beam());
+  if (in_contact_) follow_peak(row.time, row.indentation, accounts.beam());
   if (!(row.force >= 0.0)) {
     check_push(time, row.force);
     row.force = 0.0;  // the law's own force there

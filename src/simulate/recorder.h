@@ -67,7 +67,8 @@ class Recorder final : public RunObserver {
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   void add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts);
   void integrate_force(const ObservedStep& step, const StruckBeam& beam);
-  void follow_peak(double indentation, const StruckBeam& beam);
+  void follow_peak(double time, double indentation, const StruckBeam& beam);
+  void follow_force(double time, double force);
   // The peak of a damped force, which comes before that of the indentation.
   void follow_damped_force(const ObservedStep& step, const StruckBeam& beam);
   // The state within the step, in state_, with what is lost up to there.

@@ -205,7 +205,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
     result.outcome.kind = OutcomeKind::unstable;
     result.outcome.message = "the solution grows without bound: " + result.outcome.message;
   }
-  result.work.wall_seconds = seconds_since(start);
+  result.work.wall_seconds = result.work.all_seconds = seconds_since(start);
   return result;
 }
 

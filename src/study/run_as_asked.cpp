@@ -1,5 +1,6 @@
 #include "subimpact/study/run_as_asked.h"
 
+#include <chrono>
 #include <utility>
 
 #include "case/meshes.h"
@@ -90,6 +91,7 @@ std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& give
 }
 
 WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request) {
+  const auto start = std::chrono::steady_clock::now();
   const std::optional<OpenChoices> open = choices_left(input, given, request.error_bars);
   WithinRun run = open ? simulate_within(input, *open, request)
                        : WithinRun{input, simulate_as_given(input, request)};
@@ -97,6 +99,8 @@ WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest req
   if (request.error_bars != ErrorBars::off && !is_interrupted) {
     run.result.neglected_shear = neglected_shear(run.input, run.result);
   }
+  run.result.work.all_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }
 

@@ -175,7 +175,7 @@ class Extremes(unittest.TestCase):
         return [factor * float(row[name]) for row in self.history]
 
     def figure(self, name):
-        return Figure(self.program.directory / "strike" / (name + ".svg"))
+        return Figure(self.program.directory / "strike" / "figures" / (name + ".svg"))
 
     def assert_drawn(self, panel, colour, xs, ys, label):
         segments = panel.segments(colour)
@@ -342,7 +342,7 @@ class Extremes(unittest.TestCase):
                         self.assertFalse(left < x < right and top < y < bottom, f"{name}: {text} covers {(x, y)}")
 
     def test_signs_are_as_in_print(self):
-        for path in sorted((self.program.directory / "strike").glob("*.svg")):
+        for path in sorted((self.program.directory / "strike" / "figures").glob("*.svg")):
             for text, *_ in Figure(path).texts:
                 self.assertNotRegex(text, r"(^|[ ,(])-\d|\bus\b|\bum\b", path.name)
 

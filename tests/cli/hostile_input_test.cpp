@@ -98,9 +98,9 @@ TEST(AFigureThatFails, IsNamedAndTheOthersAreDrawn) {
     EXPECT_EQ(finished.status, 3) << command;
     expect_in(finished.errors, "energies.svg: gnuplot failed with status 1 on energies.gp: broken");
     EXPECT_EQ(finished.errors.find(".subimpact-"), std::string::npos) << finished.errors;
-    EXPECT_TRUE(fs::exists(directory.path / "run" / "energies.gp")) << command;
-    EXPECT_TRUE(fs::exists(directory.path / "run" / "timeline.svg")) << command;
-    EXPECT_FALSE(fs::exists(directory.path / "run" / "energies.svg")) << command;
+    EXPECT_TRUE(fs::exists(directory.path / "run/figures/energies.gp")) << command;
+    EXPECT_TRUE(fs::exists(directory.path / "run/figures/timeline.svg")) << command;
+    EXPECT_FALSE(fs::exists(directory.path / "run/figures/energies.svg")) << command;
   }
   expect_in(read_file(directory.path / "run" / "report.html"), "energies.svg: gnuplot failed");
 }

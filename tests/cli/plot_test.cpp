@@ -33,7 +33,7 @@ class WithoutGnuplot {
   std::string path_;
 };
 
-TEST(Plot, DrawsTheFiguresOfARunIntoItsDirectory) {
+TEST(Plot, DrawsTheFiguresOfARunIntoAFolderOfTheirOwn) {
   const TemporaryDirectory directory;
   make_run(directory);
   const Finished finished = run_program({"plot", "here"}, directory.path);
@@ -42,9 +42,18 @@ TEST(Plot, DrawsTheFiguresOfARunIntoItsDirectory) {
   for (const std::string name : {"response", "first-sub-impact", "indentation", "energies",
                                  "timeline", "bending", "shapes", "envelope"}) {
     expect_in(finished.output, name + ".svg, " + name + ".png");
-    EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / (name + ".svg")));
-    EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / (name + ".png")));
+    EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures" / (name + ".svg")));
+    EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures" / (name + ".png")));
   }
+}
+
+TEST(Plot, OfARunLeavesNoFiguresToTheNextOne) {
+  const TemporaryDirectory directory;
+  make_run(directory);
+  ASSERT_EQ(run_program({"plot", "here"}, directory.path).status, 0);
+  make_run(directory);
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "here/figures/timeline.svg"));
+  EXPECT_EQ(run_program({"plot", "here"}, directory.path).status, 0);
 }
 
 TEST(Plot, SaysOnStderrWhichSectionsItLeftOut) {
@@ -68,7 +77,7 @@ TEST(Plot, DrawsElsewhereIfAsked) {
   make_run(directory);
   EXPECT_EQ(run_program({"plot", "here", "--out", "there"}, directory.path).status, 0);
   EXPECT_TRUE(std::filesystem::exists(directory.path / "there" / "timeline.svg"));
-  EXPECT_FALSE(std::filesystem::exists(directory.path / "here" / "timeline.svg"));
+  EXPECT_FALSE(std::filesystem::exists(directory.path / "here/figures/timeline.svg"));
 }
 
 TEST(Plot, OfWhatIsNoRunEndsWithStatus2AndSaysWhatIsMissing) {
@@ -130,7 +139,7 @@ TEST(Plot, DrawsWithScriptsOfAUserAndHandsOutThoseThatAreMissing) {
   const Finished second = run_program({"plot", "here", "--scripts", "mine"}, directory.path);
   EXPECT_EQ(second.status, 3);
   expect_in(second.errors, "timeline.svg: gnuplot failed");
-  EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / "response.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures/response.pdf"));
 }
 
 TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
@@ -185,12 +194,14 @@ TEST(FiguresThatCannotBeWritten, LeaveTheOthersAndEndWithStatus3) {
                                           SIGINT, file_size(longest) - 1);
     EXPECT_EQ(finished.status, 3) << command;
     expect_in(finished.errors, longest.filename().string() + ": cannot be written");
-    const std::filesystem::path place = directory.path / command;
+    const std::filesystem::path place =
+        command == "plot" ? directory.path / "plot" : directory.path / "report/figures";
     EXPECT_FALSE(std::filesystem::exists(place / (name + ".gp")));
     for (const char* ending : {".svg", ".png", ".pdf", ".gp"}) {
       EXPECT_TRUE(std::filesystem::exists(place / (other + ending))) << other << ending;
     }
-    EXPECT_FALSE(std::filesystem::exists(place / "report.html"));  // longer than any figure
+    EXPECT_FALSE(
+        std::filesystem::exists(directory.path / "report/report.html"));  // longer than any figure
     if (command == "report") expect_in(finished.errors, "report.html: cannot be written");
   }
 }

@@ -54,6 +54,63 @@ const Spoilt spoilt_cases[] = {
      "density = 2600",
      "density = 2600\nrtol = 1e-9",
      {"bad.toml:6:1: ", "unknown key \"beam.rtol\"", "did you mean \"solver.rtol\"?"}},
+    {"KeyOfAnotherTableWithASimilarOneInItsOwn",
+     "density = 2600",
+     "density = 2600\nend = 8e-3",
+     {"bad.toml:6:1: ", "end is a key of [time]", "\"time.end\" or \"beam.ends\"?"}},
+    {"UnitWithoutQuotes",
+     "length = 0.7112",
+     "length = 711.2 mm",
+     {"bad.toml:2:", "711.2 mm is a value with a unit", "in quotes, \"711.2 mm\"", "SI"}},
+    {"UnitWithoutQuotesOrABlank",
+     "mass = 0.201",
+     "mass = 201g # light",
+     {"bad.toml:8:", "201 g is a value with a unit", "\"201 g\""}},
+    {"UnitWithoutQuotesInAnInlineTable",
+     "[beam]",
+     "output = { interval = 1us, shapes = 0 }\n[beam]",
+     {"bad.toml:1:", "1 us is a value with a unit"}},
+    {"UnitOfAnotherQuantity",
+     "length = 0.7112",
+     "length = \"711.2 kg\"",
+     {"bad.toml:2:1: ", "(\"711.2 kg\")", "\"kg\" is none of its units: m, mm"}},
+    {"UnitOfANumberThatHasNone",
+     "mass = 0.201",
+     "mass = 0.201\nposition = \"0.5 m\"",
+     {"bad.toml:9:1: ", "write the number without a unit"}},
+    {"UnitOfACount",
+     "[time]",
+     "[model]\nsegments = \"501 cells\"\n[time]",
+     {"bad.toml:12:1: ", "(\"501 cells\")", "a whole number"}},
+    {"UnitThatIsInCapitals",
+     "velocity = 15.9",
+     "velocity = \"15.9 M/S\"",
+     {"\"M/S\" is none of its units: m/s, mm/s"}},
+    {"NegativeValueWithAUnit",
+     "mass = 0.201",
+     "mass = \"-201 g\"",
+     {"striker.mass is -0.201", "above 0 (kg)"}},
+    {"InchesThatAreNotKnown",
+     "length = 0.7112",
+     "length = \"28 in\"",
+     {"\"in\" is none of its units: m, mm, um, cm, km"}},
+    {"TwoNumbers",
+     "length = 0.7112",
+     "length = \"0.7 0.1\"",
+     {"(\"0.7 0.1\")", "none of its units"}},
+    {"UnitAlone", "length = 0.7112", "length = \"mm\"", {"(\"mm\")", "above 0 (m)"}},
+    {"VelocityUnderBeam",
+     "density = 2600",
+     "density = 2600\nvelocity = 3",
+     {"velocity is a key of [striker]", "\"striker.velocity\"?"}},
+    {"LawUnderStriker",
+     "mass = 0.201",
+     "mass = 0.201\nlaw = \"hertz\"",
+     {"law is a key of [contact]"}},
+    {"MeshUnderSolver",
+     "[time]",
+     "[solver]\nmesh = \"cells\"\n[time]",
+     {"mesh is a key of [model]"}},
     {"KeyOutsideTables",
      "[beam]",
      "lengt = 1\n[beam]",
@@ -310,6 +367,66 @@ TEST(BadCaseFile, ADirectoryIsNoCaseFile) {
   } catch (const CaseFileError& error) {
     expect_all_in(error.what(), {"/tmp", "is a directory"});
   }
+}
+
+TEST(BadCaseFile, OfDoubtfulUnitsIsToldThemFirst) {
+  std::string text = small_case_with("youngs_modulus = 71.96e9", "youngs_modulus = 71960");
+  text += "[output]\ninterval = 1e-15\n";
+  const std::string message = refusal_of(text);
+  const auto doubt = message.find("check the unit first: beam.youngs_modulus is 71960 Pa");
+  ASSERT_NE(doubt, std::string::npos) << message;
+  EXPECT_LT(doubt, message.find("history rows")) << message;
+  EXPECT_EQ(refusal_of(small_case_text() + "[output]\ninterval = 1e-15\n").find("check the unit"),
+            std::string::npos);
+}
+
+TEST(BadCaseFile, IsNeitherATableNorAPictureNorAScript) {
+  for (const auto& [name, what] : {std::pair("events.csv", "a table"),
+                                   {"summary.json", "a summary of results"},
+                                   {"report.html", "a page"},
+                                   {"response.svg", "a picture"},
+                                   {"response.gp", "a script"}}) {
+    try {
+      read_case_file(std::string("/nowhere/") + name);
+      FAIL() << name << " was read";
+    } catch (const CaseFileError& error) {
+      expect_all_in(error.what(), {name, what, "no case file", "subimpact new"});
+    }
+  }
+}
+
+TEST(Units, StandForTheSameDoublesAsNumbersInSI) {
+  struct Written {
+    const char *from, *to, *key, *number;
+  };
+  const Written all[] = {
+      {"length = 0.7112", "length = \"711.2 mm\"", "beam.length", "0.7112"},
+      {"length = 0.7112", "length = \"71.12cm\"", "beam.length", "0.7112"},
+      {"length = 0.7112", "length = \" 7.112e2  mm \"", "beam.length", "0.7112"},
+      {"length = 0.7112", "length = \"0.7112 m\"", "beam.length", "0.7112"},
+      {"mass = 0.201", "mass = \"201 g\"", "striker.mass", "0.201"},
+      {"youngs_modulus = 71.96e9", "youngs_modulus = \"71.96 GPa\"", "beam.youngs_modulus",
+       "71.96e9"},
+      {"density = 2600", "density = \"2.6 g/cm3\"", "beam.density", "2600"},
+      {"velocity = 15.9", "velocity = \"15900 mm/s\"", "striker.velocity", "15.9"}};
+  for (const auto& [from, to, key, number] : all) {
+    const LoadedCase loaded = read_case_text(small_case_with(from, to), "case.toml");
+    EXPECT_EQ(std::get<double>(*find_case_key(key)->get(loaded.value)), std::atof(number)) << to;
+    const LoadedCase overridden =
+        read_case_text(small_case_text(), "case.toml",
+                       {parse_override(std::string(key) + "=" +
+                                       std::string(to).substr(std::string(to).find('"')))});
+    EXPECT_EQ(std::get<double>(*find_case_key(key)->get(overridden.value)), std::atof(number))
+        << to;
+  }
+  const LoadedCase bare =
+      read_case_text(small_case_text(), "case.toml", {parse_override("time.end=8 ms")});
+  EXPECT_EQ(bare.value.end_time, 8e-3);
+}
+
+TEST(BadOverride, OfAWrongUnitNamesThoseThereAre) {
+  expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=8 mm")}),
+                {"--set time.end=8 mm: ", "\"mm\" is none of its units: s, ms, us, ns"});
 }
 
 TEST(BadOverride, IsNamedAsTheCommandLineGaveIt) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "small_case.h"
@@ -75,6 +76,11 @@ bool is_within(const Json& value, const Json& rules) {
 std::string fault(const Json& value, const Json& rules, const std::string& place = "case") {
   if (!has_a_type_of(value, rules.at("type"))) return place + ": type";
   if (!is_within(value, rules)) return place + ": range";
+  if (value.is_string() && rules.contains("pattern") &&
+      !std::regex_match(value.get<std::string>(),
+                        std::regex(rules["pattern"].get<std::string>()))) {
+    return place + ": pattern";
+  }
   if (rules.contains("enum")) {
     const Json& names = rules["enum"];
     if (std::find(names.begin(), names.end(), value) == names.end()) return place + ": choice";
@@ -173,7 +179,9 @@ TEST(CaseSchema, AcceptsThePapersCaseAndTheSmallOne) {
 TEST(CaseSchema, RefusesWhatACaseFileRefuses) {
   EXPECT_EQ(fault_in(small_case_with("mass", "maas")), "case.striker.mass: missing");
   EXPECT_EQ(fault_in(small_case_text() + "ende = 1\n"), "case.time.ende: unknown");
-  EXPECT_EQ(fault_in(small_case_with("0.7112", "\"0,7112\"")), "case.beam.length: type");
+  EXPECT_EQ(fault_in(small_case_with("0.7112", "\"0,7112\"")), "case.beam.length: pattern");
+  EXPECT_EQ(fault_in(small_case_with("0.7112", "\"711.2 mm\"")), "");
+  EXPECT_EQ(fault_in(small_case_with("0.7112", "\"711.2 kg\"")), "case.beam.length: pattern");
   EXPECT_EQ(fault_in(small_case_with("0.7112", "0")), "case.beam.length: range");
   EXPECT_EQ(fault_in(small_case_text() + "[model]\nlayers = 41\n"), "case.model.layers: range");
   EXPECT_EQ(fault_in(small_case_text() + "[model]\nmesh = \"fine\"\n"), "case.model.mesh: choice");

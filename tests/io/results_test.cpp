@@ -58,7 +58,7 @@ TEST(EventsCsv, HasTheAgreedColumns) {
       "probability,start_error_s,end_error_s,error_time_s,error_mesh_s,error_layers_s,"
       "start_mesh_limit_s,end_mesh_limit_s,mesh_limit_error_s,start_scatter_s,end_scatter_s,"
       "peak_force_error_N,impulse_error_Ns,max_indentation_error_m,residual_indentation_error_m,"
-      "striker_velocity_error_m_per_s,doubt\n");
+      "striker_velocity_error_m_per_s,doubt,peak_time_s\n");
 }
 
 TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
@@ -78,7 +78,7 @@ TEST(EventsCsv, NumbersReadBackAsTheSameDoubles) {
 
 TEST(EventsCsv, ASubImpactStillInContactHasNoEnd) {
   const Table rows = parse_csv(csv_of<SubImpact>(sample_result()));
-  ASSERT_EQ(rows[3].size(), 29u);
+  ASSERT_EQ(rows[3].size(), 30u);
   EXPECT_EQ(rows[3][4], "");
   EXPECT_EQ(rows[3][5], "");
   EXPECT_NE(rows[3][6], "");
@@ -277,8 +277,8 @@ TEST(WriteResults, LeavesItsFilesAndNothingElse) {
     names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"events.csv", "history.csv", "manifest.json",
-                                             "summary.json", "transitions.csv"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"case.toml", "events.csv", "history.csv",
+                                             "manifest.json", "summary.json", "transitions.csv"}));
 }
 
 TEST(WriteResults, ReplacesAnEarlierRun) {

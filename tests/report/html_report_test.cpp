@@ -136,7 +136,7 @@ TEST(HtmlReport, HoldsCaseSummaryTableFiguresAndConservation) {
        {"Beam &lt;A&gt; &amp; &quot;B&quot;", "Summary", "Figures", "figure-response",
         "figure-bending", "figure-shapes", "figure-envelope", "Figure 8.", "Sub-impacts",
         "peak force", "Case", "[striker]", "velocity = 15.9  # m/s", "erk, table dop853",
-        "no error bars were computed", "conservation        energy to", "Energy at the end",
+        "no error bars were computed", "conservation        energy to", "contact over",
         "subimpact 1.2.3, SUNDIALS 6.4.1"}) {
     expect_in(page, piece);
   }
@@ -169,15 +169,16 @@ TEST(HtmlReport, ListsEveryNumberOfTheSummary) {
 TEST(HtmlReport, ListsEnergiesThatAddUpToTheInitialOneWhereTheBeamIsDamped) {
   const FinishedRun run = small_run({parse_override("beam.damping.mass=2000")});
   const std::string page = page_of(run);
-  const std::string heading = "<small>of the beam</small></th></tr></thead><tbody><tr>";
-  std::size_t at = page.find(heading);
+  const std::string heading = "<span>energy</span>";
+  const std::size_t at = page.find(heading);
   ASSERT_NE(at, std::string::npos);
-  const std::string row = page.substr(at, page.find("</tr>", at + heading.size()) - at);
+  std::istringstream shares(page.substr(page.find("<small>", at) + 7, 200));
   double sum = 0.0;
-  const std::string cell = "<td>";
-  at = row.find(cell) + 1;  // past that of the heading
-  while ((at = row.find(cell, at)) != std::string::npos) sum += std::stod(row.substr(at++ + 4));
-  EXPECT_NEAR(sum, run.result.used.initial_energy, 1e-4 * run.result.used.initial_energy);
+  for (std::string word; shares >> word && word.find('<') == word.npos;) {
+    double share = 0.0;
+    if (std::istringstream(word) >> share) sum += share;
+  }
+  EXPECT_NEAR(sum, run.result.used.initial_energy, 1e-3 * run.result.used.initial_energy);
   EXPECT_GT(run.result.beam_damping_loss, 0.01 * run.result.used.initial_energy);
 }
 
@@ -226,7 +227,7 @@ TEST(HtmlReport, NamesTheFlightsThatMayHoldAnotherSubImpact) {
   expect_in(page,
             "<p>After sub-impact 2 there may be another one: there is another one with the same, "
             "coarser.</p>");
-  expect_in(page, "<b>3</b><span>sub-impacts, 3 certain, which may not be all</span>");
+  expect_in(page, "<b>3 in 2 zones, 3 certain, which may not be all</b>");
 }
 
 TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
@@ -249,8 +250,7 @@ TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
 TEST(HtmlReport, CountsOneAsOne) {
   FinishedRun run = small_run({parse_override("time.end=1e-5")});
   const std::string page = page_of(run);
-  expect_in(page, "<b>1</b><span>sub-impact</span>");
-  expect_in(page, "<b>1</b><span>zone</span>");
+  expect_in(page, "<b>1 in 1 zone");
 }
 
 TEST(HtmlReport, ListsErrorBarsByTheirSource) {
@@ -271,7 +271,7 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   EXPECT_EQ(xml_problem(page), "");
   for (const char* piece : {"all times to 0.002 µs up to 900 µs (runs beside: rtol = 1e-7)",
                             "as above (runs beside: 43 cells)",
-                            "certain, their times to 0.3 µs; sub-impact 2: they &lt;part&gt;",
+                            "times of the certain ones to 0.3 µs; sub-impact 2: they &lt;part&gt;",
                             "Not certain:</b> sub-impact 2: they &lt;part&gt;."}) {
     expect_in(page, piece);
   }
@@ -281,7 +281,7 @@ TEST(HtmlReport, StatesNoErrorOfTimesWhereNoSubImpactIsCertain) {
   FinishedRun run = small_run();
   run.result = sample_result_with_errors(0);
   const std::string page = html_report(run, {}, ".");
-  expect_in(page, "error               no sub-impact is certain; sub-impact 1: they part");
+  expect_in(page, "no sub-impact is certain; sub-impact 1: they part");
   expect_in(page, "as above (runs beside: the same, coarser)");
   EXPECT_EQ(page.find("their times to"), std::string::npos);
 }
@@ -291,7 +291,7 @@ TEST(HtmlReport, CountsAndMarksUncertainSubImpacts) {
   run.result = sample_result_with_errors(1);
   const std::string page = html_report(run, {}, ".");
   EXPECT_EQ(xml_problem(page), "");
-  expect_in(page, "<b>3</b><span>sub-impacts, 1 certain</span>");
+  expect_in(page, "<b>3 in 2 zones, 1 certain</b>");
   expect_in(page, "333.333 ± 0.017");
   EXPECT_NE(page.find("<tr data-hit=\"0\" title=\"\">"), std::string::npos);
   const auto second = page.find("<tr data-hit=\"1\" class=\"uncertain\" title=\"they part\">");
@@ -302,7 +302,7 @@ TEST(HtmlReport, CountsAndMarksUncertainSubImpacts) {
   EXPECT_LT(second, third);
   EXPECT_EQ(page.substr(second, page.find("</table>", second) - second).find("±"),
             std::string::npos);
-  expect_in(page, "error               1 of 3 sub-impacts certain, their times to 0.017 µs");
+  expect_in(page, "<b>3 in 2 zones, 1 certain</b><small>times of the certain ones to 0.017 µs");
   expect_in(page, "3 in 2 zones, 1 certain");
 }
 
@@ -311,8 +311,8 @@ TEST(HtmlReport, WithoutErrorBarsMarksNoSubImpact) {
   run.result = sample_result();
   const std::string page = html_report(run, {}, ".");
   EXPECT_EQ(page.find("class=\"uncertain\""), std::string::npos);
-  expect_in(page, "<b>3</b><span>sub-impacts</span>");
-  expect_in(page, "error               not known");
+  expect_in(page, "<span>sub-impacts</span><b>3 in 2 zones</b>");
+  expect_in(page, "errors are not known");
 }
 
 TEST(HtmlReport, OfARunThatFailedSaysSo) {
@@ -329,11 +329,11 @@ TEST(HtmlReport, ShowsNoDigitBelowTheErrorOfWhatARunEndsWith) {
   run.result = sample_result_with_errors(3);
   run.result.striker_velocity = 5.76912;
   const std::string known = page_of(run);
-  expect_in(known, "<b>5.7691 ± 0.0007 m/s</b><span>striker, at the end</span>");
-  expect_in(known, "<b>8.7963 ± 0.0005 kN</b><span>largest force</span>");
+  expect_in(known, "striker 5.7691 ± 0.0007 m/s");
+  expect_in(known, "<span>largest force</span><b>8796.3 ± 0.5 N</b>");
   run.result.error_estimate->totals.at(2).total.error.reset();
   const std::string unknown = page_of(run);
-  expect_in(unknown, "<b>5.77 m/s (a run beside did not complete, so that no error is known)</b>");
+  expect_in(unknown, "striker 5.77 m/s, beam");
   const std::string above_stored_digits = unknown.substr(0, unknown.find("<details>"));
   EXPECT_EQ(above_stored_digits.find("5.769"), std::string::npos);
 }
@@ -343,8 +343,7 @@ TEST(HtmlReport, StatesWhatTheTheoryLeavesOut) {
   run.result.neglected_shear = {200e-6, 210e-6};
   expect_in(page_of(run),
             "left out            shear, which on a coarse mesh moves the end of the first contact "
-            "from 200 "
-            "to 210 µs");
+            "from 200 to\n");
 }
 
 TEST(HtmlReport, ShowsTheScatterOfTimesAndTheHorizon) {

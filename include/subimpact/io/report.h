@@ -3,6 +3,8 @@
 /// Results as text for people: microseconds, millimetres, newtons.
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "subimpact/case/case.h"
 #include "subimpact/case/case_keys.h"
@@ -17,9 +19,9 @@ namespace subimpact {
 /// the results passed every check, in one line; empty for a run that completed.
 std::string outcome_caveat(const Result& result);
 
-/// What is certain, in one line: how many sub-impacts, the error of their times, and why the first
-/// of the others is not; where none is, which setting to try.
-std::string error_words(const Case& input, const Result& result);
+/// How certain, in one line: the error of the certain times, and why the first of the other
+/// sub-impacts is not certain.
+std::string error_words(const Result& result);
 
 /// ", 9 certain", ", all certain": continues a number of sub-impacts. Empty without error estimate.
 std::string certain_words(const Result& result);
@@ -40,15 +42,29 @@ std::string predictability_words(const Result& result);
 /// numbers of the case scatter; a line gives the reason where sub-impacts cannot be predicted.
 std::string scatter_table(const Result& result);
 
-/// Whether striker and beam are proven never to touch again; if not, their closest approach.
+/// Why contact is over, or how close striker and beam come after the last sub-impact.
 std::string contact_over_words(const Result& result);
 
 /// What finer meshes change of a run on the mesh that its case fixes: for a result whose error
 /// estimate has finer_meshes.
 std::string finer_meshes_words(const Result& result);
 
-/// A dozen lines: how the run ended, what happened, what it cost.
-std::string run_summary(const Case& input, const Result& result);
+/// The error of each source by itself, with the runs that show it: "mesh error" and its words.
+std::vector<std::pair<std::string, std::string>> error_part_words(const Result& result);
+
+/// What is asked of a strike first: a line of the summary, a tile of the page.
+struct Answer {
+  std::string name;   ///< "largest force"
+  std::string value;  ///< "8925 +- 4 N"
+  std::string note;   ///< "at 1395 us, in sub-impact 11"; may be empty
+};
+/// Who struck whom, how many sub-impacts and how certain, restitution, largest force, impulse by
+/// zone, dent, permanent set, energies that add up to the initial one, whether contact is over.
+std::vector<Answer> answers(const Case& input, const Result& result);
+
+/// The title, the answers and reasons to doubt them, one line each, wrapped at 100 columns.
+/// `verbose`: then mesh, method, errors by source, conservation and work.
+std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 
 /// For a run that did not complete: one line with time, mode, method, last event, cause, the times
 /// between which the first check failed and, where the scene is outside the validity of the model,

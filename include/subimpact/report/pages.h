@@ -27,10 +27,11 @@ struct WrittenReport {
   std::string charts_missing;  ///< why the page has no zoomable charts; empty: it has
 };
 
-/// Draws the figures of a run into the directory and writes report.html beside them, without those
-/// that failed. Throws GnuplotMissing.
-WrittenReport write_html_report(const std::filesystem::path& directory, const FinishedRun& run,
-                                const std::filesystem::path& dygraphs = {});
+/// Draws the figures of a run into a directory of their own and writes report.html into another,
+/// without those that failed. Throws GnuplotMissing.
+WrittenReport write_html_report(const std::filesystem::path& directory,
+                                const std::filesystem::path& figure_directory,
+                                const FinishedRun& run, const std::filesystem::path& dygraphs = {});
 
 /// Runs beside each other as a page: the keys in which their cases differ, curves in common charts,
 /// and the sub-impacts of each run matched with those of the first. `names`: one per run.

@@ -16,6 +16,7 @@ struct SubImpact {
   double start = 0.0;                 ///< s
   std::optional<double> end;          ///< s; none: still in contact when the simulation ended
   double peak_force = 0.0;            ///< N
+  double peak_time = 0.0;             ///< s, of the largest force: between steps, that of the step
   double impulse = 0.0;               ///< N s, from the striker's velocities at start and end
   double force_integral = 0.0;        ///< N s, the contact force integrated over the sub-impact
   double max_indentation = 0.0;       ///< m, largest within this sub-impact

@@ -178,6 +178,7 @@ struct Work : WorkCounts {
   long roots = 0;  ///< events located
   double setup_seconds = 0.0;
   double wall_seconds = 0.0;  ///< whole, set-up included
+  double all_seconds = 0.0;   ///< with the runs beside and before it; 0: there were none
 };
 
 /// A number of the run as a whole, and its estimated error; none: not known.

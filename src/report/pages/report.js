@@ -61,6 +61,9 @@ class Page {
     new ResizeObserver(() => this.later('size')).observe(document.body);
     this.watchPanels();
     addThemeButton(() => this.restyle());
+    // The page opens on the largest force.
+    const [hardest] = [...strike.sub_impacts].sort((a, b) => b.peak_force - a.peak_force);
+    if (hardest) view.setTime(hardest.peak_time);
     this.drawAll();
   }
 

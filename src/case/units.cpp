@@ -1,0 +1,64 @@
+#include "case/units.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace subimpact {
+namespace {
+
+struct NamedUnit {
+  std::string_view of_keys, name;
+  int power;  // of ten, to the unit of keys
+};
+
+constexpr NamedUnit named_units[] = {
+    {"m", "m", 0},         {"m", "mm", -3},       {"m", "um", -6},    {"m", "cm", -2},
+    {"m", "km", 3},        {"s", "s", 0},         {"s", "ms", -3},    {"s", "us", -6},
+    {"s", "ns", -9},       {"kg", "kg", 0},       {"kg", "g", -3},    {"kg", "t", 3},
+    {"m/s", "m/s", 0},     {"m/s", "mm/s", -3},   {"m/s", "km/s", 3}, {"Pa", "Pa", 0},
+    {"Pa", "kPa", 3},      {"Pa", "MPa", 6},      {"Pa", "GPa", 9},   {"Pa", "N/mm2", 6},
+    {"kg/m3", "kg/m3", 0}, {"kg/m3", "g/cm3", 3}, {"1/s", "1/s", 0},  {"s/m", "s/m", 0},
+};
+
+bool is_space(char c) { return c == ' ' || c == '\t'; }
+
+}  // namespace
+
+NumberAndUnit split_unit(std::string_view text) {
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  const std::string copy(text);
+  char* rest = nullptr;
+  std::strtod(copy.c_str(), &rest);
+  const auto n = static_cast<std::size_t>(rest - copy.c_str());
+  const std::string_view number = text.substr(0, n);
+  if (number.find_first_of("0123456789") == number.npos) return {};  // "infinite"
+  std::string_view unit = text.substr(n);
+  while (!unit.empty() && is_space(unit.front())) unit.remove_prefix(1);
+  return {number, unit};
+}
+
+std::optional<double> value_in(std::string_view unit, std::string_view text) {
+  const auto [number, given] = split_unit(text);
+  for (const auto& [of_keys, name, power] : named_units) {
+    if (number.empty() || of_keys != unit || name != given) continue;
+    const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+    const int exponent = e < number.size() ? std::atoi(number.data() + e + 1) : 0;
+    const std::string scaled =
+        std::string(number.substr(0, e)) + 'e' + std::to_string(exponent + power);
+    return std::strtod(scaled.c_str(), nullptr);
+  }
+  return std::nullopt;
+}
+
+std::string units_beside(std::string_view unit, std::string_view separator) {
+  std::string names;
+  for (const NamedUnit& known : named_units) {
+    if (known.of_keys != unit) continue;
+    names += names.empty() ? "" : separator;
+    names += known.name;
+  }
+  return names;
+}
+
+}  // namespace subimpact

@@ -1,0 +1,24 @@
+#pragma once
+
+/// Values with a unit, as in "711.2 mm".
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace subimpact {
+
+/// A number and what follows it; no number: the number of "heavy" is empty.
+struct NumberAndUnit {
+  std::string_view number, unit;
+};
+NumberAndUnit split_unit(std::string_view text);
+
+/// The value of a text such as "711.2 mm" in the unit of a key ("m"): the double that 0.7112 is.
+/// Nothing without a number, without a unit, or with one that does not measure what `unit` does.
+std::optional<double> value_in(std::string_view unit, std::string_view text);
+
+/// The units that may stand in place of that of a key, separated: "m, mm, um"; empty: none may.
+std::string units_beside(std::string_view unit, std::string_view separator = ", ");
+
+}  // namespace subimpact

@@ -1,0 +1,99 @@
+#include "subimpact/study/advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/meshes.h"
+#include "subimpact/study/within.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double least_change_by_shear = 5e-3;  // of the end of the first contact
+constexpr const char* usual_poisson = "0.3";
+constexpr double times_more_accurate = 5.0;
+constexpr double times_longer = 2.0;
+constexpr double growth_of_work = 2.5;    // with the number of cells or elements
+constexpr double share_of_contact = 0.1;  // an error that serves the shortest contacts
+
+double seconds_of_work(double work, const Result& result) {
+  return work * result.work.wall_seconds / counted_work(result);
+}
+
+// Runs on the way to smaller errors, whose last mesh takes most of the time.
+Advice smaller_errors(const Case& input, const Result& result) {
+  const double error = result.error_estimate->largest_error;
+  const double within =
+      error > 0.0 ? error / times_more_accurate : share_of_contact * result.used.contact_time;
+  const auto& refinement = descriptor_of(input.model.mesh).refinement;
+  const double order = refinement ? refinement->order(input) : 1.0;
+  const double growth = std::pow(times_more_accurate, growth_of_work / order);
+  return {{{"--within", fmt::format("{:.1g}us", 1e6 * within)}},
+          std::min(result.work.all_seconds * (1.0 + growth),
+                   seconds_of_work(input.accuracy.work_limit, result)),
+          "makes more of them certain, and the errors smaller"};
+}
+
+// Frees what the case fixes of mesh and method.
+Advice chosen_mesh(const GivenKeys& given, const Result& result) {
+  Advice advice{{},
+                seconds_of_work(default_work_limit, result),
+                "leaves mesh and method to the program: errors then hold for all meshes"};
+  for (const auto& keys : {given.in_file, given.in_settings}) {
+    for (const std::string& key : keys) {
+      const bool is_physics =
+          key == "model.section" || key == "model.layers" || key == "model.symmetry";
+      const bool fixes = key.starts_with("model.") || key.starts_with("solver.");
+      if (fixes && !is_physics) advice.options.emplace_back("--set", key + "=default");
+    }
+  }
+  return advice;
+}
+
+}  // namespace
+
+bool is_notable(const NeglectedShear& shear) {
+  return !shear.with ||
+         std::abs(*shear.with - shear.without) >= least_change_by_shear * shear.without;
+}
+
+std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Result& result) {
+  std::vector<Advice> all;
+  if (!result.outcome.completed()) return all;
+  if (result.neglected_shear && is_notable(*result.neglected_shear)) {
+    all.push_back({{{"--set", "beam.theory=timoshenko"}},
+                   result.work.all_seconds,
+                   "has the shear that is left out here"});
+    if (!input.scene.beam_poisson()) {
+      all.back().options.emplace_back("--set", std::string("beam.poisson=") + usual_poisson);
+    }
+  }
+  const auto& estimate = result.error_estimate;
+  const bool is_confirmed = !estimate || !estimate->finer_meshes ||
+                            estimate->finer_meshes->n_same == result.sub_impacts.size();
+  if (estimate && (!result.all_certain() || !is_confirmed)) {
+    const bool is_stopped_by_work = result.wish && result.wish->key == "accuracy.work_limit";
+    if (result.choice.empty()) {
+      all.push_back(chosen_mesh(given, result));
+      if (all.back().options.empty()) all.pop_back();
+    } else if (!result.wish) {
+      all.push_back(smaller_errors(input, result));
+    } else if (is_stopped_by_work) {
+      all.push_back({{{"--within", fmt::format("{:.3g}us", 1e6 * result.wish->wished)},
+                      {"--set", fmt::format("accuracy.work_limit={:.3g}",
+                                            times_more_accurate * input.accuracy.work_limit)}},
+                     times_more_accurate * result.work.all_seconds,
+                     "goes on to finer meshes"});
+    }
+  }
+  if (!result.contact_over) {
+    all.push_back({{{"--set", fmt::format("time.end={:.4g}", times_longer * input.end_time)}},
+                   times_longer * result.work.all_seconds,
+                   "shows whether contact is over"});
+  }
+  return all;
+}
+
+}  // namespace subimpact
