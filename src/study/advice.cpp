@@ -12,7 +12,7 @@ namespace subimpact {
 namespace {
 
 constexpr double least_change_by_shear = 5e-3;  // of the end of the first contact
-constexpr const char* usual_poisson = "0.3";
+constexpr double usual_poisson = 0.3;
 constexpr double times_more_accurate = 5.0;
 constexpr double times_longer = 2.0;
 constexpr double growth_of_work = 2.5;    // with the number of cells or elements
@@ -66,8 +66,9 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
     all.push_back({{{"--set", "beam.theory=timoshenko"}},
                    result.work.all_seconds,
                    "has the shear that is left out here"});
-    if (!input.scene.beam_poisson()) {
-      all.back().options.emplace_back("--set", std::string("beam.poisson=") + usual_poisson);
+    if (!input.scene.beam.poisson) {
+      const double nu = input.scene.beam_poisson().value_or(usual_poisson);
+      all.back().options.emplace_back("--set", fmt::format("beam.poisson={:.4g}", nu));
     }
   }
   const auto& estimate = result.error_estimate;

@@ -30,7 +30,7 @@ class HostileTexts(PageTestCase):
         self.program.run(name, "time.end=3e-4", "model.segments=51")
         self.program("report", "hostile", name, "--out", "both")
         browser.open_page(self.driver, self.program.directory / "both" / "comparison.html")
-        self.assertIn(name, [cell.text for cell in self.driver.find_elements("css selector", "td")])
+        self.assertIn(name, [cell.text for cell in self.driver.find_elements("css selector", "th small")])
         self.assertIn(self.TITLE.split("\n")[0], self.js("return document.querySelector('h1').textContent"))
         self.assertIsNone(self.js("return window.hacked"))
 
