@@ -193,7 +193,7 @@ void add_run(CLI::App& program, int& status) {
   options.input.add_within_to(command);
   command
       .add_flag("--error-bars{all}", options.error_bars,
-                "By default all errors are estimated from runs on two coarser meshes, which take "
+                "By default all errors are estimated from runs on three coarser meshes, which take "
                 "about as long as the run itself. --error-bars=off: no estimate. --error-bars: "
                 "from other runs for each of time, mesh and layers; takes some four times as long. "
                 "--error-bars=time: of the integration in time alone, about twice as long")
