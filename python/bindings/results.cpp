@@ -84,8 +84,7 @@ double residual_indentation(const Finished& run) {
 }
 
 double restitution(const Finished& run) {
-  const Result& result = run.result;
-  return (result.beam_mean_velocity - result.striker_velocity) / run.input.scene.striker.velocity;
+  return run.result.restitution(run.input.scene.striker.velocity);
 }
 
 double striker_energy_share(const Finished& run) {

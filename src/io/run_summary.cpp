@@ -73,8 +73,7 @@ Answer strike(const Case& input, const Result& result) {
 }
 
 Answer restitution(const Case& input, const Result& result) {
-  const double value =
-      (result.beam_mean_velocity - result.striker_velocity) / input.scene.striker.velocity;
+  const double value = result.restitution(input.scene.striker.velocity);
   return {"restitution", total_text(result, "restitution", value, 1.0, 6, ""),
           fmt::format("striker {}, beam {} (mean) at the end",
                       total_text(result, "striker_velocity_m_per_s", result.striker_velocity, 1.0,
@@ -98,9 +97,8 @@ void add_impulses(const Result& result, std::vector<Answer>& answers) {
   const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
   const auto& estimate = result.error_estimate;
   const bool has_totals = estimate && estimate->zones.size() == zones.size();
-  double sum = 0.0;
-  for (const ZoneSummary& zone : zones) sum += zone.impulse;
-  answers.push_back({"impulse", total_text(result, "impulse_Ns", sum, 1.0, 6, "N s"), ""});
+  answers.push_back(
+      {"impulse", total_text(result, "impulse_Ns", result.impulse(), 1.0, 6, "N s"), ""});
   for (std::size_t k = 0; k < std::min(zones.size(), most_zones); ++k) {
     const ZoneSummary& zone = zones[k];
     const ZoneTotals* totals = has_totals ? &estimate->zones[k] : nullptr;

@@ -122,8 +122,8 @@ void CellMesh::assemble_mass() {
   }
 }
 
-// Between two centres the rotary inertia of a link has the momentum J (v[i+1] - v[i]), which
-// telescopes; at a pinned end half a link has J v.
+// Between two centres the rotary inertia of a link has the momentum J (v[i+1] - v[i]): of all links
+// alike the sum is that between the outermost centres. At a pinned end half a link has J v.
 void CellMesh::assemble_moment() {
   moment_functional_.assign(n_unknowns(), 0.0);
   for (std::size_t i = 0; i < n_cells_; ++i) {

@@ -115,11 +115,9 @@ struct Shapes {
     }
     return packed_i24(values);
   }
-  // Where no section yielded, plastic curvatures are rounding.
   bool is_plastic(std::size_t point) const {
-    return result.n_yielded_sections > 0 && std::ranges::any_of(shapes, [&](std::size_t shape) {
-             return row(shape, point).plastic_curvature != 0.0;
-           });
+    return std::ranges::any_of(
+        shapes, [&](std::size_t shape) { return row(shape, point).plastic_curvature != 0.0; });
   }
 };
 

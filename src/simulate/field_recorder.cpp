@@ -120,7 +120,8 @@ void FieldRecorder::add_rest(const State& y, Accounts& accounts) {
   const Accounts::Bending bending = accounts.bending(y);
   std::vector<double> plastic(bending.curvatures.size());
   for (std::size_t i = 0; i < plastic.size(); ++i) {
-    plastic[i] = bending.curvatures[i] - bending.moments[i] / beam_.sections().stiffness();
+    plastic[i] =
+        plastic_curvature(bending.curvatures[i], bending.moments[i], beam_.sections().stiffness());
   }
   const double shear_flexibility =
       material_.shears() ? material_.bending_stiffness() / material_.shear_stiffness() : 0.0;

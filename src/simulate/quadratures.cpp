@@ -99,9 +99,10 @@ double ForceQuadrature::over(const ObservedStep& step, const StruckBeam& beam) {
     constant = change / (fifth_power(both) - fifth_power(h) - fifth_power(previous_->length));
   }
   // Where the fourth derivative changes its sign the constant is small by chance, but not twice.
-  const double largest =
-      previous_ ? std::max(std::abs(constant), std::abs(previous_->constant)) : 0.0;
-  const bool trusted = previous_ && largest * fifth_power(h) <= tolerance_;
+  const bool has_two = previous_ && previous_->constant != 0.0;
+  const bool trusted =
+      has_two &&
+      std::max(std::abs(constant), std::abs(previous_->constant)) * fifth_power(h) <= tolerance_;
   previous_ = Step{a, h, whole, constant};
   if (trusted || !(std::abs(whole) > tolerance_)) return whole + constant * fifth_power(h);
   return halved(a, b, whole, step, beam, 1);

@@ -387,7 +387,7 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
     const double kappa = bending.curvatures[section];
     const double moment = bending.moments[section];
     rows_.add(SectionRow{time, beam.mesh().section_positions()[section], kappa, moment,
-                         kappa - moment / beam.sections().stiffness()});
+                         plastic_curvature(kappa, moment, beam.sections().stiffness())});
   }
 }
 

@@ -42,7 +42,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 // With a fixed step contacts may be too short for it although the accounts close. One that the end
 // of the run cuts off has shown no length.
-void warn_of_short_contacts(const Recorder& recorder, double step, Result& result) {
+void warn_of_short_contacts(const Recorder& recorder, Result& result) {
+  const ResolvedSettings& used = result.used;
+  if (!used.step) return;
   std::vector<long> steps = recorder.steps_in_contact();
   if (!result.sub_impacts.empty() && !result.sub_impacts.back().end) steps.pop_back();
   const auto n_short =
@@ -50,9 +52,10 @@ void warn_of_short_contacts(const Recorder& recorder, double step, Result& resul
   if (n_short == 0) return;
   result.warnings.push_back(
       fmt::format("{} of {} contacts last fewer than {} steps of {:.4g} us, the shortest {}: their "
-                  "times, forces and even their number are uncertain; use a smaller solver.step",
-                  n_short, steps.size(), fewest_steps_in_contact, us * step,
-                  *std::min_element(steps.begin(), steps.end())));
+                  "times, forces and even their number are uncertain; use {}",
+                  n_short, steps.size(), fewest_steps_in_contact, us * *used.step,
+                  *std::min_element(steps.begin(), steps.end()),
+                  used.natural_step ? "more model.segments" : "a smaller solver.step"));
 }
 
 void count_work(const Integrator& integrator, const StruckBeam& beam, const EventLoop& loop,
@@ -198,7 +201,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);
 
-  if (used.step) warn_of_short_contacts(recorder, *used.step, result);
+  warn_of_short_contacts(recorder, result);
   count_work(integrator, beam, loop, result.work);
   if (result.outcome.kind == OutcomeKind::inaccurate && audit.gained_energy() &&
       loop.energy_keeps_growing()) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "subimpact/simulate/observer.h"
 #include "subimpact/simulate/result.h"
@@ -22,6 +23,11 @@ double RunView::indentation() const { return beam_.indentation(state_); }
 double RunView::residual_indentation() const { return beam_.contact().residual_indentation(); }
 double RunView::contact_force() const { return beam_.contact_force(state_); }
 Energies RunView::energies() const { return Accounts(beam_).energies(state_); }
+
+double Result::impulse() const {
+  return std::accumulate(sub_impacts.begin(), sub_impacts.end(), 0.0,
+                         [](double sum, const SubImpact& s) { return sum + s.impulse; });
+}
 
 std::optional<std::size_t> Result::n_certain() const {
   if (!error_estimate) return std::nullopt;

@@ -6,17 +6,15 @@
 #include <cmath>
 
 #include "case/meshes.h"
-#include "subimpact/study/within.h"
+#include "study/refinement.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double least_change_by_shear = 5e-3;  // of the end of the first contact
-constexpr double usual_poisson = 0.3;
 constexpr double times_more_accurate = 5.0;
 constexpr double times_longer = 2.0;
-constexpr double growth_of_work = 2.5;    // with the number of cells or elements
-constexpr double share_of_contact = 0.1;  // an error that serves the shortest contacts
 
 double seconds_of_work(double work, const Result& result) {
   return work * result.work.wall_seconds / counted_work(result);
@@ -25,11 +23,11 @@ double seconds_of_work(double work, const Result& result) {
 // Runs on the way to smaller errors, whose last mesh takes most of the time.
 Advice smaller_errors(const Case& input, const Result& result) {
   const double error = result.error_estimate->largest_error;
-  const double within =
-      error > 0.0 ? error / times_more_accurate : share_of_contact * result.used.contact_time;
+  const double within = error > 0.0 ? error / times_more_accurate
+                                    : default_share_of_contact * result.used.contact_time;
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
   const double order = refinement ? refinement->order(input) : 1.0;
-  const double growth = std::pow(times_more_accurate, growth_of_work / order);
+  const double growth = std::pow(times_more_accurate, usual_growth / order);
   return {{{"--within", fmt::format("{:.1g}us", 1e6 * within)}},
           std::min(result.work.all_seconds * (1.0 + growth),
                    seconds_of_work(input.accuracy.work_limit, result)),

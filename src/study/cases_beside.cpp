@@ -64,7 +64,13 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     const double ratio = static_cast<double>(mesh_count(input)) / mesh_count(beside.input);
     beside.gain = gain_of_mesh(ratio, std::max(mesh_order(input).value_or(2), 2));
     beside.input.output = output_beside(input);
-    check(beside.input);
+    // Of a run in natural modes nothing but the case can be refused, and resolving it would take
+    // most of the time of a short run.
+    if (beside.input.solver.method == Method::exponential) {
+      check(beside.input);
+    } else {
+      resolve(beside.input);
+    }
     return beside;
   } catch (const InvalidCase&) {  // of the other mesh
     return std::nullopt;

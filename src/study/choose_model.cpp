@@ -61,7 +61,8 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
                  : shears      ? MeshKind::spectral
                                : MeshKind::hermite;
     if (model.mesh == MeshKind::cells && !shears && input.accuracy.event_times) {
-      model.spacing = CellSpacing::whole;  // on fine meshes what free ends leave would outlast
+      // Else the error of free ends, of first order, is the last to fall.
+      model.spacing = CellSpacing::whole;
     }
   }
   if (open.method && !yields) solver.method = Method::exponential;

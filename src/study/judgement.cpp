@@ -94,6 +94,7 @@ class Judge {
         beside_(beside),
         of_runs_(beside.size() > 1 ? 1.0 : of_one_run) {
     for (const RunBeside& other : beside) {
+      if (other.of.of_existence) of_existence_.push_back(partners_.size());
       partners_.push_back(partners_in(run, other.result));
     }
     set_events();
@@ -130,9 +131,9 @@ class Judge {
 
   // Why a sub-impact is not certain; empty if it is. `strictness` multiplies errors.
   std::string doubt_of(std::size_t i, double strictness) const {
-    for (std::size_t k = 0; k < beside_.size(); ++k) {
+    for (const std::size_t k : of_existence_) {
       const Partner& partner = partners_[k].of[i];
-      if (!beside_[k].of.of_existence || (partner.there && partner.alone)) continue;
+      if (partner.there && partner.alone) continue;
       return (partner.there ? "it is split or merged or does not end with "
                             : "it does not exist with ") +
              beside_[k].of.description;
@@ -167,8 +168,7 @@ class Judge {
   // Why the flight after a sub-impact may hold another one; empty if it does not.
   std::string doubt_of_flight(std::size_t i) const {
     if (!all_[i].end) return {};
-    for (std::size_t k = 0; k < beside_.size(); ++k) {
-      if (!beside_[k].of.of_existence) continue;
+    for (const std::size_t k : of_existence_) {
       for (const SubImpact* extra : partners_[k].extra) {
         if (extra->start < flight_end(i) && beside_[k].result.end_of(*extra) > *all_[i].end) {
           return "there is another one with " + beside_[k].of.description;
@@ -188,13 +188,10 @@ class Judge {
 
   // The share of the runs that have it, with one run more that does not.
   double probability(std::size_t i) const {
-    int n = 0, n_with = 0;
-    for (std::size_t k = 0; k < beside_.size(); ++k) {
-      if (!beside_[k].of.of_existence) continue;
-      ++n;
-      n_with += partners_[k].of[i].there && partners_[k].of[i].alone;
-    }
-    return (1.0 + n_with) / (2.0 + n);
+    const auto n = std::ranges::count_if(of_existence_, [&](std::size_t k) {
+      return partners_[k].of[i].there && partners_[k].of[i].alone;
+    });
+    return (1.0 + static_cast<double>(n)) / (2.0 + static_cast<double>(of_existence_.size()));
   }
 
  private:
@@ -284,8 +281,8 @@ class Judge {
   // miss.
   double margin_error(const NearMiss& here, double length, double delta) const {
     double error = 0.0;
-    for (const RunBeside& other : beside_) {
-      if (!other.of.of_existence) continue;
+    for (const std::size_t k : of_existence_) {
+      const RunBeside& other = beside_[k];
       const double safety = margin_safety * of_runs_;
       double distance = near_share * length, difference = delta / safety;
       const auto include = [&](double time, double margin) {
@@ -323,7 +320,8 @@ class Judge {
   const Result& run_;
   const std::vector<SubImpact>& all_;
   std::span<const RunBeside> beside_;
-  std::vector<Partners> partners_;  // one per run beside
+  std::vector<Partners> partners_;         // one per run beside
+  std::vector<std::size_t> of_existence_;  // the runs beside that show it
   std::vector<Event> events_;
   std::vector<double> deltas_;  // m, of the indentation at each event
   double of_runs_;              // of all safety factors

@@ -6,6 +6,11 @@
 
 namespace subimpact {
 
+/// Of the time scale of the shortest contacts: an error that serves where none is asked for.
+inline constexpr double default_share_of_contact = 0.1;
+/// Exponent with which the work of a run grows with the number of cells or elements, usually.
+inline constexpr double usual_growth = 2.5;
+
 /// A case on finer and finer meshes, with the accuracy in time that goes with each: the default
 /// step of the mesh or, where the contact limits the step, one that shrinks as the mesh does; rtol
 /// divided by ten for every doubling. What is not open stays.

@@ -40,7 +40,6 @@ Result simulate_as_given(const Case& input, RunRequest& request) {
                          rows);
 }
 
-constexpr double usual_poisson = 0.3;
 // The contact with shear is looked for up to this many times the end of that without.
 constexpr double longest = 3.0;
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numeric>
 
 namespace subimpact {
 namespace {
@@ -37,11 +36,6 @@ double largest(const std::vector<Row>& rows, double Row::*value) {
   return most;
 }
 
-double impulse(const Result& run) {
-  return std::accumulate(run.sub_impacts.begin(), run.sub_impacts.end(), 0.0,
-                         [](double sum, const SubImpact& s) { return sum + s.impulse; });
-}
-
 double dissipated(const Energies& end) {
   return end.bending_plastic + end.contact_plastic + end.beam_damping;
 }
@@ -54,6 +48,7 @@ struct Quantity {
   double (*value)(const Result& run, double v0);
   double safety = usual_safety;
   From from = From::every_run;
+  double largest_share = HUGE_VAL;  // of an error in the value; none is stated beyond
 
   std::optional<double> of(const Case& input, const Result& run) const {
     if (from == From::shapes && run.envelope.empty()) return std::nullopt;
@@ -71,9 +66,8 @@ const Quantity quantities[] = {
     {"striker_velocity_m_per_s", [](Run run, double) { return run.striker_velocity; }},
     {"beam_mean_velocity_m_per_s", [](Run run, double) { return run.beam_mean_velocity; },
      safety_of_beam_velocity},
-    {"restitution",
-     [](Run run, double v0) { return (run.beam_mean_velocity - run.striker_velocity) / v0; }},
-    {"impulse_Ns", [](Run run, double) { return impulse(run); }},
+    {"restitution", [](Run run, double v0) { return run.restitution(v0); }},
+    {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
     {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
     {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},
     {"max_displacement_m", [](Run run, double) { return largest(run, &EnvelopeRow::displacement); },
@@ -81,7 +75,7 @@ const Quantity quantities[] = {
     {"max_moment_Nm", [](Run run, double) { return largest(run, &EnvelopeRow::moment); },
      usual_safety, From::shapes},
     {"max_strain", [](Run run, double) { return largest(run, &EnvelopeRow::strain); }, usual_safety,
-     From::shapes},
+     From::shapes, largest_error_of_strain},
     {"permanent_set_m",
      [](Run run, double) { return largest(run.envelope, &EnvelopeRow::permanent_set); },
      usual_safety, From::shapes},
@@ -153,8 +147,7 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     if (!quantity.of(input, run)) continue;
     Total total = total_of(run, beside, quantity.safety,
                            [&](const Result& of) { return quantity.of(input, of); });
-    if (quantity.name == std::string_view("max_strain") && total.error &&
-        *total.error > largest_error_of_strain * total.value) {
+    if (total.error && *total.error > quantity.largest_share * std::abs(total.value)) {
       total.error.reset();
     }
     if (quantity.name == std::string_view("sub_impacts") && total.error) {

@@ -22,13 +22,10 @@ constexpr double usual_refinement = 2.0;
 constexpr double largest_refinement = 4.0;  // while less than half of the sub-impacts are certain
 // Of the refinement that the stated error asks for.
 constexpr double margin = 1.1;
-// Of the time scale of the shortest contacts, where the case has no tolerance.
-constexpr double default_share_of_contact = 0.1;
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
 // Work of a run and of those beside it over that of the run.
 constexpr double work_with_others = 2.4;
-constexpr double usual_growth = 2.5;  // of the work with the mesh
 
 double default_tolerance(const Refinement& refinement) {
   return default_share_of_contact * refinement.contact_time();

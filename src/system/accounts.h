@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,13 @@
 #include "system/struck_beam.h"
 
 namespace subimpact {
+
+/// kappa - M/(E I), 1/m; 0 where the two differ by rounding, as in sections that never yielded.
+inline double plastic_curvature(double curvature, double moment, double stiffness) {
+  constexpr double rounding = 1e-12;
+  const double plastic = curvature - moment / stiffness;
+  return std::abs(plastic) > rounding * std::abs(curvature) ? plastic : 0.0;
+}
 
 /// Energies, momenta and other quantities of the states of a struck beam. The beam is not changed.
 class Accounts {

@@ -48,7 +48,7 @@ class BeamField {
   double curvature(std::size_t i) const { return curvatures_[i]; }
   double moment(std::size_t i) const { return moments_[i]; }
   double plastic_curvature(std::size_t i) const {
-    return curvatures_[i] - moments_[i] / bending_stiffness_;
+    return subimpact::plastic_curvature(curvatures_[i], moments_[i], bending_stiffness_);
   }
   /// Of a state, m/s and rad.
   double velocity(std::size_t i, const State& y) const {

@@ -204,6 +204,20 @@ double mid_span_set(const std::vector<ShapeRow>& shape, const BeamMesh& mesh, do
   return middle - 0.5 * displacement;
 }
 
+TEST(PlasticCurvatures, OfElasticBeamsAreZeroAndNotRounding) {
+  for (const MeshKind kind : {MeshKind::cells, MeshKind::hermite}) {
+    Case input = linear_case(kind, 40, 0.5 * paper_beam().length, EndSupport::pinned);
+    input.output.shapes = 1e-5;
+    input.output.interval = 1e-6;
+    input.output.sections = {0.25, 0.5};
+    const Result result = simulate(input);
+    EXPECT_GT(result.max_indentation, 0.0);
+    const auto is_elastic = [](const auto& row) { return row.plastic_curvature == 0.0; };
+    EXPECT_TRUE(std::ranges::all_of(result.shapes, is_elastic));
+    EXPECT_TRUE(std::ranges::all_of(result.section_history, is_elastic));
+  }
+}
+
 TEST(ThePermanentSet, IsTheDoubleIntegralOfTheLastPlasticCurvatures) {
   for (const MeshKind kind : {MeshKind::cells, MeshKind::hermite}) {
     Case input = paper_case(SectionKind::exact, 1e-3);

@@ -123,17 +123,6 @@ TEST(PageData, HoldsEveryShapeToAMillionthOfTheLargest) {
   }
 }
 
-TEST(PageData, TakesRoundingForNoPlasticCurvatureWhereNoSectionYielded) {
-  const Case input = short_case();
-  Result result = simulate(input);
-  const auto points = [&] {
-    return Json::parse(page_data(input, result).json).at("shapes").at("plastic_points");
-  };
-  EXPECT_FALSE(points().empty());
-  result.n_yielded_sections = 0;
-  EXPECT_TRUE(points().empty());
-}
-
 TEST(PageData, OfALongHistoryKeepsPeaksOfOneRowAndStatesWhatItLeavesOut) {
   Result result = sample_result();
   result.history.assign(300'000, HistoryRow{});

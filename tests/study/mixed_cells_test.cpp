@@ -37,6 +37,18 @@ TEST(MixedCells, AreJudgedByCoarserMixedCellsAtTheirOwnSteps) {
   EXPECT_LT(result.error_estimate->largest_error, 1e-6);
 }
 
+// A stiff contact: coarser meshes, whose natural steps are longer, are refused.
+TEST(MixedCells, HaveNothingBesideThemThatIsRefused) {
+  Case input = mixed_case();
+  input.scene.contact = {ContactKind::hertz, 1e12, {}, {}, {}};
+  Case coarser = input;
+  coarser.model.segments = 200;
+  EXPECT_THROW(resolve(coarser), InvalidCase);
+  const std::vector<CaseBeside> beside = cases_beside_on_given_mesh(input);
+  EXPECT_GE(beside.size(), 2u);
+  for (const CaseBeside& other : beside) EXPECT_NO_THROW(resolve(other.input));
+}
+
 TEST(MixedCells, HaveNoErrorOfTimeAlone) {
   EXPECT_TRUE(cases_beside_in_time(mixed_case()).empty());
   RunRequest request;

@@ -335,6 +335,10 @@ struct Result {
   bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
   /// The end of a sub-impact, s: that of the run for one that was still open.
   double end_of(const SubImpact& s) const { return s.end.value_or(outcome.time); }
+  /// Of all sub-impacts, N s.
+  double impulse() const;
+  /// Velocity at which the bodies part at the end over that at which they met, `v0`.
+  double restitution(double v0) const { return (beam_mean_velocity - striker_velocity) / v0; }
   /// How many sub-impacts are certain. None without an error estimate.
   std::optional<std::size_t> n_certain() const;
   /// Whether it is certain that there are these sub-impacts and no others.

@@ -30,10 +30,13 @@ struct RunRequest : WithinOptions {
 std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
                                         const std::optional<ErrorBars>& error_bars);
 
+/// Poisson's ratio of a beam for which the case has none.
+inline constexpr double usual_poisson = 0.3;
+
 /// What shear would do to the first contact of a run whose theory leaves it out, from two further
-/// runs up to there, with and without shear, on the same coarse cells, undamped (nu = 0.3 unless
-/// given). Contacts that shear merges make it large. Nothing where the theory has shear, on a rigid
-/// beam and on a mesh of the user's own, and where no first contact ended.
+/// runs up to there, with and without shear, on the same coarse cells, undamped (usual_poisson
+/// unless given). Contacts that shear merges make it large. Nothing where the theory has shear, on
+/// a rigid beam and on a mesh of the user's own, and where no first contact ended.
 std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& result);
 
 /// Runs a case as `subimpact run` does, with error estimates and what neglected shear would change,
