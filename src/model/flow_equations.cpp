@@ -16,6 +16,10 @@ constexpr int most_releases = 4;  // of hinges, in one solution
 constexpr double off_hinge = 1e-4;
 constexpr double at_hinge = 1e-5;
 constexpr double at_hinge_again = 1e-9;
+// Between these distances the moment of a hinge that can neither turn nor be free is looked for.
+constexpr double shortest_hold = 1e-14;
+constexpr double longest_hold = 1.0;
+constexpr int most_bisections = 100;
 
 }  // namespace
 
@@ -90,23 +94,48 @@ bool FlowEquations::solve(const std::vector<std::size_t>& active, bool coupled,
 }
 
 bool FlowEquations::iterate(int bold) {
-  int releases = 0;
+  double within = at_hinge;
+  for (int k = 0; k < most_releases; ++k) {
+    if (!converge(bold, within)) return false;
+    if (!release_hinges()) return true;
+    within = at_hinge_again;
+  }
+  return converge(bold, within) && std::ranges::all_of(hinges_, [this](Hinge& hinge) {
+           return !hinge.turns_back() || hold(hinge);
+         });
+}
+
+bool FlowEquations::converge(int bold, double within) {
   for (int k = 0; k < most_iterations; ++k) {
     const double error = evaluate();
     if (!std::isfinite(error)) return false;
-    if (error < tolerance) {
-      if (releases == most_releases || !release_hinges()) return true;
-      ++releases;
-      continue;
-    }
+    if (error < tolerance) return true;
     find_step();
     if (k < bold) {
       advance();
     } else {
       descend(error);
     }
-    engage_hinges(releases > 0 ? at_hinge_again : at_hinge);
+    engage_hinges(within);
     pull_inside();
+  }
+  return false;
+}
+
+bool FlowEquations::hold(Hinge& hinge) {
+  double low = shortest_hold, high = longest_hold;
+  const double response = of_p_[hinge.local * stride_ + hinge.local];
+  for (int k = 0; k < most_bisections; ++k) {
+    hinge.below = std::sqrt(low * high);
+    moments_[hinge.local] = hinge.moment();
+    pull_inside();
+    if (!converge(0, at_hinge_again)) return false;
+    if (std::abs(response * hinge.turned) < tolerance) {
+      hinge.turned = hinge.sense = hinge.below = 0.0;
+      evaluate();
+      return true;
+    }
+    (hinge.turns_back() ? low : high) = hinge.below;
   }
   return false;
 }
@@ -293,7 +322,7 @@ bool FlowEquations::is_inside() const {
 bool FlowEquations::release_hinges() {
   bool any = false;
   for (Hinge& hinge : hinges_) {
-    if (!hinge.turns() || hinge.turned * hinge.sense >= 0.0) continue;
+    if (!hinge.turns_back()) continue;
     moments_[hinge.local] = hinge.sense * (MomentLaw::limit - off_hinge);
     hinge.turned = hinge.sense = 0.0;
     any = true;
@@ -306,7 +335,7 @@ void FlowEquations::pull_inside() {
   for (int k = 0; k < most_iterations && !is_inside(); ++k) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) moments_[i] *= 1.0 - tolerance;
     for (const Hinge& hinge : hinges_) {
-      if (hinge.turns()) moments_[hinge.local] = hinge.sense * MomentLaw::limit;
+      if (hinge.turns()) moments_[hinge.local] = hinge.moment();
     }
   }
 }
@@ -339,6 +368,12 @@ void FlowEquations::add_to_moments(double factor, std::span<double> elastic_curv
       const double* of_p = column.of(PlasticResponse::curvature_at_rest);
       for (std::size_t k = 0; k < column.size; ++k) result[k] += p * of_p[k];
     }
+  }
+}
+
+void FlowEquations::read_moments(std::span<double> elastic_curvatures) const {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    elastic_curvatures[nodes_[i]] = moments_[i] * yield_curvature_;
   }
 }
 

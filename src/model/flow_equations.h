@@ -30,6 +30,9 @@ class FlowEquations {
   /// Adds `factor` times what has flowed: to the elastic curvatures, and to the unknowns.
   void add_to_moments(double factor, std::span<double> elastic_curvatures);
   void add_to_unknowns(double* unknowns);
+  /// The elastic curvatures of the solution: equal to those that add_to_moments() gives within the
+  /// tolerance of the equations, which is too much for the law beside the full plastic moment.
+  void read_moments(std::span<double> elastic_curvatures) const;
   /// p of what has flowed, rad, at all sections.
   void add_to_p(std::span<double> p) const;
   /// Nothing has flowed since the last commit.
@@ -49,9 +52,12 @@ class FlowEquations {
     double sense = 0.0;                         // while it turns, else 0
     double sense_before = 0.0;                  // at the last commit
     double path = 0.0;                          // turned before it, either way
+    double below = 0.0;                         // M_p while its moment is held there, in M_y
 
     bool is_among() const { return local != SubCellSections::none; }
     bool turns() const { return sense != 0.0; }
+    bool turns_back() const { return turned * sense < 0.0; }  // against its moment
+    double moment() const { return sense * (MomentLaw::limit - below); }
   };
   using Ends = SubCellSections::Ends;
   struct LocalCell {
@@ -65,8 +71,14 @@ class FlowEquations {
   void resize(std::size_t stride);
   void read_responses();
   void start(const Moments& moments);
-  // Newton's method; after so many bold iterations the error must fall in each.
+  // Newton's method with hinges that begin and stop to turn; after so many bold iterations the
+  // error must fall in each.
   bool iterate(int bold);
+  // The same with hinges that begin to turn `within` a distance of M_p.
+  bool converge(int bold, double within);
+  // The moment, just below M_p, with which a hinge does not turn, by bisection: for one that turns
+  // back at M_p and would turn again wherever it is freed.
+  bool hold(Hinge& hinge);
   double evaluate();
   void subtract_response(std::size_t node, double p, double b, double* column) const;
   void find_step();

@@ -42,6 +42,7 @@ bool MixedSections::solve(const double* unknowns, double* moved) {
     if (!equations.solve(active_, moved != nullptr, {elastic_, before_, earlier_})) return false;
     equations.add_to_moments(1.0, elastic_);
     if (!find_active()) {
+      equations.read_moments(elastic_);
       if (moved != nullptr) equations.add_to_unknowns(moved);
       return true;
     }

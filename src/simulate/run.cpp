@@ -42,8 +42,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 // With a fixed step contacts may be too short for it although the accounts close. One that the end
 // of the run cuts off has shown no length.
-void warn_of_short_contacts(const Recorder& recorder, Result& result) {
-  const ResolvedSettings& used = result.used;
+void warn_of_short_contacts(const Recorder& recorder, const ResolvedSettings& used,
+                            Result& result) {
   if (!used.step) return;
   std::vector<long> steps = recorder.steps_in_contact();
   if (!result.sub_impacts.empty() && !result.sub_impacts.back().end) steps.pop_back();
@@ -201,7 +201,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);
 
-  warn_of_short_contacts(recorder, result);
+  warn_of_short_contacts(recorder, used, result);
   count_work(integrator, beam, loop, result.work);
   if (result.outcome.kind == OutcomeKind::inaccurate && audit.gained_energy() &&
       loop.energy_keeps_growing()) {
