@@ -22,6 +22,8 @@ MixedSections::MixedSections(const MixedMesh& mesh, double stiffness, std::optio
       low_(mesh.n_sections(), -yield_curvature_),
       high_(mesh.n_sections(), yield_curvature_),
       p_(mesh.n_sections(), 0.0),
+      shift_(mesh.n_unknowns(), 0.0),
+      forces_(shift_),
       scratch_(mesh.n_kept_cells()) {}
 
 bool MixedSections::solve(const double* unknowns, double* moved) {
@@ -83,7 +85,21 @@ SubCellSections::Ends MixedSections::moments_at(std::size_t cell) const {
   return {at(cell), at(cell + 1)};
 }
 
-bool MixedSections::commit() {
+// By the mean of the forces at both ends of the step.
+void MixedSections::add_work_on_shift(double contact_force) {
+  std::ranges::fill(shift_, 0.0);
+  flow_->equations.add_to_unknowns(shift_.data());
+  for (std::size_t i = 0; i < elastic_.size(); ++i) {
+    earlier_[i] = 0.5 * (before_[i] + elastic_[i]);
+  }
+  mesh_.forces_of(earlier_.data(), stiffness_, forces_.data());
+  forces_[mesh_.struck_node() - mesh_.first_unknown()] += 0.5 * (force_before_ + contact_force);
+  work_on_shift_ += dot(forces_.data(), shift_.data(), shift_.size());
+}
+
+bool MixedSections::commit(double contact_force) {
+  if (flowed_) add_work_on_shift(contact_force);
+  force_before_ = contact_force;
   earlier_.swap(before_);
   std::ranges::copy(elastic_, before_.begin());
   flowing_.clear();

@@ -36,8 +36,9 @@ class MixedSections {
   bool settle(std::span<double> unknowns) { return solve(unknowns.data(), unknowns.data()); }
   /// The same for unknowns that have been settled, which do not change.
   bool evaluate(std::span<const double> unknowns) { return solve(unknowns.data(), nullptr); }
-  /// That state becomes the history. Returns whether anything flowed on the way to it.
-  bool commit();
+  /// That state becomes the history; `contact_force` (N) acts on it. Returns whether anything
+  /// flowed on the way to it.
+  bool commit(double contact_force);
 
   // Of the state last settled or evaluated:
 
@@ -53,8 +54,9 @@ class MixedSections {
   };
   Energies energies() const;
 
-  double kinetic_energy(std::span<const double> velocities) const {  ///< J
-    return mesh_.kinetic_energy(velocities, scratch_);
+  /// Of y, J, with the work that forces have done on w - y = s up to the last commit.
+  double kinetic_energy(std::span<const double> velocities) const {
+    return mesh_.kinetic_energy(velocities, scratch_) + work_on_shift_;
   }
   /// Sections of the mesh in whose hats something has flowed.
   std::size_t n_yielded() const;
@@ -71,6 +73,7 @@ class MixedSections {
   bool find_active();
   SubCellSections::Ends moments_at(std::size_t cell) const;
   void narrow_windows(std::size_t cell);
+  void add_work_on_shift(double contact_force);
 
   const MixedMesh& mesh_;
   double stiffness_;
@@ -78,7 +81,10 @@ class MixedSections {
   std::unique_ptr<Flow> flow_;
   // At sections: M/(E I) now, at the last commit and the one before; between these nothing flows.
   AlignedVector elastic_, before_, earlier_, low_, high_;
-  AlignedVector p_;  // at the last commit, rad
+  AlignedVector p_;               // at the last commit, rad
+  AlignedVector shift_, forces_;  // of unknowns, of one step; work space
+  double force_before_ = 0.0;     // N
+  double work_on_shift_ = 0.0;    // J
   bool flowed_ = false;
   std::vector<std::size_t> active_, flowing_;  // cells: in the equations; those of the last commit
   mutable std::vector<double> scratch_;

@@ -286,7 +286,7 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
 bool StruckBeam::commit(const State& y) {
   if (contact_.loads()) contact_.commit(indentation(y));
   if (!sections_.can_yield()) return false;
-  if (mixed_) return bring_mixed_to(beam_positions(y)).commit();
+  if (mixed_) return bring_mixed_to(beam_positions(y)).commit(contact_force(y));
   if (section_evaluation_ == Evaluation::smooth) {
     read_motion(y, committed_);
     return sections_.commit(committed_.curvatures, committed_.rates) > 0;

@@ -40,7 +40,7 @@ TEST_F(BentMixedCells, CarryNoMomentAboveTheFullPlasticOne) {
     std::vector<double> w = bent(size);
     ASSERT_TRUE(sections_.settle(w)) << size;
     EXPECT_LE(largest_moment(), 1.5 + 1e-5) << size;
-    sections_.commit();
+    sections_.commit(0.0);
   }
   EXPECT_GT(largest_moment(), 1.49);
   EXPECT_GE(sections_.n_yielded(), 3u);
@@ -56,7 +56,7 @@ TEST_F(BentMixedCells, HaveTheSameMomentsWhenEvaluatedWhereTheyHaveSettled) {
     for (std::size_t i = 0; i < settled.size(); ++i) {
       EXPECT_NEAR(sections_.elastic_curvatures()[i], settled[i], 1e-4 * beam_.yield_curvature());
     }
-    sections_.commit();
+    sections_.commit(0.0);
   }
 }
 
@@ -65,7 +65,7 @@ TEST_F(BentMixedCells, StayPutWhileNothingFlows) {
   std::vector<double> w = straight;
   ASSERT_TRUE(sections_.settle(w));
   EXPECT_EQ(w, straight);
-  EXPECT_FALSE(sections_.commit());
+  EXPECT_FALSE(sections_.commit(0.0));
   EXPECT_EQ(sections_.energies().plastic, 0.0);
 }
 
@@ -87,7 +87,7 @@ TEST_F(BentMixedCells, LoseNoPlasticWork) {
     ASSERT_TRUE(sections_.settle(w));
     EXPECT_GE(sections_.energies().plastic, before - 1e-12);
     before = sections_.energies().plastic;
-    sections_.commit();
+    sections_.commit(0.0);
     EXPECT_NEAR(sections_.energies().plastic, before, 1e-9 * (1.0 + before));
   }
 }

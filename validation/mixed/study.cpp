@@ -13,6 +13,7 @@
 
 #include "report/files.h"
 #include "report/gnuplot.h"
+#include "scenes.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
 
@@ -186,7 +187,11 @@ void draw(const std::string& directory, const std::vector<Point>& points) {
 
 }  // namespace
 
-int main() {
+// Without arguments the tables; `scenes N SEED`: random strikes.
+int main(int argc, char** argv) {
+  if (argc == 4 && argv[1] == std::string("scenes")) {
+    return study_random_scenes(std::stoi(argv[2]), static_cast<unsigned>(std::stoul(argv[3])));
+  }
   const std::string directory = SUBIMPACT_MIXED_STUDY;
   std::vector<Point> all;
   for (const Strike& strike : strikes) {
