@@ -101,14 +101,15 @@ int study_random_scenes(int n, unsigned seed) {
     momentum = std::max(momentum, result.max_momentum_error.value_or(0.0));
     energy = std::max(energy, result.max_energy_error);
   }
-  fmt::print("\n| end | {} strikes that yield | {} of them on 200 cells or more |\n|---|---|---|\n", n,
-             n_fine);
+  fmt::print("\n| end | {} strikes that yield | {} of them on 200 cells or more |\n|---|---|---|\n",
+             n, n_fine);
   for (const auto& [end, count] : ends) {
     fmt::print("| {} | {} ({:.2f} %) | {} ({:.2f} %) |\n", end, count, 100.0 * count / n,
                ends_of_fine[end], 100.0 * ends_of_fine[end] / std::max(n_fine, 1));
   }
-  fmt::print("\nnot finite: {}; largest error in completed runs: momentum without supports {:.1e}, "
-             "energy {:.1e}; refused before they began: {}\n",
-             n_not_finite, momentum, energy, n_refused);
+  fmt::print(
+      "\nnot finite: {}; largest error in completed runs: momentum without supports {:.1e}, "
+      "energy {:.1e}; refused before they began: {}\n",
+      n_not_finite, momentum, energy, n_refused);
   return n_not_finite == 0 && ends["completed"] > 0 ? 0 : 1;
 }
