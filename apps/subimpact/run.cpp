@@ -1,3 +1,4 @@
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -167,7 +168,8 @@ int run(RunOptions& options) {
   std::erase_if(warnings, [&](const std::string& warning) {
     return std::ranges::find(doubts, warning) != doubts.end();
   });
-  print_warnings(warnings);
+  // The summary has them too.
+  if (options.quiet || isatty(STDOUT_FILENO) == 0) print_warnings(warnings);
   if (!result.outcome.completed()) {
     print_error("subimpact: {}\n", failure_message(input, result));
   }

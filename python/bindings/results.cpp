@@ -1,5 +1,7 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -72,10 +74,26 @@ std::optional<int> all_certain(const Finished& run) {
   return run.result.all_certain() ? 1 : 0;
 }
 
-double total_impulse(const Finished& run) {
-  double sum = 0.0;
-  for (const SubImpact& s : run.result.sub_impacts) sum += s.impulse;
-  return sum;
+double total_impulse(const Finished& run) { return run.result.impulse(); }
+
+std::optional<double> time_of_max_force(const Finished& run) {
+  const auto& all = run.result.sub_impacts;
+  const auto strongest = std::ranges::max_element(all, {}, &SubImpact::peak_force);
+  return strongest == all.end() ? std::nullopt : std::optional(strongest->peak_time);
+}
+
+// Of an energy at the end.
+auto at_end(double Energies::*energy) {
+  return [energy](const Finished& run) { return run.result.final_energies.*energy; };
+}
+
+// The largest deflection at rest from the chord; none of a run without shapes.
+std::optional<double> permanent_set(const Finished& run) {
+  double largest = 0.0;
+  for (const EnvelopeRow& row : run.result.envelope) {
+    largest = std::max(largest, std::abs(row.permanent_set));
+  }
+  return run.result.envelope.empty() ? std::nullopt : std::optional(largest);
 }
 
 double residual_indentation(const Finished& run) {
@@ -110,13 +128,19 @@ const Columns<Finished>& swept_run_columns() {
       {"first_section_yield_s", member(&Result::first_section_yield)},
       {"first_contact_yield_s", member(&Result::first_contact_yield)},
       {"max_force_N", member(&Result::max_force)},
+      {"max_force_time_s", &time_of_max_force},
       {"max_indentation_m", member(&Result::max_indentation)},
       {"residual_indentation_m", &residual_indentation},
+      {"permanent_set_m", &permanent_set},
       {"impulse_Ns", &total_impulse},
       {"striker_velocity_m_per_s", member(&Result::striker_velocity)},
       {"beam_mean_velocity_m_per_s", member(&Result::beam_mean_velocity)},
       {"restitution", &restitution},
       {"striker_energy_share", &striker_energy_share},
+      {"bending_plastic_J", at_end(&Energies::bending_plastic)},
+      {"contact_plastic_J", at_end(&Energies::contact_plastic)},
+      {"beam_damping_J", at_end(&Energies::beam_damping)},
+      {"contact_over", [](const Finished& run) { return run.result.contact_over ? 1 : 0; }},
       {"max_energy_error", member(&Result::max_energy_error)}};
   return columns;
 }

@@ -57,8 +57,10 @@ Json tiles(const Case& input, const Result& result) {
   std::vector<Answer> all = answers(input, result);
   all.erase(all.begin());
   return list_of(all, [](const Answer& answer) -> Json {
-    return {
-        {"name", answer.name}, {"value", in_print(answer.value)}, {"note", in_print(answer.note)}};
+    const bool of_zone = answer.name.starts_with("  zone");  // on the screen below the impulse
+    return {{"name", (of_zone ? "impulse of" : "") + answer.name.substr(of_zone ? 1 : 0)},
+            {"value", in_print(answer.value)},
+            {"note", in_print(answer.note)}};
   });
 }
 

@@ -36,13 +36,19 @@ constexpr Shown shown_results[] = {
     {"first_section_yield_s", "first yield of a section", "µs", 1e6},
     {"first_contact_yield_s", "first yield of the contact", "µs", 1e6},
     {"max_force_N", "largest force", "N", 1.0},
+    {"max_force_time_s", "time of the largest force", "µs", 1e6},
     {"max_indentation_m", "largest indentation", "mm", 1e3},
-    {"residual_indentation_m", "residual indentation", "mm", 1e3},
+    {"residual_indentation_m", "dent", "mm", 1e3},
+    {"permanent_set_m", "permanent set", "mm", 1e3},
     {"impulse_Ns", "impulse", "N s", 1.0},
     {"striker_velocity_m_per_s", "striker, at the end", "m/s", 1.0},
     {"beam_mean_velocity_m_per_s", "beam (mean), at the end", "m/s", 1.0},
     {"restitution", "restitution", "", 1.0},
     {"striker_energy_share", "part of its energy that the striker keeps", "", 1.0},
+    {"bending_plastic_J", "energy of plastic bending", "J", 1.0},
+    {"contact_plastic_J", "energy of the dent", "J", 1.0},
+    {"beam_damping_J", "energy lost to damping", "J", 1.0},
+    {"contact_over", "contact over (1: proven)", "", 1.0},
     {"max_energy_error", "largest error of the energy, relative", "", 1.0}};
 
 Shown shown(const SweptRuns::Column& column) {

@@ -23,7 +23,7 @@ from .worker import COLUMNS, Row
 FILE = "sweep.sqlite"
 KIND = "sweep"  # of results, in manifest.json
 SECONDS_OF_THE_DYING = 2.0  # for which workers of a killed sweep may hold its lock
-_LAYOUT = 1
+_LAYOUT = 2
 _APPLICATION = 0x53554249  # "SUBI"
 _MAGIC = b"SQLite format 3\0"
 _ALL = "SELECT identity, outcome, cells, sub_impacts, checksum FROM rows"

@@ -146,9 +146,9 @@ class View {
     this.listeners.forEach((change) => change('part'));
   }
   showAll() { this.setPart(0, this.end); }
-  // The part, in words, in a unit of time.
+  // The part, in words, in a unit of time; none for the whole strike.
   words({name, per_second: perSecond}) {
-    return this.from === 0 && this.to === this.end ? 'whole strike'
+    return this.from === 0 && this.to === this.end ? ''
       : `${printed(this.from * perSecond, 7)} to ${printed(this.to * perSecond, 7)} ${name}`;
   }
   zoom(factor) {
