@@ -34,4 +34,15 @@ void assign(std::string& text, const Json& json, const std::string&, Form form) 
   text = json.is_null() && form == Form::empty_is_null ? "" : json.get<std::string>();
 }
 
+Json& place_in(Json& object, const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == name.npos ? object[name] : object[name.substr(0, dot)][name.substr(dot + 1)];
+}
+
+const Json& found_in(const Json& object, const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == name.npos ? object.at(name)
+                          : object.at(name.substr(0, dot)).at(name.substr(dot + 1));
+}
+
 }  // namespace subimpact

@@ -2,17 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -91,52 +81,14 @@ void assign(std::optional<Value>& value, const Json& json, const std::string& na
   if (!json.is_null()) assign(value.emplace(), json, name, form);
 }
 
-/// A member of an object in a JSON file: written into the object, and read from it.
 template <class Row>
-struct Entry {
-  Entry(std::string name_with_unit, std::string meaning_of_value)
-      : name(std::move(name_with_unit)), meaning(std::move(meaning_of_value)) {}
-
-  /// A value. `access`: a pointer to a member or a function of the row; it returns a reference to
-  /// what the entry holds, or a value, which is then written and never read. A name of the form
-  /// a.b is the member b of the object a.
-  template <class Access>
-  Entry(std::string name_with_unit, std::string meaning_of_value, Access access,
-        Form form = Form::plain)
-      : Entry(std::move(name_with_unit), std::move(meaning_of_value)) {
-    write = [=, name = name](Json& object, const Row& row) {
-      place_in(object, name) = json_of(std::invoke(access, row), form);
-    };
-    if constexpr (std::is_invocable_v<Access, Row&>) {
-      using Held = std::invoke_result_t<Access, Row&>;
-      if constexpr (std::is_lvalue_reference_v<Held> &&
-                    !std::is_const_v<std::remove_reference_t<Held>>) {
-        read = [=, name = name](const Json& object, Row& row) {
-          assign(std::invoke(access, row), found_in(object, name), name, form);
-        };
-      }
-    }
-  }
-
-  /// The object's place for a name, made if it is not there.
-  static Json& place_in(Json& object, const std::string& name) {
-    const std::size_t dot = name.rfind('.');
-    return dot == name.npos ? object[name] : object[name.substr(0, dot)][name.substr(dot + 1)];
-  }
-  static const Json& found_in(const Json& object, const std::string& name) {
-    const std::size_t dot = name.rfind('.');
-    return dot == name.npos ? object.at(name)
-                            : object.at(name.substr(0, dot)).at(name.substr(dot + 1));
-  }
-
-  std::string name, meaning;
-  std::function<void(Json& object, const Row& row)> write;
-  std::function<void(const Json& object, Row& row)> read;  // none: it follows from other entries
-  std::vector<std::pair<std::string, std::string>> parts = {};  // names and meanings within it
-};
-
+struct Entry;
 template <class Row>
 using Record = std::vector<Entry<Row>>;
+
+/// The object's place for a name, made if it is not there: a.b is the member b of the object a.
+Json& place_in(Json& object, const std::string& name);
+const Json& found_in(const Json& object, const std::string& name);
 
 template <class Row>
 Json json_of(const Record<Row>& record, const Row& row) {
@@ -144,13 +96,96 @@ Json json_of(const Record<Row>& record, const Row& row) {
   for (const Entry<Row>& entry : record) entry.write(object, row);
   return object;
 }
-
+template <class Row>
+Json json_of(const Record<Row>& record, const std::vector<Row>& rows) {
+  Json list = Json::array();
+  for (const Row& row : rows) list.push_back(json_of(record, row));
+  return list;
+}
+template <class Row>
+Json json_of(const Record<Row>& record, const std::optional<Row>& row) {
+  return row ? json_of(record, *row) : Json(nullptr);
+}
 template <class Row>
 void assign(const Record<Row>& record, const Json& object, Row& row) {
   for (const Entry<Row>& entry : record) {
     if (entry.read) entry.read(object, row);
   }
 }
+template <class Row>
+void assign(const Record<Row>& record, const Json& list, std::vector<Row>& rows) {
+  for (const Json& json : list) assign(record, json, rows.emplace_back());
+}
+template <class Row>
+void assign(const Record<Row>& record, const Json& json, std::optional<Row>& row) {
+  if (json.is_null()) return row.reset();
+  if (!row) row.emplace();
+  assign(record, json, *row);
+}
+
+/// A member of an object in a JSON file: written into the object, and read from it.
+template <class Row>
+struct Entry {
+  Entry(const char* name_with_unit, const char* meaning_of_value)
+      : name(name_with_unit), meaning(meaning_of_value) {}
+  /// A value. `access`: a pointer to a member or a function of the row; it returns a reference to
+  /// what the entry holds, or a value, which is then written and never read.
+  template <class Access>
+  Entry(const char* name_with_unit, const char* meaning_of_value, Access access,
+        Form form = Form::plain)
+      : Entry(name_with_unit, meaning_of_value) {
+    write = [=, name = name](Json& object, const Row& row) {
+      place_in(object, name) = json_of(std::invoke(access, row), form);
+    };
+    if constexpr (is_held<Access>) {
+      read = [=, name = name](const Json& object, Row& row) {
+        assign(std::invoke(access, row), found_in(object, name), name, form);
+      };
+    }
+  }
+  /// A value that is read in another way than it is written.
+  template <class Access, std::invocable<const Json&, Row&> Use>
+  Entry(const char* name_with_unit, const char* meaning_of_value, Access access, Use use)
+      : Entry(name_with_unit, meaning_of_value, access) {
+    read = [=, name = name](const Json& object, Row& row) { use(found_in(object, name), row); };
+  }
+  /// An object or null, or a list of objects: `access` leads to an optional or a vector. `use`
+  /// reads it in another way.
+  template <class Access, class Inner>
+  Entry(const char* name_with_unit, const char* meaning_of_value, Access access,
+        const Record<Inner>& record, void (*use)(const Json&, Row&) = nullptr)
+      : Entry(name_with_unit, meaning_of_value) {
+    using Held = std::remove_cvref_t<std::invoke_result_t<Access, const Row&>>;
+    const bool is_list = std::is_same_v<Held, std::vector<Inner>>;
+    parts = listing_of(record, name + (is_list ? "[]." : "."));
+    write = [=, name = name](Json& object, const Row& row) {
+      place_in(object, name) = json_of(record, std::invoke(access, row));
+    };
+    if (use != nullptr) {
+      read = [=, name = name](const Json& object, Row& row) { use(found_in(object, name), row); };
+    } else if constexpr (is_held<Access>) {
+      read = [=, name = name](const Json& object, Row& row) {
+        assign(record, found_in(object, name), std::invoke(access, row));
+      };
+    }
+  }
+
+  std::string name, meaning;
+  std::function<void(Json& object, const Row& row)> write;
+  std::function<void(const Json& object, Row& row)> read;  // none: it follows from other entries
+  std::vector<std::pair<std::string, std::string>> parts = {};  // names and meanings within it
+
+ private:
+  template <class Access>
+  static constexpr bool is_held = [] {
+    if constexpr (!std::is_invocable_v<Access, Row&>) {
+      return false;
+    } else {
+      using Held = std::invoke_result_t<Access, Row&>;
+      return std::is_lvalue_reference_v<Held> && !std::is_const_v<std::remove_reference_t<Held>>;
+    }
+  }();
+};
 
 /// Names and meanings of all that a record holds.
 template <class Row>
@@ -162,49 +197,6 @@ std::vector<std::pair<std::string, std::string>> listing_of(const Record<Row>& r
     for (const auto& [name, meaning] : entry.parts) list.emplace_back(prefix + name, meaning);
   }
   return list;
-}
-
-/// A list of objects: `access` returns a vector by reference, or a value, which is never read.
-template <class Row, class Access, class Inner>
-Entry<Row> list_entry(const std::string& name, const std::string& meaning, Access access,
-                      const Record<Inner>& record) {
-  Entry<Row> entry(name, meaning);
-  entry.parts = listing_of(record, name + "[].");
-  entry.write = [=](Json& object, const Row& row) {
-    Json list = Json::array();
-    for (const Inner& inner : std::invoke(access, row)) list.push_back(json_of(record, inner));
-    Entry<Row>::place_in(object, name) = std::move(list);
-  };
-  if constexpr (std::is_lvalue_reference_v<std::invoke_result_t<Access, Row&>>) {
-    entry.read = [=](const Json& object, Row& row) {
-      for (const Json& json : Entry<Row>::found_in(object, name)) {
-        assign(record, json, std::invoke(access, row).emplace_back());
-      }
-    };
-  }
-  return entry;
-}
-
-/// An object or null: `access` returns a std::optional, by reference or as a value.
-template <class Row, class Access, class Inner>
-Entry<Row> object_entry(const std::string& name, const std::string& meaning, Access access,
-                        const Record<Inner>& record) {
-  Entry<Row> entry(name, meaning);
-  entry.parts = listing_of(record, name + ".");
-  entry.write = [=](Json& object, const Row& row) {
-    const auto& inner = std::invoke(access, row);
-    object[name] = inner ? json_of(record, *inner) : Json(nullptr);
-  };
-  if constexpr (std::is_lvalue_reference_v<std::invoke_result_t<Access, Row&>>) {
-    entry.read = [=](const Json& object, Row& row) {
-      const Json& json = object.at(name);
-      auto& inner = std::invoke(access, row);
-      if (json.is_null()) return inner.reset();
-      if (!inner) inner.emplace();
-      assign(record, json, *inner);
-    };
-  }
-  return entry;
 }
 
 }  // namespace subimpact

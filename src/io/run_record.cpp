@@ -1,12 +1,5 @@
 #include "io/run_record.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include "case/case_choices.h"
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
@@ -39,6 +32,13 @@ std::span<const Named<EventKind>> names_of(EventKind) {
   return names;
 }
 
+static Json json_of(const Total& total, Form form) {
+  return {{"value", json_of(total.value, form)}, {"error", json_of(total.error, form)}};
+}
+static void assign(Total& total, const Json& json, const std::string&, Form form) {
+  assign(total.value, json.at("value"), "value", form);
+  assign(total.error, json.at("error"), "error", form);
+}
 static Json json_of(const Interval& times, Form) { return {times.from, times.to}; }
 static void assign(Interval& times, const Json& json, const std::string& name, Form form) {
   assign(times.from, json.at(0), name, form);
@@ -47,7 +47,99 @@ static void assign(Interval& times, const Json& json, const std::string& name, F
 
 namespace {
 
-using RunEntry = Entry<DescribedRun>;
+// The beam at rest after the run, where shapes were computed and no check failed.
+struct BeamAtRest {
+  double largest_set = 0.0, position = 0.0;
+  std::vector<PlasticZone> plastic_zones;
+};
+
+// clang-format off
+const Record<ZoneSummary> zone_record = {
+    {"zone", "number of the zone, from 1", &ZoneSummary::zone},
+    {"sub_impacts", "their number", &ZoneSummary::n_sub_impacts},
+    {"subzones", "their number", &ZoneSummary::n_subzones},
+    {"start_s", "start of its first sub-impact", &ZoneSummary::start},
+    {"end_s", "end of its last one; null: still in contact", &ZoneSummary::end},
+    {"impulse_Ns", "sum over its sub-impacts", &ZoneSummary::impulse},
+    {"peak_force_N", "largest force", &ZoneSummary::peak_force}};
+
+const Record<NearMiss> near_miss_record = {
+    {"kind", "opening: a contact that nearly opened; closing: the reverse", &NearMiss::kind},
+    {"time_s", "instant of the smallest margin", &NearMiss::time, Form::from_zero},
+    {"margin_m", "distance between the indentation and the residual one", &NearMiss::margin, Form::above_zero}};
+
+const Record<WishOutcome> wish_record = {
+    {"event_times_s", "error of event times that was asked for", &WishOutcome::wished, Form::finite},
+    {"reached_error_s", "largest error of a certain event time; null: not known", &WishOutcome::reached},
+    {"horizon_s", "up to which event times are certain and within that error", &WishOutcome::horizon, Form::finite},
+    {"reason", "why the horizon comes before the end", &WishOutcome::reason, Form::empty_is_null},
+    {"key_to_free", "key of the case that stands in the way", &WishOutcome::key, Form::empty_is_null}};
+
+const Record<ErrorEstimate::Part> error_part_record = {
+    {"name", "time, mesh or layers", &ErrorEstimate::Part::name},
+    {"refined_run", "the run compared with", &ErrorEstimate::Part::refined_run},
+    {"max_error_s", "largest error of a certain time", &ErrorEstimate::Part::largest_error},
+    {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact", &ErrorEstimate::Part::first_unresolved, Form::from_one},
+    {"reason", "why it is uncertain", &ErrorEstimate::Part::reason, Form::empty_is_null}};
+
+const Record<ErrorEstimate::UncertainFlight> flight_record = {
+    {"after_index", "number, from 1, of the sub-impact before it", &ErrorEstimate::UncertainFlight::after, Form::from_one},
+    {"reason", "why it may hold another sub-impact", &ErrorEstimate::UncertainFlight::reason}};
+
+const Record<ErrorEstimate::FinerMeshes> finer_meshes_record = {
+    {"mesh", "that shows it", &ErrorEstimate::FinerMeshes::mesh},
+    {"sub_impacts", "on that mesh", &ErrorEstimate::FinerMeshes::n_there},
+    {"same_sub_impacts", "sub-impacts that it confirms", &ErrorEstimate::FinerMeshes::n_same},
+    {"change_of_first_end_s", "what finer meshes change the end of the first sub-impact by", &ErrorEstimate::FinerMeshes::change_of_first_end},
+    {"doubt", "why the mesh is too coarse", &ErrorEstimate::FinerMeshes::doubt, Form::empty_is_null}};
+
+const Record<ErrorEstimate> error_record = {
+    {"refined_run", "the runs compared with", &ErrorEstimate::refined_run},
+    {"max_time_error_s", "largest error of a certain time", &ErrorEstimate::largest_error},
+    {"first_unresolved_index", "number, from 1, of the first sub-impact that is not certain", &ErrorEstimate::first_unresolved, Form::from_one},
+    {"reason", "why it is uncertain", &ErrorEstimate::reason, Form::empty_is_null},
+    {"parts", "sources of error, one by one", &ErrorEstimate::parts, error_part_record},
+    {"uncertain_flights", "", &ErrorEstimate::uncertain_flights, flight_record},
+    {"finer_meshes", "of a mesh that the case fixes: what finer ones would change", &ErrorEstimate::finer_meshes, finer_meshes_record}};
+
+const Record<ZoneTotals> zone_totals_record = {
+    {"start_s", "", &ZoneTotals::start},
+    {"end_s", "", &ZoneTotals::end},
+    {"impulse_Ns", "", &ZoneTotals::impulse},
+    {"sub_impacts", "", &ZoneTotals::sub_impacts}};
+
+const Record<Predictability::Zone> zone_scatter_record = {
+    {"start_scatter_s", "standard deviation of the zone's start", &Predictability::Zone::start_scatter},
+    {"end_scatter_s", "that of its end", &Predictability::Zone::end_scatter},
+    {"impulse_scatter_Ns", "that of its impulse", &Predictability::Zone::impulse_scatter}};
+
+const Record<Predictability> predictability_record = {
+    {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon, Form::finite},
+    {"first_unpredictable_index", "number, from 1, of the first sub-impact that cannot be", &Predictability::first_unpredictable, Form::from_one},
+    {"reason", "why it cannot", &Predictability::reason, Form::empty_is_null},
+    {"max_time_scatter_s", "largest standard deviation up to the horizon", &Predictability::largest_scatter, Form::finite},
+    {"zones", "", &Predictability::zones, zone_scatter_record},
+    {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end", &Predictability::striker_velocity_scatter}};
+
+const Record<NeglectedShear> shear_record = {
+    {"first_contact_end_without_s", "on coarse cells", &NeglectedShear::without},
+    {"first_contact_end_with_s", "the same with shear; null: more than three times as late", &NeglectedShear::with}};
+
+const Record<ClosestApproach> approach_record = {
+    {"time_s", "when", &ClosestApproach::time, Form::from_zero},
+    {"gap_m", "smallest gap", &ClosestApproach::gap, Form::above_zero},
+    {"error_m", "error of the gap", &ClosestApproach::error}};
+
+const Record<PlasticZone> plastic_zone_record = {
+    {"from_m", "where a plastic hinge begins", &PlasticZone::from},
+    {"to_m", "where it ends", &PlasticZone::to},
+    {"rotation_rad", "its rotation", &PlasticZone::rotation}};
+
+const Record<BeamAtRest> rest_record = {
+    {"largest_permanent_set_m", "largest displacement, against the chord, of the beam at rest", &BeamAtRest::largest_set},
+    {"position_m", "where that is", &BeamAtRest::position},
+    {"plastic_zones", "", &BeamAtRest::plastic_zones, plastic_zone_record}};
+// clang-format on
 
 // The member of a result, or of what it holds, that a path of pointers leads to.
 template <class... Members>
@@ -86,22 +178,20 @@ KeyValue setting_of(const CaseKey& key, const Json& json) {
   throw std::logic_error("setting_of: a key of unknown type");
 }
 
-RunEntry case_entry() {
-  RunEntry entry("case", "keys of the case as asked for");
-  entry.write = [](Json& object, const DescribedRun& run) {
-    for (const CaseKey& key : case_keys()) {
-      const std::optional<KeyValue> value = key.get(*run.input);
-      RunEntry::place_in(object["case"], key.name) =
-          value ? json_of_setting(*value) : Json(nullptr);
-    }
-  };
-  entry.read = [](const Json& object, DescribedRun& run) {
-    for (const CaseKey& key : case_keys()) {
-      const Json& json = RunEntry::found_in(object.at("case"), key.name);
-      if (!json.is_null()) assign(*run.input, key, setting_of(key, json));
-    }
-  };
-  return entry;
+Json case_json(const DescribedRun& run) {
+  Json json;
+  for (const CaseKey& key : case_keys()) {
+    const std::optional<KeyValue> value = key.get(*run.input);
+    place_in(json, key.name) = value ? json_of_setting(*value) : Json(nullptr);
+  }
+  return json;
+}
+
+void read_case(const Json& json, DescribedRun& run) {
+  for (const CaseKey& key : case_keys()) {
+    const Json& value = found_in(json, key.name);
+    if (!value.is_null()) assign(*run.input, key, setting_of(key, value));
+  }
 }
 
 Json case_units(const DescribedRun&) {
@@ -112,24 +202,24 @@ Json case_units(const DescribedRun&) {
   return json;
 }
 
-RunEntry libraries_entry() {
-  RunEntry entry("libraries", "their versions");
-  entry.write = [](Json& object, const DescribedRun& run) {
-    for (const auto& [name, version] : run.libraries) object["libraries"][name] = version;
-  };
-  entry.read = [](const Json& object, DescribedRun& run) {
-    for (const auto& [name, version] : object.at("libraries").items()) {
-      run.libraries.emplace_back(name, version.template get<std::string>());
-    }
-  };
-  return entry;
+Json libraries_json(const DescribedRun& run) {
+  Json json;
+  for (const auto& [name, version] : run.libraries) json[name] = version;
+  return json;
+}
+
+void read_libraries(const Json& json, DescribedRun& run) {
+  for (const auto& [name, version] : json.items()) {
+    run.libraries.emplace_back(name, version.get<std::string>());
+  }
 }
 
 // "contact_stiffness_N_per_m1.5": the exponent follows the unit, if it is not 1.
-RunEntry contact_stiffness_entry() {
+Entry<DescribedRun> contact_stiffness_entry() {
   static constexpr const char* start = "contact_stiffness_N_per_m";
-  RunEntry entry(std::string("used.") + start + "^n",
-                 "stiffness of the contact; n: the exponent of the indentation, left out if 1");
+  Entry<DescribedRun> entry(
+      "used.contact_stiffness_N_per_m^n",
+      "stiffness of the contact; n: the exponent of the indentation, left out if 1");
   entry.write = [](Json& object, const DescribedRun& run) {
     const ResolvedSettings& used = run.result->used;
     const std::string power =
@@ -147,18 +237,6 @@ RunEntry contact_stiffness_entry() {
     object.at("used").at(start);  // throws, naming the missing field
   };
   return entry;
-}
-
-const Record<ZoneSummary>& zone_record() {
-  static const Record<ZoneSummary> record = {
-      {"zone", "number of the zone, from 1", &ZoneSummary::zone},
-      {"sub_impacts", "their number", &ZoneSummary::n_sub_impacts},
-      {"subzones", "their number", &ZoneSummary::n_subzones},
-      {"start_s", "start of its first sub-impact", &ZoneSummary::start},
-      {"end_s", "end of its last one; null: still in contact", &ZoneSummary::end},
-      {"impulse_Ns", "sum over its sub-impacts", &ZoneSummary::impulse},
-      {"peak_force_N", "largest force", &ZoneSummary::peak_force}};
-  return record;
 }
 
 std::vector<ZoneSummary> zones_of(const DescribedRun& run) {
@@ -179,177 +257,35 @@ Json count_transitions(const DescribedRun& run) {
   return json;
 }
 
-const Record<NearMiss>& near_miss_record() {
-  static const Record<NearMiss> record = {
-      {"kind", "opening: a contact that nearly opened; closing: the reverse", &NearMiss::kind},
-      {"time_s", "instant of the smallest margin", &NearMiss::time, Form::from_zero},
-      {"margin_m", "distance between the indentation and the residual one", &NearMiss::margin,
-       Form::above_zero}};
-  return record;
+std::optional<bool> wish_met(const DescribedRun& run) {
+  const std::optional<WishOutcome>& wish = run.result->wish;
+  return wish ? std::optional(wish->met) : std::nullopt;
 }
 
-const Record<WishOutcome>& wish_record() {
-  static const Record<WishOutcome> record = {
-      {"event_times_s", "error of event times that was asked for", &WishOutcome::wished,
-       Form::finite},
-      {"reached_error_s", "largest error of a certain event time; null: not known",
-       &WishOutcome::reached},
-      {"horizon_s", "up to which event times are certain and within that error",
-       &WishOutcome::horizon, Form::finite},
-      {"reason", "why the horizon comes before the end", &WishOutcome::reason, Form::empty_is_null},
-      {"key_to_free", "key of the case that stands in the way", &WishOutcome::key,
-       Form::empty_is_null}};
-  return record;
+void read_wish_met(const Json& met, DescribedRun& run) {
+  if (!met.is_null()) run.result->wish.emplace().met = met.get<bool>();
 }
-
-RunEntry wish_met_entry() {
-  RunEntry entry("wish_met", "whether accuracy.event_times was met; null: none was asked for",
-                 [](const DescribedRun& run) {
-                   const std::optional<WishOutcome>& wish = run.result->wish;
-                   return wish ? std::optional(wish->met) : std::nullopt;
-                 });
-  entry.read = [](const Json& object, DescribedRun& run) {
-    const Json& met = object.at("wish_met");
-    if (!met.is_null()) run.result->wish.emplace().met = met.get<bool>();
-  };
-  return entry;
-}
-
-const Record<ErrorEstimate::Part>& error_part_record() {
-  using Part = ErrorEstimate::Part;
-  static const Record<Part> record = {
-      {"name", "time, mesh or layers", &Part::name},
-      {"refined_run", "the run compared with", &Part::refined_run},
-      {"max_error_s", "largest error of a certain time", &Part::largest_error},
-      {"first_unresolved_index", "number, from 1, of the first uncertain sub-impact",
-       &Part::first_unresolved, Form::from_one},
-      {"reason", "why it is uncertain", &Part::reason, Form::empty_is_null}};
-  return record;
-}
-
-const Record<ErrorEstimate::UncertainFlight>& flight_record() {
-  using Flight = ErrorEstimate::UncertainFlight;
-  static const Record<Flight> record = {
-      {"after_index", "number, from 1, of the sub-impact before it", &Flight::after,
-       Form::from_one},
-      {"reason", "why it may hold another sub-impact", &Flight::reason}};
-  return record;
-}
-
-const Record<ErrorEstimate::FinerMeshes>& finer_meshes_record() {
-  using Finer = ErrorEstimate::FinerMeshes;
-  static const Record<Finer> record = {
-      {"mesh", "that shows it", &Finer::mesh},
-      {"sub_impacts", "on that mesh", &Finer::n_there},
-      {"same_sub_impacts", "sub-impacts that it confirms", &Finer::n_same},
-      {"change_of_first_end_s", "what finer meshes change the end of the first sub-impact by",
-       &Finer::change_of_first_end},
-      {"doubt", "why the mesh is too coarse", &Finer::doubt, Form::empty_is_null}};
-  return record;
-}
-
-const Record<ErrorEstimate>& error_record() {
-  static const Record<ErrorEstimate> record = {
-      {"refined_run", "the runs compared with", &ErrorEstimate::refined_run},
-      {"max_time_error_s", "largest error of a certain time", &ErrorEstimate::largest_error},
-      {"first_unresolved_index", "number, from 1, of the first sub-impact that is not certain",
-       &ErrorEstimate::first_unresolved, Form::from_one},
-      {"reason", "why it is uncertain", &ErrorEstimate::reason, Form::empty_is_null},
-      list_entry<ErrorEstimate>("parts", "sources of error, one by one", &ErrorEstimate::parts,
-                                error_part_record()),
-      list_entry<ErrorEstimate>("uncertain_flights", "", &ErrorEstimate::uncertain_flights,
-                                flight_record()),
-      object_entry<ErrorEstimate>("finer_meshes",
-                                  "of a mesh that the case fixes: what finer ones would change",
-                                  &ErrorEstimate::finer_meshes, finer_meshes_record())};
-  return record;
-}
-
-Json json_of(const Total& total) {
-  return {{"value", subimpact::json_of(total.value, Form::plain)},
-          {"error", subimpact::json_of(total.error, Form::plain)}};
-}
-
-void assign(Total& total, const Json& json) {
-  subimpact::assign(total.value, json.at("value"), "value", Form::plain);
-  subimpact::assign(total.error, json.at("error"), "error", Form::plain);
-}
-
-constexpr std::pair<const char*, Total ZoneTotals::*> zone_totals[] = {
-    {"start_s", &ZoneTotals::start},
-    {"end_s", &ZoneTotals::end},
-    {"impulse_Ns", &ZoneTotals::impulse},
-    {"sub_impacts", &ZoneTotals::sub_impacts}};
 
 // Names lead to objects of a value and an error; without error bars there are none.
-RunEntry totals_entry() {
-  RunEntry entry(
-      "totals",
-      "numbers of the run as a whole, each with its value and its error, "
-      "which covers 95 of 100; null: not known, as of the largest strain where a hinge "
-      "forms, in which strains grow without limit on finer meshes. by_zone: for each zone "
-      "start_s, end_s, impulse_Ns, sub_impacts");
-  entry.write = [](Json& object, const DescribedRun& run) {
-    Json& totals = object["totals"] = nullptr;
-    if (!run.result->error_estimate) return;
-    for (const auto& [name, total] : run.result->error_estimate->totals) {
-      totals[name] = json_of(total);
-    }
-    totals["by_zone"] = Json::array();
-    for (const ZoneTotals& zone : run.result->error_estimate->zones) {
-      Json entry;
-      for (const auto& [name, member] : zone_totals) entry[name] = json_of(zone.*member);
-      totals["by_zone"].push_back(std::move(entry));
-    }
-  };
-  entry.read = [](const Json& object, DescribedRun& run) {
-    const Json& totals = object.at("totals");
-    if (totals.is_null() || !run.result->error_estimate) return;
-    ErrorEstimate& estimate = *run.result->error_estimate;
-    for (const auto& [name, json] : totals.items()) {
-      if (name != "by_zone") assign(estimate.totals.emplace_back(name, Total()).total, json);
-    }
-    for (const Json& json : totals.at("by_zone")) {
-      ZoneTotals& zone = estimate.zones.emplace_back();
-      for (const auto& [name, member] : zone_totals) assign(zone.*member, json.at(name));
-    }
-  };
-  return entry;
+Json totals_json(const DescribedRun& run) {
+  if (!run.result->error_estimate) return nullptr;
+  Json json;
+  for (const auto& [name, total] : run.result->error_estimate->totals) {
+    json[name] = json_of(total, Form::plain);
+  }
+  json["by_zone"] = json_of(zone_totals_record, run.result->error_estimate->zones);
+  return json;
 }
 
-const Record<Predictability>& predictability_record() {
-  using Zone = Predictability::Zone;
-  static const Record<Zone> zone_record = {
-      {"start_scatter_s", "standard deviation of the zone's start", &Zone::start_scatter},
-      {"end_scatter_s", "that of its end", &Zone::end_scatter},
-      {"impulse_scatter_Ns", "that of its impulse", &Zone::impulse_scatter}};
-  static const Record<Predictability> record = {
-      {"horizon_s", "up to which the strike can be predicted", &Predictability::horizon,
-       Form::finite},
-      {"first_unpredictable_index", "number, from 1, of the first sub-impact that cannot be",
-       &Predictability::first_unpredictable, Form::from_one},
-      {"reason", "why it cannot", &Predictability::reason, Form::empty_is_null},
-      {"max_time_scatter_s", "largest standard deviation up to the horizon",
-       &Predictability::largest_scatter, Form::finite},
-      list_entry<Predictability>("zones", "", &Predictability::zones, zone_record),
-      {"striker_velocity_scatter_m_per_s", "standard deviation of the velocity at the end",
-       &Predictability::striker_velocity_scatter}};
-  return record;
+void read_totals(const Json& json, DescribedRun& run) {
+  if (json.is_null() || !run.result->error_estimate) return;
+  ErrorEstimate& estimate = *run.result->error_estimate;
+  for (const auto& [name, total] : json.items()) {
+    if (name == "by_zone") continue;
+    assign(estimate.totals.emplace_back(name, Total()).total, total, name, Form::plain);
+  }
+  assign(zone_totals_record, json.at("by_zone"), estimate.zones);
 }
-
-const Record<NeglectedShear>& shear_record() {
-  static const Record<NeglectedShear> record = {
-      {"first_contact_end_without_s", "on coarse cells", &NeglectedShear::without},
-      {"first_contact_end_with_s", "the same with shear; null: more than three times as late",
-       &NeglectedShear::with}};
-  return record;
-}
-
-// The beam at rest after the run, where shapes were computed and no check failed.
-struct BeamAtRest {
-  double largest_set = 0.0, position = 0.0;
-  std::vector<PlasticZone> plastic_zones;
-};
 
 std::optional<BeamAtRest> beam_at_rest(const DescribedRun& run) {
   const Result& result = *run.result;
@@ -359,181 +295,110 @@ std::optional<BeamAtRest> beam_at_rest(const DescribedRun& run) {
   return BeamAtRest{largest.permanent_set, largest.position, result.plastic_zones};
 }
 
-RunEntry contact_over_entry() {
-  RunEntry entry("contact_over",
-                 "yes: proven that no contact follows, for this run and those beside it",
-                 [](const DescribedRun& run) {
-                   return std::string(run.result->contact_over ? "yes" : "may not be");
-                 });
-  entry.read = [](const Json& object, DescribedRun& run) {
-    run.result->contact_over = object.at("contact_over") == "yes";
-  };
-  return entry;
+std::string contact_over(const DescribedRun& run) {
+  return run.result->contact_over ? "yes" : "may not be";
 }
 
-const Record<ClosestApproach>& approach_record() {
-  static const Record<ClosestApproach> record = {
-      {"time_s", "when", &ClosestApproach::time, Form::from_zero},
-      {"gap_m", "smallest gap", &ClosestApproach::gap, Form::above_zero},
-      {"error_m", "error of the gap", &ClosestApproach::error}};
-  return record;
+void read_contact_over(const Json& json, DescribedRun& run) {
+  run.result->contact_over = json == "yes";
 }
 
-RunEntry rest_entry() {
-  static const Record<PlasticZone> zone_record = {
-      {"from_m", "where a plastic hinge begins", &PlasticZone::from},
-      {"to_m", "where it ends", &PlasticZone::to},
-      {"rotation_rad", "its rotation", &PlasticZone::rotation}};
-  static const Record<BeamAtRest> record = {
-      {"largest_permanent_set_m", "largest displacement, against the chord, of the beam at rest",
-       &BeamAtRest::largest_set},
-      {"position_m", "where that is", &BeamAtRest::position},
-      list_entry<BeamAtRest>("plastic_zones", "", &BeamAtRest::plastic_zones, zone_record)};
-  auto entry = object_entry<DescribedRun>("rest", "the beam after the run", &beam_at_rest, record);
-  entry.read = [](const Json& object, DescribedRun& run) {
-    BeamAtRest rest;
-    const Json& json = object.at("rest");
-    if (!json.is_null()) assign(record, json, rest);
-    run.result->plastic_zones = rest.plastic_zones;
-  };
-  return entry;
+void read_rest(const Json& json, DescribedRun& run) {
+  BeamAtRest rest;
+  if (!json.is_null()) assign(rest_record, json, rest);
+  run.result->plastic_zones = rest.plastic_zones;
 }
 
+// clang-format off
 Record<DescribedRun> make_run_record() {
   using Used = ResolvedSettings;
   const auto outcome = [](auto member) { return result(&Result::outcome, member); };
   const auto energy = [](auto member) { return result(&Result::final_energies, member); };
   const auto work = [](auto member) { return result(&Result::work, member); };
   return {
-      {"layout", "version of the layout of this file",
-       [](const DescribedRun&) { return summary_layout; }},
+      {"layout", "version of the layout of this file", [](const DescribedRun&) { return summary_layout; }},
       {"program.name", "", [](const DescribedRun&) { return std::string("subimpact"); }},
       {"program.version", "version of the program", &DescribedRun::program_version},
-      libraries_entry(),
-      case_entry(),
+      {"libraries", "their versions", &libraries_json, &read_libraries},
+      {"case", "keys of the case as asked for", &case_json, &read_case},
       {"case_units", "units of the keys", &case_units},
 
-      {"used.method", "settings used, where the case left a choice open or it was derived",
-       [](const DescribedRun& run) { return run.input->solver.method; }},
+      {"used.method", "settings used, where the case left a choice open or it was derived", [](const DescribedRun& run) { return run.input->solver.method; }},
       {"used.table", "coefficients, of Runge-Kutta methods", used(&Used::table)},
       {"used.half_model", "whether symmetry was used", used(&Used::half_model)},
       {"used.mesh", "the mesh in words", used(&Used::mesh)},
       {"used.contact_law", "its name", used(&Used::contact_law)},
-      {"used.section", "name of the bending law; elastic where the beam never yields",
-       used(&Used::section)},
+      {"used.section", "name of the bending law; elastic where the beam never yields", used(&Used::section)},
       {"used.n_unknowns", "unknowns of the beam", used(&Used::n_unknowns)},
       {"used.n_sections", "sections modelled", used(&Used::n_sections)},
-      {"used.highest_frequency_rad_per_s", "upper bound, of the beam",
-       used(&Used::highest_frequency)},
-      {"used.largest_contact_slope_N_per_m", "that the energy of the strike allows",
-       used(&Used::largest_contact_slope)},
-      {"used.joined_frequency_rad_per_s", "of beam and striker joined by a spring of that slope",
-       used(&Used::joined_frequency)},
+      {"used.highest_frequency_rad_per_s", "upper bound, of the beam", used(&Used::highest_frequency)},
+      {"used.largest_contact_slope_N_per_m", "that the energy of the strike allows", used(&Used::largest_contact_slope)},
+      {"used.joined_frequency_rad_per_s", "of beam and striker joined by a spring of that slope", used(&Used::joined_frequency)},
       {"used.contact_time_s", "scale of the shortest contacts", used(&Used::contact_time)},
       {"used.critical_step_s", "of central differences", used(&Used::critical_step)},
       {"used.step_s", "of methods with fixed steps", used(&Used::step)},
-      {"used.position_tolerance_m", "of adaptive methods", used(&Used::position_tolerance),
-       Form::zero_is_null},
-      {"used.velocity_tolerance_m_per_s", "of adaptive methods", used(&Used::velocity_tolerance),
-       Form::zero_is_null},
+      {"used.position_tolerance_m", "of adaptive methods", used(&Used::position_tolerance), Form::zero_is_null},
+      {"used.velocity_tolerance_m_per_s", "of adaptive methods", used(&Used::velocity_tolerance), Form::zero_is_null},
       {"used.events", "how events are found", used(&Used::events)},
       {"used.reversals", "how reversals of sections are found", used(&Used::reversals)},
       {"used.max_order", "of multistep methods", used(&Used::max_order)},
       contact_stiffness_entry(),
-      {"used.yield_indentation_m", "at which a contact without history first yields",
-       used(&Used::yield_indentation)},
-      {"used.yield_curvature_per_m", "at which a section first yields",
-       used(&Used::yield_curvature)},
-      {"used.first_period_s", "first period of the beam in bending", used(&Used::first_period),
-       Form::finite},
-      {"used.initial_energy_J", "energy of the striker before the strike",
-       used(&Used::initial_energy), Form::finite},
-      {"used.energy_tolerance_relative", "error of the energy that is allowed",
-       used(&Used::energy_tolerance)},
+      {"used.yield_indentation_m", "at which a contact without history first yields", used(&Used::yield_indentation)},
+      {"used.yield_curvature_per_m", "at which a section first yields", used(&Used::yield_curvature)},
+      {"used.first_period_s", "first period of the beam in bending", used(&Used::first_period), Form::finite},
+      {"used.initial_energy_J", "energy of the striker before the strike", used(&Used::initial_energy), Form::finite},
+      {"used.energy_tolerance_relative", "error of the energy that is allowed", used(&Used::energy_tolerance)},
       {"used.shape_interval_s", "time between shapes; 0: none", used(&Used::shape_interval)},
       {"used.n_shape_points", "points of a shape", used(&Used::n_shape_points)},
 
-      {"outcome.kind",
-       "completed, stopped, inaccurate, unstable, chattering, solver_failed or left_validity",
-       outcome(&Outcome::kind)},
+      {"outcome.kind", "completed, stopped, inaccurate, unstable, chattering, solver_failed or left_validity", outcome(&Outcome::kind)},
       {"outcome.time_s", "time reached", outcome(&Outcome::time), Form::from_zero},
-      {"outcome.message", "cause and what to do, of a run that did not complete",
-       outcome(&Outcome::message)},
-      {"outcome.first_failure_s",
-       "last time at which every check passed, first at which one failed",
-       outcome(&Outcome::first_failure), Form::finite},
-      wish_met_entry(),
-      object_entry<DescribedRun>("wish", "what became of accuracy.event_times",
-                                 result(&Result::wish), wish_record()),
+      {"outcome.message", "cause and what to do, of a run that did not complete", outcome(&Outcome::message)},
+      {"outcome.first_failure_s", "last time at which every check passed, first at which one failed", outcome(&Outcome::first_failure), Form::finite},
+      {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &wish_met, &read_wish_met},
+      {"wish", "what became of accuracy.event_times", result(&Result::wish), wish_record},
       {"choice", "why mesh and method are what they are", result(&Result::choice)},
-      object_entry<DescribedRun>("neglected_shear",
-                                 "end of the first contact without and with shear",
-                                 result(&Result::neglected_shear), shear_record()),
+      {"neglected_shear", "end of the first contact without and with shear", result(&Result::neglected_shear), shear_record},
       {"warnings", "reasons to doubt results that passed all checks", result(&Result::warnings)},
 
-      {"counts.sub_impacts", "number of sub-impacts",
-       [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
-      {"counts.zones", "number of zones",
-       [](const DescribedRun& run) { return zones_of(run).size(); }},
+      {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
+      {"counts.zones", "number of zones", [](const DescribedRun& run) { return zones_of(run).size(); }},
       {"counts.subzones", "number of sub-zones", &count_subzones},
       {"counts.transitions", "number of events of each kind", &count_transitions},
       {"counts.yielded_sections", "of the sections modelled", result(&Result::n_yielded_sections)},
       {"counts.history_rows", "rows of history.csv", result(&Result::n_history_rows)},
       {"counts.shape_rows", "rows of shapes.csv", result(&Result::n_shape_rows)},
-      list_entry<DescribedRun>("zones", "", &zones_of, zone_record()),
-      list_entry<DescribedRun>("near_misses", "", result(&Result::near_misses), near_miss_record()),
-      {"first_yield.section_s", "when a section first yields; null: never",
-       result(&Result::first_section_yield)},
-      {"first_yield.contact_s", "when the contact first yields; null: never",
-       result(&Result::first_contact_yield)},
-      {"no_more_contact_s", "from when it is proven that no contact follows",
-       result(&Result::no_more_contact)},
-      contact_over_entry(),
-      object_entry<DescribedRun>("closest_approach",
-                                 "after the last sub-impact; null: the gap does nothing but grow",
-                                 result(&Result::closest_approach), approach_record()),
+      {"zones", "", &zones_of, zone_record},
+      {"near_misses", "", result(&Result::near_misses), near_miss_record},
+      {"first_yield.section_s", "when a section first yields; null: never", result(&Result::first_section_yield)},
+      {"first_yield.contact_s", "when the contact first yields; null: never", result(&Result::first_contact_yield)},
+      {"no_more_contact_s", "from when it is proven that no contact follows", result(&Result::no_more_contact)},
+      {"contact_over", "yes: proven that no contact follows, for this run and those beside it", &contact_over, &read_contact_over},
+      {"closest_approach", "after the last sub-impact; null: the gap does nothing but grow", result(&Result::closest_approach), approach_record},
       {"maxima.force_N", "largest contact force", result(&Result::max_force), Form::finite},
-      {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation),
-       Form::finite},
-      {"final.striker_velocity_m_per_s", "velocity of the striker at the end",
-       result(&Result::striker_velocity), Form::finite},
-      {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass",
-       result(&Result::beam_mean_velocity), Form::finite},
-      {"final_energies.striker_J", "at the end; these seven add up to used.initial_energy_J",
-       energy(&Energies::striker)},
+      {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation), Form::finite},
+      {"final.striker_velocity_m_per_s", "velocity of the striker at the end", result(&Result::striker_velocity), Form::finite},
+      {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass", result(&Result::beam_mean_velocity), Form::finite},
+      {"final_energies.striker_J", "at the end; these seven add up to used.initial_energy_J", energy(&Energies::striker)},
       {"final_energies.beam_kinetic_J", "of the beam's motion", energy(&Energies::beam_kinetic)},
       {"final_energies.bending_elastic_J", "stored in bending", energy(&Energies::bending_elastic)},
-      {"final_energies.bending_plastic_J", "dissipated by bending",
-       energy(&Energies::bending_plastic)},
-      {"final_energies.contact_elastic_J", "stored in the contact",
-       energy(&Energies::contact_elastic)},
-      {"final_energies.contact_plastic_J", "dissipated by the contact, with its damping",
-       energy(&Energies::contact_plastic)},
-      {"final_energies.beam_damping_J", "dissipated by the damping of the beam",
-       energy(&Energies::beam_damping)},
-      {"dissipated_by_damping.contact_J", "energy dissipated by the damping of the contact",
-       result(&Result::contact_damping_loss)},
-      {"dissipated_by_damping.beam_J", "energy dissipated by the damping of the beam",
-       result(&Result::beam_damping_loss)},
-      rest_entry(),
-      {"conservation.max_energy_error_relative", "largest error of the energy",
-       result(&Result::max_energy_error)},
-      {"conservation.max_momentum_error_relative",
-       "largest error of the momentum; null where supports take momentum up",
-       result(&Result::max_momentum_error)},
-      {"conservation.max_impulse_error_relative",
-       "largest difference between an impulse and the integral of its force, over m v0",
-       result(&Result::max_impulse_error)},
-      object_entry<DescribedRun>("error_bars", "errors of event times; null: not estimated",
-                                 result(&Result::error_estimate), error_record()),
-      totals_entry(),
-      object_entry<DescribedRun>("predictability", "of a case with scatter",
-                                 result(&Result::predictability), predictability_record()),
+      {"final_energies.bending_plastic_J", "dissipated by bending", energy(&Energies::bending_plastic)},
+      {"final_energies.contact_elastic_J", "stored in the contact", energy(&Energies::contact_elastic)},
+      {"final_energies.contact_plastic_J", "dissipated by the contact, with its damping", energy(&Energies::contact_plastic)},
+      {"final_energies.beam_damping_J", "dissipated by the damping of the beam", energy(&Energies::beam_damping)},
+      {"dissipated_by_damping.contact_J", "energy dissipated by the damping of the contact", result(&Result::contact_damping_loss)},
+      {"dissipated_by_damping.beam_J", "energy dissipated by the damping of the beam", result(&Result::beam_damping_loss)},
+      {"rest", "the beam after the run", &beam_at_rest, rest_record, &read_rest},
+      {"conservation.max_energy_error_relative", "largest error of the energy", result(&Result::max_energy_error)},
+      {"conservation.max_momentum_error_relative", "largest error of the momentum; null where supports take momentum up", result(&Result::max_momentum_error)},
+      {"conservation.max_impulse_error_relative", "largest difference between an impulse and the integral of its force, over m v0", result(&Result::max_impulse_error)},
+      {"error_bars", "errors of event times; null: not estimated", result(&Result::error_estimate), error_record},
+      {"totals", "numbers of the run as a whole, each with its value and its error, which covers 95 of 100; null: not known, as of the largest strain where a hinge forms, in which strains grow without limit on finer meshes. by_zone: for each zone start_s, end_s, impulse_Ns, sub_impacts", &totals_json, &read_totals},
+      {"predictability", "of a case with scatter", result(&Result::predictability), predictability_record},
 
       {"work.steps", "steps of the method", work(&Work::steps)},
       {"work.rejected_steps", "steps repeated with another length", work(&Work::rejected_steps)},
-      {"work.partial_steps", "steps made to compute states within a step",
-       work(&Work::partial_steps)},
+      {"work.partial_steps", "steps made to compute states within a step", work(&Work::partial_steps)},
       {"work.right_hand_sides", "evaluations of the equations", work(&Work::right_hand_sides)},
       {"work.mass_solves", "solutions with the mass matrix", work(&Work::mass_solves)},
       {"work.jacobians", "evaluations of the Jacobian", work(&Work::jacobians)},
@@ -545,6 +410,7 @@ Record<DescribedRun> make_run_record() {
       {"work.wall_s", "time spent in all", work(&Work::wall_seconds)},
       {"work.all_s", "the same with the runs beside it and before it", work(&Work::all_seconds)}};
 }
+// clang-format on
 
 }  // namespace
 
