@@ -1,10 +1,9 @@
 
-#include <algorithm>
 
+#include "subimpact/study/compare.h"
 #include "commands.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/compare.h"
 
 namespace subimpact::app {
 namespace {

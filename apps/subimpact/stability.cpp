@@ -1,7 +1,5 @@
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "commands.h"
 #include "subimpact/report/studies.h"
 

@@ -2,7 +2,6 @@
 
 #include "case/counted.h"
 #include "commands.h"
-#include "subimpact/case/case_keys.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact::app {

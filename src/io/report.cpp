@@ -1,10 +1,5 @@
 #include "subimpact/io/report.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "case/counted.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
-#include <string>
 
 #include "subimpact/report/figures.h"
 

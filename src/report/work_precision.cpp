@@ -1,9 +1,4 @@
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <fstream>
-#include <limits>
 
 #include "case/counted.h"
 #include "io/csv_reader.h"
@@ -11,9 +6,7 @@
 #include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
-#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact {

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <cstddef>
-
 #include "simulate/run_parts.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

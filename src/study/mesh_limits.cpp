@@ -1,8 +1,5 @@
 #include "study/mesh_limits.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/richardson.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"

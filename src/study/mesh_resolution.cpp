@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "numerics/units.h"
 #include "subimpact/study/other_mesh.h"
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 

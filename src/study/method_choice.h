@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "subimpact/case/case.h"
 
 namespace subimpact {

@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
-#include <set>
 
 #include "numerics/random.h"
 

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "case/shifted_case.h"
 #include "numerics/units.h"
 #include "subimpact/study/match.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "subimpact/study/within.h"
 
 namespace subimpact {

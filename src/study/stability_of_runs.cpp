@@ -1,10 +1,5 @@
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <mutex>
-#include <optional>
 
 #include "case/counted.h"
 #include "study/method_choice.h"

@@ -1,8 +1,5 @@
 #include "study/stencil.h"
 
-#include <cmath>
-#include <limits>
-
 namespace subimpact {
 namespace {
 

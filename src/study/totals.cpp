@@ -1,10 +1,5 @@
 #include "study/totals.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-
 namespace subimpact {
 namespace {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "subimpact/study/judgement.h"
 
 namespace subimpact {

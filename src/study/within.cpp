@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"

@@ -1,11 +1,6 @@
 #include "subimpact/study/work_precision.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "case/counted.h"
-#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {
