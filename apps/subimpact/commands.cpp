@@ -2,14 +2,19 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <string_view>
 #include <thread>
 
 #include "case/slips.h"
 #include "case/units.h"
 #include "io/printable.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/io/report.h"
+#include "subimpact/simulate/options.h"
 #include "subimpact/study/sweep.h"
 
 namespace subimpact::app {

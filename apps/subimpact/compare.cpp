@@ -1,9 +1,10 @@
 
+#include <algorithm>
 
-#include "subimpact/study/compare.h"
 #include "commands.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/study/compare.h"
 
 namespace subimpact::app {
 namespace {

@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -12,6 +13,8 @@
 
 #include "commands.h"
 #include "io/printable.h"
+#include "subimpact/case/case_keys.h"
+#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 
 namespace {

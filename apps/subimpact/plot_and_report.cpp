@@ -1,7 +1,10 @@
 #include <system_error>
 
 #include "commands.h"
+#include "subimpact/io/read_results.h"
 #include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/report/figures.h"
 #include "subimpact/report/pages.h"
 
 namespace subimpact::app {

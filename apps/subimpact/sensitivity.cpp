@@ -1,6 +1,8 @@
 
+#include <algorithm>
 
 #include "commands.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/run_as_asked.h"

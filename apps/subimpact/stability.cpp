@@ -1,5 +1,7 @@
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "commands.h"
 #include "subimpact/report/studies.h"
 

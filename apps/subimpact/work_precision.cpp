@@ -2,6 +2,7 @@
 
 #include "case/counted.h"
 #include "commands.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact::app {

@@ -3,17 +3,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include <toml++/toml.h>
 
 #include "case/meshes.h"
 #include "case/slips.h"
 #include "case/units.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 
 namespace subimpact {

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 
 #include "case/case_choices.h"
 #include "case/counted.h"
 #include "io/study_columns.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 

@@ -1,6 +1,9 @@
 #include "io/csv_reader.h"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "case/counted.h"
 #include "subimpact/io/read_results.h"

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/csv_columns.h"
 #include "subimpact/simulate/records.h"

@@ -1,10 +1,17 @@
+#include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <cmath>
 
 #include "case/case_choices.h"
 #include "case/counted.h"
+#include "case/meshes.h"
+#include "case/problem.h"
 #include "numerics/units.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/simulate/options.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {

@@ -1,5 +1,14 @@
 #include "subimpact/io/read_results.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <optional>
+
 #include "io/csv_reader.h"
 #include "io/row_thinning.h"
 #include "io/run_record.h"

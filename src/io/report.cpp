@@ -1,5 +1,10 @@
 #include "subimpact/io/report.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "case/counted.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"

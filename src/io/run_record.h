@@ -1,5 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "io/record.h"
 #include "subimpact/io/results.h"
 

@@ -1,10 +1,15 @@
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 
 #include "case/case_choices.h"
 #include "case/counted.h"
+#include "case/problem.h"
 #include "io/printable.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/advice.h"

@@ -1,12 +1,17 @@
 #include "io/sealed_files.h"
 
+#include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include <array>
 #include <cerrno>
+#include <cstring>
+#include <memory>
 #include <sstream>
 #include <system_error>
 
 #include "io/record.h"
+#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact {

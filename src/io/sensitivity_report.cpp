@@ -1,10 +1,13 @@
+#include <fmt/format.h>
 
+#include <algorithm>
 
 #include "case/counted.h"
 #include "io/sealed_files.h"
 #include "io/study_columns.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 

@@ -1,11 +1,15 @@
+#include <fmt/format.h>
 
+#include <algorithm>
 
 #include <toml++/toml.h>
 #include <Eigen/Core>
 
+#include "case/problem.h"
 #include "integrate/sundials.h"
 #include "io/run_record.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {

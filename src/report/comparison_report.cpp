@@ -1,10 +1,17 @@
 #include "subimpact/report/pages.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "case/counted.h"
 #include "io/sealed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
+#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "io/run_tables.h"
 

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "report/gnuplot.h"
+#include "subimpact/case/case.h"
+#include "subimpact/simulate/result.h"
 
 namespace subimpact {
 

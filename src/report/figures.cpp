@@ -1,8 +1,10 @@
 #include "subimpact/report/figures.h"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <ranges>
+#include <string_view>
 
 #include "case/counted.h"
 #include "io/sealed_files.h"

@@ -9,12 +9,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <system_error>
+#include <vector>
 
 #include "io/sealed_files.h"
 #include "report/files.h"
+#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {

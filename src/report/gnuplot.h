@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
+#include <string>
 
 #include "subimpact/report/figures.h"
 

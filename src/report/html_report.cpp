@@ -1,10 +1,15 @@
 #include "subimpact/report/pages.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "case/counted.h"
 #include "io/run_record.h"
 #include "io/sealed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"
 

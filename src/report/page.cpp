@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
+#include <algorithm>
+#include <cmath>
 #include <regex>
+#include <stdexcept>
+#include <utility>
 
 #include "io/printable.h"
 #include "io/sealed_files.h"

@@ -4,7 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
 #include <ranges>
 #include <set>
+#include <variant>
 
 #include "case/problem.h"
 #include "io/row_thinning.h"

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
 
+#include <algorithm>
 
 #include "case/case_choices.h"
+#include "case/meshes.h"
 #include "io/sealed_files.h"
 #include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/report/studies.h"
 

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 
 #include "case/case_choices.h"
 #include "case/counted.h"

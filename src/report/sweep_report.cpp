@@ -1,5 +1,12 @@
 #include "subimpact/report/pages.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
 #include "case/counted.h"
 #include "io/sealed_files.h"
 #include "report/page.h"

@@ -1,4 +1,9 @@
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <limits>
 
 #include "case/counted.h"
 #include "io/csv_reader.h"
@@ -6,7 +11,9 @@
 #include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact {

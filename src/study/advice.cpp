@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "case/meshes.h"
 #include "study/refinement.h"
 #include "subimpact/study/run_as_asked.h"

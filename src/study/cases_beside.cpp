@@ -1,5 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <new>
+#include <utility>
+
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"

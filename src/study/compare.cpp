@@ -1,7 +1,14 @@
 #include "subimpact/study/compare.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 #include "case/counted.h"
 #include "study/method_choice.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 namespace {

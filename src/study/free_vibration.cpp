@@ -1,5 +1,9 @@
 #include "study/free_vibration.h"
 
+#include <cmath>
+#include <limits>
+#include <vector>
+
 #include "case/meshes.h"
 #include "integrate/stability.h"
 

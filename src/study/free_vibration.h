@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
+
 #include "simulate/run_parts.h"
 #include "subimpact/case/simulate.h"
+#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
 #include "numerics/median.h"
 #include "numerics/units.h"
 #include "study/mesh_limits.h"

@@ -1,5 +1,8 @@
 #include "study/mesh_limits.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "numerics/richardson.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "subimpact/study/judgement.h"
 
 namespace subimpact {

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "numerics/units.h"
 #include "subimpact/study/other_mesh.h"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
 

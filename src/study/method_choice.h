@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "subimpact/case/case.h"
 
 namespace subimpact {

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {

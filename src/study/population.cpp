@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <set>
 
 #include "numerics/random.h"
 

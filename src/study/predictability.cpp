@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "case/shifted_case.h"
 #include "numerics/units.h"
 #include "subimpact/study/match.h"

@@ -1,9 +1,13 @@
 #include "study/refinement.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"
 #include "study/mesh_resolution.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/study/other_mesh.h"
 
 namespace subimpact {

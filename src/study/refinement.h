@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "subimpact/study/within.h"
 
 namespace subimpact {

@@ -1,9 +1,11 @@
 #include "subimpact/study/run_as_asked.h"
 
 #include <chrono>
+#include <utility>
 
 #include "case/meshes.h"
 #include "study/mesh_resolution.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 namespace {

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <iterator>
+#include <mutex>
 
 #include "case/meshes.h"
 #include "case/shifted_case.h"

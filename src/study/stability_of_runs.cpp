@@ -1,5 +1,10 @@
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <mutex>
+#include <optional>
 
 #include "case/counted.h"
 #include "study/method_choice.h"

@@ -1,12 +1,19 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <random>
 
 #include "integrate/central_difference.h"
 #include "integrate/stability.h"
+#include "numerics/bracketed_root.h"
+#include "simulate/run_parts.h"
 #include "study/free_vibration.h"
 #include "study/method_choice.h"
 #include "study/parallel.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/simulate/options.h"
 #include "subimpact/study/stability.h"
 #include "system/contact_resonance.h"
 

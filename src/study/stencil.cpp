@@ -1,5 +1,8 @@
 #include "study/stencil.h"
 
+#include <cmath>
+#include <limits>
+
 namespace subimpact {
 namespace {
 

@@ -2,6 +2,9 @@
 
 /// Central differences of one number of a run over two shifts of a key.
 
+#include <algorithm>
+#include <array>
+
 #include "subimpact/study/sensitivity.h"
 
 namespace subimpact {

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "case/problem.h"
 #include "simulate/methods.h"
 #include "study/method_choice.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {

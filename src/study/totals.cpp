@@ -1,5 +1,10 @@
 #include "study/totals.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
 namespace subimpact {
 namespace {
 

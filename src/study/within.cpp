@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "case/meshes.h"
 #include "case/problem.h"
 #include "simulate/methods.h"

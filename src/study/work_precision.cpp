@@ -1,6 +1,11 @@
 #include "subimpact/study/work_precision.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "case/counted.h"
+#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {
