@@ -20,11 +20,6 @@
 namespace subimpact::app {
 namespace {
 
-// An empty value would count as none.
-std::string not_empty(const std::string& text) {
-  return text.empty() ? "is empty; give a value, or leave the option out" : std::string();
-}
-
 std::vector<std::string> table_names(const std::string& method) {
   std::vector<std::string> names;
   for (const MethodTable& table : method_tables()) {
@@ -58,6 +53,10 @@ ExitStatus status_of(OutcomeKind outcome) {
 void print_to(std::FILE* stream, const std::string& text) {
   const std::string shown = printable(text);
   std::fwrite(shown.data(), 1, shown.size(), stream);
+}
+
+std::string not_empty(const std::string& text) {
+  return text.empty() ? "is empty; give a value, or leave the option out" : std::string();
 }
 
 CLI::Option* add_directory_option(CLI::App& command, std::string& directory,

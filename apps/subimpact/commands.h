@@ -58,6 +58,9 @@ struct CaseOptions {
   std::string directory_with(const std::string& ending) const;
 };
 
+/// A check of an option: an empty value would count as none.
+std::string not_empty(const std::string& text);
+
 CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
                                   const std::string& meaning);
 
@@ -144,6 +147,6 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& program, int& status, const
 
 using AddCommands = void(CLI::App& program, int& status);
 AddCommands add_run, add_compare, add_work_precision, add_stability, add_plan, add_sensitivity,
-    add_explain, add_new, add_plot_and_report, add_listings;
+    add_explain, add_new, add_plot_and_report, add_listings, add_manual;
 
 }  // namespace subimpact::app

@@ -1,11 +1,14 @@
+#include <cmath>
 #include <system_error>
 
+#include "case/units.h"
 #include "commands.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"
 #include "subimpact/report/pages.h"
+#include "subimpact/study/overlay.h"
 
 namespace subimpact::app {
 namespace {
@@ -15,6 +18,7 @@ struct FinishedRunOptions {
   std::string directory;
   std::string scripts;
   std::string dygraphs;
+  std::string measured, shift, low_pass;
 
   const std::string& directory_or_first_run() const {
     return directory.empty() ? runs.front() : directory;
@@ -69,15 +73,35 @@ int plot(FinishedRunOptions& options) {
   return done;
 }
 
+constexpr const char* find_cutoff = "find";
+
+std::optional<Overlay> overlay_with(const FinishedRun& run, const FinishedRunOptions& options) {
+  if (options.measured.empty()) return std::nullopt;
+  OverlayOptions how;
+  how.shift = value_in("s", options.shift);
+  how.find_low_pass = options.low_pass == find_cutoff;
+  how.low_pass = value_in("Hz", options.low_pass);
+  return overlay_of(run.result.history, read_signal(options.measured), how);
+}
+
+void print_overlay(const Overlay& overlay) {
+  for (const auto& [name, value, note] : answers(overlay)) {
+    print("  {:<18}  {}\n{:22}{}\n", name, value, "", note);
+  }
+  if (const std::string doubt = overlay_doubt(overlay); !doubt.empty()) print_warnings({doubt});
+}
+
 int report(const FinishedRunOptions& options) {
   const FinishedRun run = read_results(options.runs.front());
+  const std::optional<Overlay> overlay = overlay_with(run, options);
   OutputDirectory directory(options.directory_or_first_run(), "figures", run.identity);
   OutputDirectory figures(options.figures(), "figures", run.identity);
-  WrittenReport written =
-      write_html_report(directory.staging(), figures.staging(), run, options.dygraphs);
+  WrittenReport written = write_html_report(directory.staging(), figures.staging(), run,
+                                            options.dygraphs, overlay ? &*overlay : nullptr);
   commit_figures(figures, written.figures);
   const bool is_there = commit_figures(directory, written.figures) && !written.page.empty();
   if (is_there) print("{}\n", (directory.path() / written.page.filename()).string());
+  if (overlay) print_overlay(*overlay);
   print_notes(directory, run);
   if (!written.charts_missing.empty()) {
     print_error("subimpact: note: no zoomable charts: {}\n", written.charts_missing);
@@ -117,6 +141,9 @@ int report_sweep(const FinishedRunOptions& options) {
 }
 
 int report_any(FinishedRunOptions& options) {
+  if (!options.measured.empty() && (options.runs.size() > 1 || holds_sweep(options.runs.front()))) {
+    throw CLI::ValidationError("--measured", "is laid beside one run; give its directory alone");
+  }
   for (const std::string& run : options.runs) {
     if (!holds_sweep(run)) continue;
     if (options.runs.size() == 1) return report_sweep(options);
@@ -152,6 +179,17 @@ void add_plot(CLI::App& program, int& status) {
       "3 a figure could not be drawn or written, the others are.");
 }
 
+// The check of a value with a unit: any finite time, a frequency above 0.
+auto has_unit(const char* unit, const char* allowed) {
+  return [=](const std::string& given) {
+    const std::optional<double> value = value_in(unit, given);
+    const bool may_be_negative = unit == std::string("s");
+    const bool fits = value && std::isfinite(*value) && (may_be_negative || *value > 0.0);
+    if (fits || (!may_be_negative && given == find_cutoff)) return std::string();
+    return fmt::format("is \"{}\"; allowed: {}", given, allowed);
+  };
+}
+
 void add_report(CLI::App& program, int& status) {
   auto [command, options] = add_command(program, status, "report",
                                         "Write finished runs up as one page of HTML", report_any);
@@ -168,6 +206,25 @@ void add_report(CLI::App& program, int& status) {
   command.add_option("--dygraphs", options.dygraphs,
                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                      "Default: that of Debian's libjs-dygraphs");
+  CLI::Option* measured = command.add_option("--measured", options.measured,
+                                             "CSV file of a measured force, to be laid beside the "
+                                             "computed one; its heading has the units: "
+                                             "time_us,force_kN");
+  measured->check(not_empty);
+  command
+      .add_option("--shift", options.shift,
+                  "By how much the measured time is later than that of the run, with its unit: "
+                  "-12.5us. Default: found, where the two forces correlate most")
+      ->needs(measured)
+      ->check(has_unit("s", "a time with its unit, such as 12.5us or -3ms"));
+  command
+      .add_option(
+          "--low-pass", options.low_pass,
+          "Cut-off of the transducer, with its unit: 20kHz; the computed force is filtered "
+          "by a Butterworth low-pass of fourth order. \"find\": the cut-off is found, where "
+          "the two forces correlate most. Default: no filter")
+      ->needs(measured)
+      ->check(has_unit("Hz", "a frequency above 0 with its unit, such as 20kHz, or find"));
   command.footer(
       "report.html needs no other file and no network. In a browser it shows the beam moving, "
       "zoomable charts, force against indentation, a timeline with error bars and the table of "
@@ -180,6 +237,7 @@ void add_report(CLI::App& program, int& status) {
       "  subimpact run case.toml --out out/first --error-bars --set output.sections=0.5,0.4\n"
       "  subimpact report out/first\n"
       "  subimpact report out/first out/second --out out/both\n"
+      "  subimpact report out/first --measured force.csv --low-pass 20kHz\n"
       "Exit status: 0 done; 2 bad command line, files that no run has written, or gnuplot "
       "missing; 3 a figure could not be drawn, the page is written without it; or the page could "
       "not be written, the figures are.");

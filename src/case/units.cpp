@@ -18,6 +18,8 @@ constexpr NamedUnit named_units[] = {
     {"m/s", "m/s", 0},     {"m/s", "mm/s", -3},   {"m/s", "km/s", 3}, {"Pa", "Pa", 0},
     {"Pa", "kPa", 3},      {"Pa", "MPa", 6},      {"Pa", "GPa", 9},   {"Pa", "N/mm2", 6},
     {"kg/m3", "kg/m3", 0}, {"kg/m3", "g/cm3", 3}, {"1/s", "1/s", 0},  {"s/m", "s/m", 0},
+    {"N", "N", 0},         {"N", "mN", -3},       {"N", "kN", 3},     {"N", "MN", 6},
+    {"Hz", "Hz", 0},       {"Hz", "kHz", 3},      {"Hz", "MHz", 6},
 };
 
 bool is_space(char c) { return c == ' ' || c == '\t'; }

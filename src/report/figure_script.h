@@ -11,6 +11,7 @@
 #include "report/gnuplot.h"
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
+#include "subimpact/study/overlay.h"
 
 namespace subimpact {
 
@@ -85,6 +86,7 @@ FigureScript timeline_figure(const Case& input, const Result& result);
 FigureScript bending_figure(const Case& input, const Result& result);
 FigureScript shapes_figure(const Case& input, const Result& result);
 FigureScript envelope_figure(const Case& input, const Result& result);
+FigureScript measured_figure(const Overlay& overlay);
 
 /// Sections that `bending` has room for: the first ones of output.sections.
 inline constexpr std::size_t most_bending_panels = 24;

@@ -126,11 +126,14 @@ std::vector<std::string> write_figure_scripts(const std::filesystem::path& direc
 }
 
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
-                          const Result& result, const std::filesystem::path& scripts) {
+                          const Result& result, const std::filesystem::path& scripts,
+                          const Overlay* overlay) {
   if (!scripts.empty()) refuse_finished_scripts(scripts);
   DrawnFigures figures;
   figures.left_out = figures_left_out(input, result);
-  for (const FigureScript& figure : figure_scripts(input, result)) {
+  std::vector<FigureScript> all = figure_scripts(input, result);
+  if (overlay != nullptr) all.push_back(measured_figure(*overlay));
+  for (const FigureScript& figure : all) {
     try {
       draw_figure(directory, figure.name(), figure.text(scripts), figure.size());
       figures.drawn.push_back({figure.name(), figure.caption()});

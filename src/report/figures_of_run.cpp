@@ -355,4 +355,32 @@ FigureScript envelope_figure(const Case& input, const Result& result) {
   return figure;
 }
 
+FigureScript measured_figure(const Overlay& overlay) {
+  FigureScript figure("measured",
+                      "The measured force and the computed one on the time of the run, their "
+                      "difference (computed less measured), and both about the largest force.",
+                      {800, 820});
+  const auto add = [&](const std::string& name, const Signal& signal, AxisRange shown) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < signal.times.size(); ++i) {
+      points.push_back({signal.times[i], signal.forces[i]});
+    }
+    std::erase_if(points, [&](const Point& p) { return p.x < shown.from || p.x > shown.to; });
+    figure.line(name, points, {690, 300});
+  };
+  const double peak_time = overlay.measured.peak_time, span = overlay.to - overlay.from;
+  const AxisRange all{overlay.from, overlay.to};
+  const AxisRange near{std::max(overlay.from, peak_time - 0.03 * span),
+                       std::min(overlay.to, peak_time + 0.03 * span)};
+  add("computed", overlay.computed.force, all);
+  add("measured", overlay.measured.force, all);
+  add("difference", overlay.difference, all);
+  add("near_computed", overlay.computed.force, near);
+  add("near_measured", overlay.measured.force, near);
+  figure.set("from", all.from).set("to", all.to).set("near_from", near.from);
+  figure.set("near_to", near.to);
+  figure.set("largest_force", std::max(overlay.computed.peak, overlay.measured.peak));
+  return figure;
+}
+
 }  // namespace subimpact

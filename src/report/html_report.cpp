@@ -52,10 +52,7 @@ Json headlines(const Result& result) {
   return list;
 }
 
-// The answers of the summary, but for the first: who struck whom stands above.
-Json tiles(const Case& input, const Result& result) {
-  std::vector<Answer> all = answers(input, result);
-  all.erase(all.begin());
+Json tiles(const std::vector<Answer>& all) {
   return list_of(all, [](const Answer& answer) -> Json {
     const bool of_zone = answer.name.starts_with("  zone");  // on the screen below the impulse
     return {{"name", (of_zone ? "impulse of" : "") + answer.name.substr(of_zone ? 1 : 0)},
@@ -109,10 +106,11 @@ Json flights(const std::optional<ErrorEstimate>& estimate) {
 
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
                         const std::filesystem::path& figure_directory,
-                        const std::filesystem::path& dygraphs) {
+                        const std::filesystem::path& dygraphs, const Overlay* overlay) {
   const Result& result = run.result;
   const Scene& scene = run.input.scene;
-  const PageData data = page_data(run.input, result);
+  const PageData data = page_data(run.input, result, overlay);
+  const std::vector<Answer> all_answers = answers(run.input, result);
   std::string versions = run.program_version;
   for (const auto& [name, version] : run.libraries) versions += ", " + name + " " + version;
   const auto if_any = [](const auto& value, auto words) {
@@ -120,6 +118,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   };
   Json page = {
       {"title", run.input.title.empty() ? "A strike" : run.input.title},
+      // Of the answers the first, who struck whom, stands above.
       {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
       {"striker_kg", fmt::format("{:.4g}", scene.striker.mass)},
       {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
@@ -138,7 +137,10 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"caveat", in_print(outcome_caveat(result))},
       {"cause", result.outcome.completed() ? "" : in_print(result.outcome.message)},
       {"warnings", result.warnings},
-      {"tiles", tiles(run.input, result)},
+      {"tiles", tiles({all_answers.begin() + 1, all_answers.end()})},
+      {"measured", overlay != nullptr ? Json{{"answers", tiles(answers(*overlay))},
+                                             {"doubt", in_print(overlay_doubt(*overlay))}}
+                                      : Json(nullptr)},
       {"flights", flights(result.error_estimate)},
       {"summary", in_print(run_summary(run.input, result, true))},
       {"figures", figure_list(figures, figure_directory)},
@@ -155,11 +157,12 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
 
 WrittenReport write_html_report(const std::filesystem::path& directory,
                                 const std::filesystem::path& figure_directory,
-                                const FinishedRun& run, const std::filesystem::path& dygraphs) {
-  DrawnFigures figures = draw_figures(figure_directory, run.input, run.result);
+                                const FinishedRun& run, const std::filesystem::path& dygraphs,
+                                const Overlay* overlay) {
+  DrawnFigures figures = draw_figures(figure_directory, run.input, run.result, {}, overlay);
   std::filesystem::path path = directory / "report.html";
   try {
-    write_file(path, html_report(run, figures, figure_directory, dygraphs));
+    write_file(path, html_report(run, figures, figure_directory, dygraphs, overlay));
   } catch (const OutputError& error) {
     figures.failed.push_back(error.what());
     std::error_code ignored;

@@ -10,6 +10,7 @@
 
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
+#include "subimpact/study/overlay.h"
 
 namespace subimpact {
 
@@ -26,6 +27,11 @@ struct FinishedRun {
 /// The inverse of write_results(). All files are of one run, as it wrote them: each is compared
 /// with the checksum in manifest.json. Throws ResultsError.
 FinishedRun read_results(const std::filesystem::path& directory);
+
+/// Reads a measured force from a CSV file: a heading with the units of time and force at the ends
+/// of two of its names ("time_us,force_kN", "t [ms];F [N]"), separated by commas, semicolons or
+/// tabs, then numbers with decimal points, times increasing. Throws ResultsError.
+Signal read_signal(const std::filesystem::path& file);
 
 /// The tables of a population of runs, as `subimpact-sweep` writes them.
 struct SweptRuns {

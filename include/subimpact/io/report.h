@@ -11,6 +11,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
+#include "subimpact/study/overlay.h"
 #include "subimpact/study/sensitivity.h"
 
 namespace subimpact {
@@ -61,6 +62,11 @@ struct Answer {
 /// Who struck whom, how many sub-impacts and how certain, restitution, largest force, impulse by
 /// zone, dent, permanent set, energies that add up to the initial one, whether contact is over.
 std::vector<Answer> answers(const Case& input, const Result& result);
+
+/// How far a measured force and the computed one differ: shift, filter, peak and impulse.
+std::vector<Answer> answers(const Overlay& overlay);
+/// Why the overlay may mean nothing; empty: no reason is seen.
+std::string overlay_doubt(const Overlay& overlay);
 
 /// The title, the answers and reasons to doubt them, one line each, wrapped at 100 columns.
 /// `verbose`: then mesh, method, errors by source, conservation and work.

@@ -7,6 +7,7 @@
 #include "subimpact/case/case.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/result.h"
+#include "subimpact/study/overlay.h"
 
 namespace subimpact {
 
@@ -37,10 +38,12 @@ std::vector<std::string> write_figure_scripts(const std::filesystem::path& direc
 /// (moment against curvature of the sections kept), `shapes` and `envelope` (along the beam). The
 /// gnuplot scripts, tables included, stay beside them. Figures of a run that did not complete state
 /// this above their panels. A script that the directory `scripts` has replaces that of the library.
+/// With `overlay` also `measured` (a measured force and the computed one).
 /// A figure whose files cannot be written is one that failed. Throws GnuplotMissing, and
 /// OutputError if `scripts` holds results or the finished scripts of drawn figures.
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
-                          const Result& result, const std::filesystem::path& scripts = {});
+                          const Result& result, const std::filesystem::path& scripts = {},
+                          const Overlay* overlay = nullptr);
 
 /// Puts figures in place that were drawn into directory.staging(). Where the disk has no room for
 /// that, the last figures are given up, and count as failed. Returns whether files are in place.

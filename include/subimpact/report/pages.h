@@ -16,10 +16,12 @@ namespace subimpact {
 /// scripts, and printed, it is a still report. The figures' SVG files are read from
 /// `figure_directory`, and the library of the zoomable charts from `dygraphs` (empty: where
 /// Debian's libjs-dygraphs has it); without the library the page lacks those charts and states how
-/// to get them. Throws ResultsError if a figure cannot be read.
+/// to get them. With `overlay` it has a section on a measured force. Throws ResultsError if a
+/// figure cannot be read.
 std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
                         const std::filesystem::path& figure_directory,
-                        const std::filesystem::path& dygraphs = {});
+                        const std::filesystem::path& dygraphs = {},
+                        const Overlay* overlay = nullptr);
 
 struct WrittenReport {
   std::filesystem::path page;  ///< empty if it could not be written; `figures.failed` has the cause
@@ -31,7 +33,8 @@ struct WrittenReport {
 /// without those that failed. Throws GnuplotMissing.
 WrittenReport write_html_report(const std::filesystem::path& directory,
                                 const std::filesystem::path& figure_directory,
-                                const FinishedRun& run, const std::filesystem::path& dygraphs = {});
+                                const FinishedRun& run, const std::filesystem::path& dygraphs = {},
+                                const Overlay* overlay = nullptr);
 
 /// Runs beside each other as a page: the keys in which their cases differ, curves in common charts,
 /// and the sub-impacts of each run matched with those of the first. `names`: one per run.

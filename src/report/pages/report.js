@@ -71,11 +71,13 @@ class Page {
     const {strike} = this;
     if (typeof Dygraph === 'undefined' || !strike.hasHistory) {
       byId('charts').hidden = true;
+      document.getElementById('chart-measured')?.remove();
       return;
     }
     for (const {id, label, columns: all} of timeCharts) {
       this.addChart(id, label, all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0)));
     }
+    if (strike.overlay) this.addOverlay();
     const columns = Object.keys(strike.meanings).filter((name) => strike.history[name].some(Number.isFinite));
     const select = byId('column');
     for (const name of columns) select.append(new Option(`${name}: ${strike.meanings[name]}`, name));
@@ -94,6 +96,16 @@ class Page {
     this.charts.push(new TimeChart(byId(id), {
       rows: chartRows(strike, columns), labels: columns.map((column) => column.label), valueLabel,
       unit: strike.time_unit, bands: bandsOf(strike.sub_impacts, strike.time_unit), view}));
+  }
+
+  // Measured and computed force, each at its own times.
+  addOverlay() {
+    const {overlay, time_unit: unit, sub_impacts: hits} = this.strike;
+    const rows = overlay.map(unpackedColumns).flatMap(({time_s: times, force_N: forces}, k) => Array.from(
+      times, (time, i) => [time * unit.per_second, k === 0 ? forces[i] : null, k === 1 ? forces[i] : null]));
+    this.charts.push(new TimeChart(byId('chart-measured'), {
+      rows: rows.sort((a, b) => a[0] - b[0]), labels: ['measured', 'computed, as the transducer shows it'],
+      valueLabel: 'force, N', unit, bands: bandsOf(hits, unit), view: this.view}));
   }
 
   // Canvases out of sight are not painted while the picture moves.

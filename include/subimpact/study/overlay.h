@@ -1,0 +1,69 @@
+#pragma once
+
+/// A measured force beside the computed one.
+
+#include <optional>
+#include <vector>
+
+#include "subimpact/simulate/result.h"
+
+namespace subimpact {
+
+/// A force at increasing times, linear in between.
+struct Signal {
+  std::vector<double> times;   ///< s, not decreasing
+  std::vector<double> forces;  ///< N, as many
+};
+
+/// What a transducer with a Butterworth low-pass of fourth order makes of a force that is zero
+/// before the first sample:
+///
+///     H(s) = product over k = 0..3 of -p_k / (s - p_k),  p_k = 2 pi f exp(i pi (5 + 2 k)/8),
+///
+/// with `cutoff` f in Hz, at which 3 dB are lost. At the samples the result is exact for the
+/// piecewise linear force, however far apart they are; high frequencies come later by
+/// 2.61/(2 pi f), which is 21 us at 20 kHz.
+Signal low_passed(const Signal& force, double cutoff);
+
+struct OverlayOptions {
+  std::optional<double> shift;     ///< s; none: it is found
+  std::optional<double> low_pass;  ///< Hz; none: no filter, or it is found
+  bool find_low_pass = false;
+};
+
+/// A found number with its standard error, for what the two forces differ by as white noise; a
+/// given one has none.
+struct Fitted {
+  double value = 0.0;
+  std::optional<double> error;
+};
+
+/// The computed force of a run and a measured one on one time axis, that of the run.
+struct Overlay {
+  Fitted shift;                    ///< s, by which the measured time is later than that of the run
+  std::optional<Fitted> low_pass;  ///< Hz
+  /// Of the two forces at the measured samples within [from, to]: sum of products over the root of
+  /// both sums of squares; 1 if they differ by a factor alone.
+  double correlation = 0.0;
+  double sampling_interval = 0.0;  ///< s, the median
+  double from = 0.0, to = 0.0;     ///< s, what run and measurement both cover
+  struct Side {
+    Signal force;            ///< the computed one as filtered
+    double peak = 0.0;       ///< N, the largest within [from, to]
+    double peak_time = 0.0;  ///< s
+    double impulse = 0.0;    ///< N s, within [from, to]
+  };
+  Side computed, measured;
+  Signal difference;  ///< computed less measured, at the measured samples within [from, to]
+  /// Whether the found cut-off is at an end of what was searched: the measurement shows no filter.
+  bool low_pass_at_bound = false;
+};
+
+/// Lays a measured force beside the history of a run, whose force is zero before it begins. The
+/// shift is that of the largest correlation, and so is the cut-off, between two periods within the
+/// measured record and its Nyquist frequency. Throws ResultsError if there is no common time, the
+/// run has no history or either force is nowhere positive.
+Overlay overlay_of(const std::vector<HistoryRow>& history, const Signal& measured,
+                   const OverlayOptions& options = {});
+
+}  // namespace subimpact
