@@ -14,24 +14,12 @@ class WaltonBraun final : public subimpact::ContactLaw {
   WaltonBraun(double k1, double k2) : k1_(k1), k2_(k2) {}
 
   std::string name() const override { return "Walton and Braun"; }
-  subimpact::ContactScales scales() const override { return {k1_, 1.0}; }
   double residual_indentation(ContactHistory history) const override {
     return (1.0 - k1_ / k2_) * history.max_indentation;
   }
   double yield_threshold(ContactHistory history) const override { return history.max_indentation; }
-  double elastic_force(ContactHistory history, double indentation) const override {
+  double force(ContactHistory history, double indentation) const override {
     return k2_ * (indentation - residual_indentation(history));
-  }
-  double elastic_slope(ContactHistory, double) const override { return k2_; }
-  double plastic_force(double indentation) const override { return k1_ * indentation; }
-  double plastic_slope(double) const override { return k1_; }
-  double recoverable_energy(ContactHistory history, double indentation) const override {
-    const double depth = std::fmax(indentation - residual_indentation(history), 0.0);
-    return 0.5 * k2_ * depth * depth;
-  }
-  double dissipated_energy(ContactHistory history) const override {
-    const double largest = history.max_indentation;
-    return 0.5 * k1_ * largest * residual_indentation(history);
   }
 
  private:

@@ -11,6 +11,7 @@ namespace {
 
 struct CompareOptions : StudyOptions {
   std::vector<std::string> theories;
+  std::vector<std::string> laws;
 };
 
 int status_of(const auto& runs) {
@@ -19,35 +20,39 @@ int status_of(const auto& runs) {
   return all_completed ? done : failed;
 }
 
-int run_theories(const CompareOptions& options) {
+int run_models(const CompareOptions& options) {
+  const bool of_laws = !options.laws.empty();
+  const std::vector<std::string>& names = of_laws ? options.laws : options.theories;
   const auto with_theory = [&](const std::string& theory) {
     CaseOptions changed = options.input;
     changed.settings.push_back(fmt::format("beam.theory=\"{}\"", theory));
     return changed.load();
   };
-  const LoadedCase loaded = with_theory(options.theories.front());
+  const LoadedCase loaded = of_laws ? options.input.load() : with_theory(names.front());
   std::vector<Case> cases;
-  for (const std::string& theory : options.theories) cases.push_back(with_theory(theory).value);
+  for (const std::string& name : names) {
+    cases.push_back(of_laws ? with_contact_law(loaded.value, name) : with_theory(name).value);
+  }
   print_doubts(loaded);
   StudySession session;
   const auto runs = with_places(loaded, [&] {
-    return compare_theories(
-        cases, options.jobs,
-        [&](std::size_t i) { session.status.show("running " + options.theories[i]); },
-        session.progress());
+    return compare_models(
+        cases, names, options.jobs,
+        [&](std::size_t i) { session.status.show("running " + names[i]); }, session.progress());
   });
   session.status.clear();
-  if (!runs.empty()) print("{}\n\n{}", title_of(loaded.value), theory_table(runs));
+  if (!runs.empty()) print("{}\n\n{}", title_of(loaded.value), model_table(runs));
   if (session.listener.interrupted()) {
-    return session.end_interrupted("; the theories above are those that had ended");
+    return session.end_interrupted("; the models above are those that had ended");
   }
   return status_of(runs);
 }
 
 int run_comparison(CompareOptions& options) {
-  if (!options.theories.empty()) return run_theories(options);
+  if (!options.theories.empty() || !options.laws.empty()) return run_models(options);
   if (options.methods.empty()) {
-    throw CaseFileError("compare needs --methods or --theories, with names separated by commas");
+    throw CaseFileError(
+        "compare needs --methods, --theories or --laws, with names separated by commas");
   }
   const LoadedCase loaded = options.input.load();
   check_method_names(options.methods);
@@ -81,9 +86,9 @@ int run_comparison(CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& program, int& status) {
-  auto [command, options] =
-      add_command(program, status, "compare",
-                  "Run one scene by several methods, or by several beam theories", run_comparison);
+  auto [command, options] = add_command(
+      program, status, "compare", "Run one scene by several methods, beam theories or contact laws",
+      run_comparison);
   options.input.add_to(command);
   add_list_option(command, "--methods", options.methods,
                   "Methods to compare, separated by commas; a method's table after a colon, "
@@ -92,10 +97,16 @@ void add_compare(CLI::App& program, int& status) {
                   "Beam theories to compare instead, separated by commas: event times of each, "
                   "with their errors, and how much later they come than by the first")
       ->excludes("--methods");
+  add_list_option(command, "--laws", options.laws,
+                  "Contact laws to compare instead, separated by commas, each with what the case "
+                  "gives of its constants")
+      ->excludes("--methods")
+      ->excludes("--theories");
   add_directory_option(command, options.directory,
                        "Directory for comparison.csv and matches.csv; made if missing. Without it "
                        "nothing is written")
-      ->excludes("--theories");
+      ->excludes("--theories")
+      ->excludes("--laws");
   command.get_option("--method")->excludes("--methods");
   command.footer(
       "Every method runs at the case's solver.rtol, fixed-step methods at their default step or "
@@ -105,6 +116,7 @@ void add_compare(CLI::App& program, int& status) {
       "  subimpact compare case.toml --methods central-difference,erk,dirk,imex,adams,bdf\n"
       "  subimpact compare case.toml --methods erk:dop853,erk:dormand-prince --out out/tables\n"
       "  subimpact compare case.toml --theories euler-bernoulli,rayleigh,timoshenko\n"
+      "  subimpact compare case.toml --laws foundation,hertz,sphere\n"
       "  subimpact compare case.toml --methods erk,erk+library,erk+interpolated\n"
       "  subimpact compare case.toml --methods exponential,erk --set model.section=elastic\n"
       "Exit status: 0 done; 2 bad command line or case file; 3 a method's solver failed; "

@@ -38,6 +38,21 @@ inline constexpr Named<EndSupport> choices<EndSupport>[] = {
 };
 
 template <>
+inline constexpr Named<SectionShape> choices<SectionShape>[] = {
+    {SectionShape::rectangle, "rectangle", "height, width; or beam.thickness and beam.width"},
+    {SectionShape::circle, "circle", "diameter"},
+    {SectionShape::tube, "tube", "diameter (outer), wall"},
+    {SectionShape::box, "box", "height and width (outer), wall"},
+    {SectionShape::i, "i", "height, width, flange, web: about its strong axis"},
+};
+
+template <>
+inline constexpr Named<NoseShape> choices<NoseShape>[] = {
+    {NoseShape::sphere, "sphere", "round both ways"},
+    {NoseShape::cylinder, "cylinder", "its axis across the beam, as long as the beam is wide"},
+};
+
+template <>
 inline constexpr Named<CellSpacing> choices<CellSpacing>[] = {
     {CellSpacing::cells, "cells",
      "length/segments: the cells fill the beam, without the rotary inertia of the outer half cells "

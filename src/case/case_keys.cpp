@@ -139,6 +139,15 @@ CaseKey row(const char* name, const char* unit, const Range& range, const char* 
   return key;
 }
 
+// A number of which 0 stands for not given.
+CaseKey not_zero(CaseKey key) {
+  key.get = [get = key.get](const Case& from) {
+    const std::optional<KeyValue> value = get(from);
+    return value && std::get<double>(*value) == 0.0 ? std::nullopt : value;
+  };
+  return key;
+}
+
 CaseKey with_choices(CaseKey key, std::vector<Choice> choices) {
   key.type = KeyType::choice;
   key.choices = std::move(choices);
@@ -228,36 +237,48 @@ std::vector<CaseKey> with_scatter(std::vector<CaseKey> keys) {
 std::vector<CaseKey> make_case_keys() {
   const Range poisson = between("from 0 to 0.5", 0.0, 0.5);
   const Range fraction = between("from 0 to 1", 0.0, 1.0);
+  const char* const none = "none; needed by shapes that name it";
   const Range tolerance = between("from 1e-14 to 0.1", 1e-14, 0.1);
   return {
     row("title", "", any_value, "name of the case", "\"\"", AT(title)),
 
     row("beam.length", "m", positive, "length of the beam", required, AT(scene.beam.length)),
-    row("beam.width", "m", positive, "width, along the striker's axis", required, AT(scene.beam.width)),
-    row("beam.thickness", "m", positive, "thickness, in the direction of the strike", required, AT(scene.beam.thickness)),
+    not_zero(row("beam.width", "m", positive, "width of a rectangular section, across the strike", "none; needed without beam.section", AT(scene.beam.width))),
+    not_zero(row("beam.thickness", "m", positive, "thickness of a rectangular section, in the direction of the strike", "none; needed without beam.section", AT(scene.beam.thickness))),
     row("beam.density", "kg/m3", positive, "density", required, AT(scene.beam.density)),
     row("beam.youngs_modulus", "Pa", positive, "Young's modulus", required, AT(scene.beam.youngs_modulus)),
     row("beam.yield_stress", "Pa", positive_or_infinite, "yield stress of beam and contact; inf: neither yields", as_in_case, AT(scene.beam.yield_stress)),
+    row("beam.hardening", "", between("from 0 to 0.99", 0.0, 0.99), "linear kinematic hardening: modulus after yield over Young's modulus", as_in_case, AT(scene.beam.hardening)),
     row("beam.theory", "", any_value, "beam theory", as_in_case, AT(scene.beam.theory)),
-    row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"hertz\" without stiffness", "none; \"timoshenko\" needs it", AT(scene.beam.poisson)),
-    row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's, 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
+    row("beam.poisson", "", poisson, "Poisson's ratio, for theory = \"timoshenko\" and for contact.law = \"sphere\", or \"hertz\" without stiffness", "none; \"timoshenko\" needs it", AT(scene.beam.poisson)),
+    row("beam.shear_coefficient", "", positive_share, "shear coefficient k of theory = \"timoshenko\": k G A is the shear stiffness", "Cowper's for the section; of a rectangle 10 (1 + nu)/(12 + 11 nu)", AT(scene.beam.shear_coefficient)),
     row("beam.ends", "", any_value, "supports at x = 0 and x = length", as_in_case, AT(scene.beam.ends)),
     row("beam.damping.ratio", "", between("from 0 to 1", 0.0, 1.0), "damping ratio of all natural modes of a beam that stays elastic", as_in_case, AT(scene.beam.damping.ratio)),
     row("beam.damping.mass", "1/s", not_negative, "alpha of Rayleigh's damping: force over mass and velocity", as_in_case, AT(scene.beam.damping.mass)),
     row("beam.damping.stiffness", "s", not_negative, "beta of Rayleigh's damping: force over elastic stiffness and velocity", as_in_case, AT(scene.beam.damping.stiffness)),
 
+    row("beam.section.shape", "", any_value, "shape of the cross-section; the dimensions that it needs follow", as_in_case, AT(scene.beam.section.shape)),
+    row("beam.section.height", "m", positive, "height in the direction of the strike", none, AT(scene.beam.section.height)),
+    row("beam.section.width", "m", positive, "width across the strike", none, AT(scene.beam.section.width)),
+    row("beam.section.diameter", "m", positive, "outer diameter", none, AT(scene.beam.section.diameter)),
+    row("beam.section.wall", "m", positive, "thickness of the walls of a tube or box", none, AT(scene.beam.section.wall)),
+    row("beam.section.flange", "m", positive, "thickness of the flanges", none, AT(scene.beam.section.flange)),
+    row("beam.section.web", "m", positive, "thickness of the web", none, AT(scene.beam.section.web)),
+
     row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass)),
-    row("striker.nose_radius", "m", positive, "radius of the nose: a cylinder for contact.law = \"foundation\", a sphere for \"hertz\"", "none; \"foundation\" needs one", AT(scene.striker.nose_radius)),
+    row("striker.nose_radius", "m", positive, "radius of the nose", "none; \"foundation\" and \"sphere\" need one", AT(scene.striker.nose_radius)),
+    row("striker.nose", "", any_value, "shape of the nose", "foundation: \"cylinder\"; others: \"sphere\"", AT(scene.striker.nose)),
     row("striker.velocity", "m/s", positive, "velocity at the first touch", required, AT(scene.striker.velocity)),
     row("striker.gap", "m", not_negative, "distance of the nose from the beam at t = 0, which the striker crosses at striker.velocity", as_in_case, AT(scene.striker.gap)),
     row("striker.position", "", fraction, "struck point, as a fraction of the length", as_in_case, AT(scene.striker.position)),
 
     row("contact.law", "", any_value, "relation of contact force and indentation", as_in_case, AT(scene.contact.kind)),
     row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from the radius of the sphere and the moduli; linear: none, it needs one", AT(scene.contact.stiffness)),
-    row("contact.striker_modulus", "Pa", positive_or_infinite, "Young's modulus of a spherical nose, for \"hertz\" without stiffness; inf: rigid", "none; not needed with contact.stiffness", AT(scene.contact.striker_modulus)),
-    row("contact.striker_poisson", "", poisson, "Poisson's ratio of a spherical nose, for \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.striker_poisson)),
+    row("contact.striker_modulus", "Pa", positive_or_infinite, "Young's modulus of the nose, for \"sphere\", or \"hertz\" without stiffness; inf: rigid", "none; not needed with contact.stiffness", AT(scene.contact.striker_modulus)),
+    row("contact.striker_poisson", "", poisson, "Poisson's ratio of the nose, for \"sphere\", or \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.striker_poisson)),
     row("contact.beam_poisson", "", poisson, "the same as beam.poisson", "beam.poisson", AT(scene.contact.beam_poisson)),
     row("contact.damping", "s/m", not_negative, "damping chi of the laws \"hertz\" and \"linear\": the force is that of the law times 1 + chi times the rate of the indentation (Hunt and Crossley)", as_in_case, AT(scene.contact.damping)),
+    row("contact.yield_pressure", "Pa", positive, "mean pressure at which the softer body yields, for \"sphere\"", "1.6 times beam.yield_stress", AT(scene.contact.yield_pressure)),
 
     row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\"; if model.elements is given, \"hermite\", with shear \"spectral\"", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length; with mesh = \"mixed\" by default 400", as_in_case, AT(model.segments)),

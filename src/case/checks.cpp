@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,12 @@ double decades_of(const Case& input, const char* name) {
 // Refuses, for the key that is farthest from one, numbers whose products overflow, vanish or lose
 // all digits: each number of a case, and mass, stiffness, frequency and energy of its bodies.
 void check_scales(const Case& input) {
+  // In place of the short form of a rectangle's dimensions, the keys that give them.
+  const auto given_key = [&](const std::string_view key) {
+    return key == "beam.width"       ? width_key(input.scene.beam)
+           : key == "beam.thickness" ? height_key(input.scene.beam)
+                                     : key.data();
+  };
   for (const CaseKey& key : case_keys()) {
     if (key.type != KeyType::number || !key.get(input)) continue;
     if (std::abs(decades_of(input, key.name.c_str())) > most_decades) {
@@ -78,14 +85,14 @@ void check_scales(const Case& input) {
     double decades = 0.0;
     const Factor* farthest = &quantity.factors.front();
     const auto share = [&](const Factor& factor) {
-      return factor.power * decades_of(input, factor.key);
+      return factor.power * decades_of(input, given_key(factor.key));
     };
     for (const Factor& factor : quantity.factors) {
       decades += share(factor);
       if (std::abs(share(factor)) > std::abs(share(*farthest))) farthest = &factor;
     }
     if (std::abs(decades) <= most_decades) continue;
-    refuse_scale(input, farthest->key,
+    refuse_scale(input, given_key(farthest->key),
                  fmt::format(", with which the {} is some 1e{:+.0f}{}{}", quantity.name, decades,
                              *quantity.unit == '\0' ? "" : " ", quantity.unit));
   }
@@ -94,7 +101,8 @@ void check_scales(const Case& input) {
 // The keys of which a law may be given more than it uses. The nose's radius describes the striker,
 // whether or not the law depends on it.
 constexpr const char* keys_of_contact[] = {"contact.stiffness", "contact.striker_modulus",
-                                           "contact.striker_poisson", "contact.beam_poisson"};
+                                           "contact.striker_poisson", "contact.beam_poisson",
+                                           "contact.yield_pressure"};
 
 bool is_given(const Case& input, const char* key) {
   return find_case_key(key)->get(input).has_value();
@@ -109,12 +117,12 @@ bool is_known(const Case& input, std::string_view key) {
 void check_contact(const Case& input) {
   if (input.parts.contact_law) return;
   const BuiltInContactLaw& law = built_in_contact_law(input.scene.contact.kind);
-  if (input.scene.contact.damping > 0.0 && input.scene.contact.kind == ContactKind::foundation) {
+  if (input.scene.contact.damping > 0.0 && law.yields) {
     throw InvalidCase("contact.damping",
-                      fmt::format("is {:g} s/m, but contact.law = \"foundation\" loses its energy "
-                                  "by yielding; allowed: 0; leave it out, or choose \"hertz\" or "
+                      fmt::format("is {:g} s/m, but contact.law = \"{}\" loses its energy by "
+                                  "yielding; allowed: 0; leave it out, or choose \"hertz\" or "
                                   "\"linear\"",
-                                  input.scene.contact.damping));
+                                  input.scene.contact.damping, law.name));
   }
   const ContactConstants& way = constants_given(input, law);
   for (const char* name : way.keys) {
@@ -126,9 +134,15 @@ void check_contact(const Case& input) {
   }
   for (const char* name : keys_of_contact) {
     if (uses_key(way, name) || !is_given(input, name)) continue;
+    const bool of_yield = std::string_view(name) == "contact.yield_pressure";
     throw InvalidCase(name,
                       fmt::format("is given, but {}; leave it out, or choose another contact.law",
-                                  way.why_unused));
+                                  of_yield ? "only \"sphere\" yields at it" : way.why_unused));
+  }
+  const std::string why_not =
+      law.why_not != nullptr ? law.why_not(input.scene, gap_radii(input.scene)) : "";
+  if (!why_not.empty()) {
+    throw InvalidCase("contact.law", fmt::format("is \"{}\", but {}", law.name, why_not));
   }
 }
 
@@ -191,6 +205,79 @@ void check_gaps(const Case& input) {
                                 input.output.subzone_gap, input.output.zone_gap));
 }
 
+// What each shape needs; a rectangle may have the short form instead.
+std::vector<const char*> dimensions_of(SectionShape shape) {
+  switch (shape) {
+    case SectionShape::rectangle:
+      return {"beam.section.height", "beam.section.width"};
+    case SectionShape::circle:
+      return {"beam.section.diameter"};
+    case SectionShape::tube:
+      return {"beam.section.diameter", "beam.section.wall"};
+    case SectionShape::box:
+      return {"beam.section.height", "beam.section.width", "beam.section.wall"};
+    case SectionShape::i:
+      return {"beam.section.height", "beam.section.width", "beam.section.flange",
+              "beam.section.web"};
+  }
+  return {};
+}
+
+void check_section(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  const auto shape = std::get<std::string>(*find_case_key("beam.section.shape")->get(input));
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    throw InvalidCase(key, fmt::format("{} (beam.section.shape = \"{}\")", why, shape));
+  };
+  const bool is_rectangle = beam.section.shape == SectionShape::rectangle;
+  const std::vector<const char*> needed = dimensions_of(beam.section.shape);
+  for (const CaseKey& key : case_keys()) {
+    const bool is_short = key.name == "beam.width" || key.name == "beam.thickness";
+    const bool is_dimension = key.table() == "beam.section" && key.type == KeyType::number;
+    if (!is_short && !is_dimension) continue;
+    const std::string other = key.name == "beam.width"       ? "beam.section.width"
+                              : key.name == "beam.thickness" ? "beam.section.height"
+                                                             : "";
+    const bool is_needed =
+        std::ranges::any_of(needed, [&](const char* name) { return name == key.name; });
+    if (is_short && is_rectangle) {
+      if (key.get(input).has_value() == is_given(input, other.c_str())) {
+        refuse(key.name, key.get(input)
+                             ? fmt::format("is given twice: {} is the same; leave one out", other)
+                             : fmt::format("is missing; give it in m, or {}, or another "
+                                           "beam.section.shape with its dimensions",
+                                           other));
+      }
+    } else if (!is_needed && key.get(input)) {
+      refuse(key.name,
+             fmt::format("is given, but the shape has {}; leave it out", fmt::join(needed, ", ")));
+    } else if (is_needed && !is_rectangle && !key.get(input)) {
+      refuse(key.name, fmt::format("is missing: {}; the shape needs {}; give it in m", key.meaning,
+                                   fmt::join(needed, ", ")));
+    }
+  }
+  const CrossSection::Solid outer = beam.outer_solid(), gap = beam.gap();
+  const bool is_hollow = needed.size() > 2 || beam.section.shape == SectionShape::tube;
+  if (is_hollow && !(gap.height > 0.0 && gap.width > 0.0)) {
+    const bool too_high = !(gap.height > 0.0);
+    refuse(beam.section.shape != SectionShape::i ? "beam.section.wall"
+           : too_high                            ? "beam.section.flange"
+                                                 : "beam.section.web",
+           fmt::format("leaves no gap in a section of {:g} m; allowed: below {:g} m; reduce it, or "
+                       "use a solid shape",
+                       too_high ? outer.height : outer.width,
+                       too_high || beam.section.shape != SectionShape::i
+                           ? 0.5 * std::min(outer.height, outer.width)
+                           : outer.width));
+  }
+  if (input.parts.section && !is_rectangle) {
+    refuse(
+        "beam.section.shape",
+        "is given beside Case::parts.section, whose strips are fractions of a rectangle; allowed: "
+        "\"rectangle\"");
+  }
+}
+
 void check_shear(const Case& input) {
   const Beam& beam = input.scene.beam;
   const std::optional<double>& other = input.scene.contact.beam_poisson;
@@ -229,7 +316,8 @@ const ContactConstants& constants_given(const Case& input, const BuiltInContactL
 }
 
 bool uses_key(const ContactConstants& way, const char* key) {
-  return std::ranges::find(way.keys, std::string_view(key)) != way.keys.end();
+  return std::ranges::find(way.keys, std::string_view(key)) != way.keys.end() ||
+         std::ranges::find(way.optional, std::string_view(key)) != way.optional.end();
 }
 
 void check(const Case& input) {
@@ -238,6 +326,7 @@ void check(const Case& input) {
     if (!value) continue;
     if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
   }
+  check_section(input);
   check_scales(input);
   check_contact(input);
   if (!input.parts.mesh) check_mesh(input);

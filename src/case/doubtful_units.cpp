@@ -6,6 +6,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "case/problem.h"
+#include "model/contact_laws.h"
 #include "model/flexural_frequencies.h"
 #include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
@@ -91,19 +93,19 @@ class Doubts {
   std::string size_and_mass() const {
     const double mass = beam_.mass();
     return fmt::format(
-        "a beam of {:.4g} m x {:.4g} m x {:.4g} m weighs {}", beam_.length, beam_.width,
-        beam_.thickness,
+        "a beam of {:.4g} m x {:.4g} m x {:.4g} m weighs {}", beam_.length,
+        beam_.outer_solid().width, beam_.height(),
         mass >= 1e4 ? fmt::format("{:.0f} t", 1e-3 * mass) : fmt::format("{:.3g} kg", mass));
   }
 
   // The density is kept within usual values: lengths are not doubtful where it is wrong.
   bool is_too_large() const {
-    const double volume = beam_.length * beam_.width * beam_.thickness;
+    const double volume = beam_.length * beam_.area();
     return volume * std::clamp(beam_.density, 1e3, heaviest) > heaviest_beam;
   }
 
   void lengths() {
-    const double l = beam_.length, b = beam_.width, h = beam_.thickness;
+    const double l = beam_.length, b = beam_.outer_solid().width, h = beam_.height();
     const bool large = is_too_large();
     const bool slender = l > most_slender * h;
     const bool deep = h > l;
@@ -112,8 +114,10 @@ class Doubts {
     // Where one length seems to be in mm, another one above a metre is probably in mm too.
     const auto doubtful_beside = [&](double value) { return any && value > one_metre; };
     length("beam.length", l, slender, h, "thickness", large || l > longest);
-    length("beam.width", b, wide, l, "length", large || doubtful_beside(b));
-    length("beam.thickness", h, deep, l, "length", large || doubtful_beside(h));
+    if (!beam_.is_round()) {
+      length(width_key(beam_), b, wide, l, "length", large || doubtful_beside(b));
+    }
+    length(height_key(beam_), h, deep, l, "length", large || doubtful_beside(h));
     const double nose = case_.scene.striker.nose_radius.value_or(0.0);
     const bool blunt = nose > largest_nose * l && nose > one_metre;
     length("striker.nose_radius", nose, blunt, l, "length", false);
@@ -189,7 +193,6 @@ constexpr double thickest_with_shear = 1.0 / 3.0;
 constexpr double largest_rotation = 0.1;     // rad
 constexpr double largest_deflection = 0.5;   // over the thickness, of a beam held at both ends
 constexpr double deepest_indentation = 0.1;  // over the nose radius
-constexpr double highest_pressure = 1.6;     // over the yield stress
 
 }  // namespace
 
@@ -209,7 +212,7 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
   add(result.largest_rotation > largest_rotation,
       "{} by up to {:.2g} rad: the model is for small rotations (below {} rad)",
       is_rigid ? "the beam turns" : "sections turn", result.largest_rotation, largest_rotation);
-  const double thickness = beam.thickness / beam.length;
+  const double thickness = beam.height() / beam.length;
   add(!is_rigid && beam.shears() && thickness > thickest_with_shear,
       "the beam's thickness is {:.2g} of its length: plane sections, as in every beam theory, do "
       "not describe so thick a body",
@@ -218,22 +221,24 @@ std::vector<std::string> beyond_the_model(const Case& input, const Result& resul
       "the beam's thickness is {:.2g} of its length, and its theory leaves out shear; use "
       "beam.theory = \"timoshenko\"",
       thickness);
-  add(!is_rigid && is_held && set / beam.thickness > largest_deflection,
+  add(!is_rigid && is_held && set / beam.height() > largest_deflection,
       "the struck point moves by {:.3g} mm, {:.2g} of the thickness, on a beam held at both ends: "
       "if its supports cannot approach each other, stretching, which the model leaves out, "
       "stiffens it",
-      mm * set, set / beam.thickness);
+      mm * set, set / beam.height());
   if (!nose) return sentences;
   add(indentation / *nose > deepest_indentation,
       "the indentation reaches {:.3g} mm, {:.2g} of the nose radius: contact laws are for small "
       "indentations (below {} of it)",
       mm * indentation, indentation / *nose, deepest_indentation);
   const double pressure = 1.5 * result.max_force / (M_PI * *nose * indentation);
-  add(input.scene.contact.kind == ContactKind::hertz &&
-          pressure > highest_pressure * beam.yield_stress,
+  const GapRadii radii = gap_radii(input.scene);
+  add(input.scene.contact.kind == ContactKind::hertz && radii.along == radii.across &&
+          pressure > yield_pressure_over_stress * beam.yield_stress,
       "the contact pressure reaches {:.3g} MPa, {:.2g} times the beam's yield stress: a Hertz "
-      "contact yields from {} times on, and contact.law = \"hertz\" leaves that out",
-      MPa * pressure, pressure / beam.yield_stress, highest_pressure);
+      "contact yields from {} times on, which contact.law = \"hertz\" leaves out and \"sphere\" "
+      "has",
+      MPa * pressure, pressure / beam.yield_stress, yield_pressure_over_stress);
   return sentences;
 }
 

@@ -121,6 +121,16 @@ void check_mixed_model(const Case& input) {
                     "\"exact\", \"elastic\"; choose one, or another mesh",
                     input.parts.section ? "a section of its own" : "\"layers\""));
   }
+  const Beam& beam = input.scene.beam;
+  const bool is_shaped = beam.section.shape != SectionShape::rectangle;
+  if (may_yield(input) && (is_shaped || beam.hardening > 0.0)) {
+    throw InvalidCase(
+        is_shaped ? "beam.section.shape" : "beam.hardening",
+        "is given, but where it yields mixed cells find the curvature from the moment "
+        "by the closed form of a rectangle that does not harden; allowed with "
+        "model.mesh = \"mixed\": such a rectangle, or model.section = \"elastic\"; "
+        "choose one, or another mesh");
+  }
 }
 
 void check_mixed(const Case& input) {

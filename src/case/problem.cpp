@@ -1,10 +1,13 @@
 #include "case/problem.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
 #include "case/meshes.h"
+#include "numerics/units.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
@@ -17,11 +20,13 @@ using Section = std::optional<Fibres>;
 
 constexpr SectionDescriptor section_rows[] = {
     {SectionKind::elastic, "elastic", "the beam never yields (the contact still may)", false,
-     [](const ModelOptions&) -> Section { return std::nullopt; }},
+     [](const ModelOptions&, const Beam&) -> Section { return std::nullopt; }},
     {SectionKind::layers, "layers", "elastic-perfectly plastic layers, stress at mid-layer", true,
-     [](const ModelOptions& model) -> Section { return Fibres::layered(model.layers); }},
+     [](const ModelOptions& model, const Beam& beam) -> Section {
+       return Fibres::layered(model.layers, beam);
+     }},
     {SectionKind::exact, "exact", "the limit of infinitely many layers, in closed form", false,
-     [](const ModelOptions&) -> Section { return Fibres::continuous(); }},
+     [](const ModelOptions&, const Beam& beam) -> Section { return Fibres::continuous(beam); }},
 };
 
 }  // namespace
@@ -33,6 +38,18 @@ const SectionDescriptor& descriptor_of(SectionKind kind) {
     if (row.kind == kind) return row;
   }
   throw std::logic_error("a section has no descriptor: add a row in problem.cpp");
+}
+
+const char* height_key(const Beam& beam) {
+  return beam.section.diameter ? "beam.section.diameter"
+         : beam.section.height ? "beam.section.height"
+                               : "beam.thickness";
+}
+
+const char* width_key(const Beam& beam) {
+  return beam.section.diameter ? "beam.section.diameter"
+         : beam.section.width  ? "beam.section.width"
+                               : "beam.width";
 }
 
 bool may_yield(const Case& input) {
@@ -60,6 +77,18 @@ double largest_stable_step(Case input) {
   return default_part_of_critical * resolve(input).settings().critical_step;
 }
 
+std::string contact_words(const Case& input) {
+  const Scene& scene = input.scene;
+  if (input.parts.contact_law) return {};
+  const BuiltInContactLaw& law = built_in_contact_law(scene.contact.kind);
+  if (!uses_key(constants_given(input, law), "striker.nose_radius")) {
+    return fmt::format("contact of given stiffness, law {}", law.name);
+  }
+  return fmt::format("{} nose of {:.4g} mm, law {}",
+                     scene.nose() == NoseShape::sphere ? "spherical" : "cylindrical",
+                     mm * *scene.striker.nose_radius, law.name);
+}
+
 std::shared_ptr<const ContactLaw> contact_law_of(const Case& input) {
   return input.parts.contact_law ? input.parts.contact_law : make_contact_law(input.scene);
 }
@@ -75,8 +104,9 @@ Problem problem_of(const Case& input) {
   problem.may_yield = may_yield(input);
   problem.section = input.parts.section;
   if (!problem.section && problem.may_yield) {
-    problem.section = descriptor_of(input.model.section).make(input.model);
+    problem.section = descriptor_of(input.model.section).make(input.model, input.scene.beam);
   }
+  if (problem.section) problem.section = problem.section->hardened(input.scene.beam.hardening);
   return problem;
 }
 

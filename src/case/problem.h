@@ -16,7 +16,7 @@ struct SectionDescriptor {
   const char* note;
   bool has_layers;  ///< whether model.layers has an effect: an error that more layers reduce
   /// Nothing: never yields.
-  std::optional<Fibres> (*make)(const ModelOptions& model);
+  std::optional<Fibres> (*make)(const ModelOptions& model, const Beam& beam);
 };
 
 std::span<const SectionDescriptor> sections();
@@ -34,8 +34,15 @@ std::optional<double> step_of(const Case& input);
 /// The largest step that is left a margin to the critical step of the case, whatever its own step.
 double largest_stable_step(Case input);
 
+/// The keys that give the section its height and its width.
+const char* height_key(const Beam& beam);
+const char* width_key(const Beam& beam);
+
 const ContactConstants& constants_given(const Case& input, const BuiltInContactLaw& law);
 bool uses_key(const ContactConstants& way, const char* key);
+
+/// "cylindrical nose of 10 mm, law foundation"; empty with a law that is the caller's own.
+std::string contact_words(const Case& input);
 
 /// The contact law of a case: its own part, or the one that the scene names.
 std::shared_ptr<const ContactLaw> contact_law_of(const Case& input);

@@ -62,12 +62,12 @@ StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
       {"step_s", member<&ComparedRun::result, &Result::used, &ResolvedSettings::step>}};
 }
 
-// "+20.29": how much later than in the first theory, to a hundredth of a microsecond.
+// "+20.29": how much later than in the first model, to a hundredth of a microsecond.
 std::string later(const std::optional<double>& time, const std::optional<double>& first) {
   return time && first ? fmt::format("{:+.2f}", us * (*time - *first)) : std::string("-");
 }
 
-void add_rows(const TheoryRun& run, const TheoryRun& first, std::string& text) {
+void add_rows(const ModelRun& run, const ModelRun& first, std::string& text) {
   const SubImpactRows table = sub_impact_rows(run.result);
   text +=
       fmt::format("{:>4} {:>{}} {:>{}} {:>12} {:>12}\n", "no.", "start, us", table.columns[1].width,
@@ -84,7 +84,7 @@ void add_rows(const TheoryRun& run, const TheoryRun& first, std::string& text) {
   }
 }
 
-std::string sentence(const TheoryRun& run, const TheoryRun& first) {
+std::string sentence(const ModelRun& run, const ModelRun& first) {
   const std::size_t n = n_leading_matches(run.pairs);
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -93,9 +93,9 @@ std::string sentence(const TheoryRun& run, const TheoryRun& first) {
     largest = std::max(largest, std::abs(here.start - there.start));
     if (here.end && there.end) largest = std::max(largest, std::abs(*here.end - *there.end));
   }
-  std::string text = fmt::format("{}: {}, {} by {}", name_of(run.theory),
+  std::string text = fmt::format("{}: {}, {} by {}", run.name,
                                  counted(run.result.sub_impacts.size(), "sub-impact"),
-                                 first.result.sub_impacts.size(), name_of(first.theory));
+                                 first.result.sub_impacts.size(), first.name);
   if (n > 0) {
     text +=
         fmt::format("; the first {} correspond, with times up to {:.2f} us apart", n, us * largest);
@@ -169,10 +169,15 @@ std::string matches_csv(const Comparison& comparison) {
   return csv_text(columns, matches);
 }
 
-std::string theory_table(const std::vector<TheoryRun>& runs) {
+std::string model_table(const std::vector<ModelRun>& runs) {
   std::string text;
-  for (const TheoryRun& run : runs) {
-    text += fmt::format("{}\n", name_of(run.theory));
+  for (const ModelRun& run : runs) {
+    const Result& result = run.result;
+    text += fmt::format(
+        "{}: {}, largest force {}, striker {} at the end\n", run.name,
+        counted(result.sub_impacts.size(), "sub-impact"),
+        total_text(result, "peak_force_N", result.max_force, 1.0, 2, "N"),
+        total_text(result, "striker_velocity_m_per_s", result.striker_velocity, 1.0, 6, "m/s"));
     add_rows(run, runs.front(), text);
     text += '\n';
   }

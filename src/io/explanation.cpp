@@ -53,18 +53,22 @@ std::string section_text(const Case& input, const ResolvedSettings& used) {
     return fmt::format("elastic, although {} was requested: the yield stress is infinite",
                        key_text(input, "model.section"));
   }
+  const double share = input.scene.beam.hardening;
+  const std::string hardening =
+      share > 0.0 ? fmt::format("; hardens with {:.6g} of Young's modulus", share) : "";
   if (input.parts.section) {
-    return fmt::format("{}: first yield at a curvature of {:.6g} 1/m", used.section,
-                       used.yield_curvature * input.parts.section->first_yield());
+    return fmt::format("{}: first yield at a curvature of {:.6g} 1/m{}", used.section,
+                       used.yield_curvature * input.parts.section->first_yield(), hardening);
   }
   if (descriptor_of(input.model.section).has_layers) {
-    const double n = input.model.layers;
+    const Fibres fibres = Fibres::layered(input.model.layers, input.scene.beam);
     return fmt::format(
         "{} layers: elastic stiffness {:.6f} of the exact section's, first yield at "
-        "{:.6g} 1/m",
-        input.model.layers, 1.0 - 1.0 / (n * n), used.yield_curvature * n / (n - 1.0));
+        "{:.6g} 1/m{}",
+        input.model.layers, fibres.slope(), used.yield_curvature * fibres.first_yield(), hardening);
   }
-  return fmt::format("exact: first yield at a curvature of {:.6g} 1/m", used.yield_curvature);
+  return fmt::format("exact: first yield at a curvature of {:.6g} 1/m{}", used.yield_curvature,
+                     hardening);
 }
 
 // A nose radius describes the striker whether or not the law uses it; where it does not, the
@@ -77,6 +81,33 @@ std::string contact_stiffness_text(const Case& input, const ResolvedSettings& us
     return fmt::format("{:.7g} {}", used.contact_stiffness, unit);
   return fmt::format("{:.7g} {}, as given{}", used.contact_stiffness, unit,
                      input.scene.striker.nose_radius ? "; striker.nose_radius has no effect" : "");
+}
+
+std::string cross_section_text(const Beam& beam) {
+  const CrossSection::Solid outer = beam.outer_solid();
+  const CrossSection& given = beam.section;
+  const std::string size =
+      beam.is_round() ? fmt::format("{:.6g} mm", mm * outer.height)
+                      : fmt::format("{:.6g} x {:.6g} mm", mm * outer.height, mm * outer.width);
+  const auto thickness = [](const char* of, const std::optional<double>& value) {
+    return value ? fmt::format(", {} {:.6g} mm", of, mm * *value) : std::string();
+  };
+  return fmt::format(
+      "{} of {}{}{}{}: area {:.6g} m2, second moment {:.6g} m4, shape factor {:.4g}{}",
+      name_of(given.shape), size, thickness("wall", given.wall), thickness("flange", given.flange),
+      thickness("web", given.web), beam.area(), beam.second_moment(),
+      Fibres::continuous(beam).shape_factor(),
+      beam.shears() ? fmt::format(", shear coefficient {:.4g}", beam.used_shear_coefficient())
+                    : "");
+}
+
+std::string yield_velocity_text(const Case& input) {
+  const auto velocity = contact_yield_velocity(input.scene, *contact_law_of(input));
+  if (!velocity) return "none: nothing that yields is given";
+  const bool leaves_out = input.scene.contact.kind == ContactKind::hertz;
+  return fmt::format(
+      "{:.4g} m/s: slower strikes leave the contact elastic, on any beam{}", *velocity,
+      leaves_out ? "; the law leaves yielding out, contact.law = \"sphere\" has it" : "");
 }
 
 std::string method_text(const Case& input, const ResolvedSettings& used) {
@@ -138,6 +169,7 @@ std::string description(const Case& input, const ResolvedSettings& used,
   head("Scene");
   line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
                            key_text(input, "beam.ends"), key_text(input, "beam.theory")));
+  line("cross-section", cross_section_text(scene.beam));
   line("striker", fmt::format("{:.6g} kg at {:.6g} m/s, {:.6g} J; struck at {:.6g} of the length",
                               scene.striker.mass, scene.striker.velocity, used.initial_energy,
                               scene.striker.position));
@@ -151,7 +183,8 @@ std::string description(const Case& input, const ResolvedSettings& used,
                             duration_text(input.output.zone_gap * used.first_period),
                             duration_text(input.output.subzone_gap * used.first_period)));
   head("Contact");
-  line("law", used.contact_law);
+  const std::string words = contact_words(input);
+  line("law", words.empty() ? used.contact_law : words);
   line("stiffness", contact_stiffness_text(input, used));
   if (scene.contact.damping > 0.0) {
     line("damping", fmt::format("{:.6g} s/m", scene.contact.damping));
@@ -162,6 +195,7 @@ std::string description(const Case& input, const ResolvedSettings& used,
   line("yield indentation", std::isinf(used.yield_indentation)
                                 ? "infinite: the contact never yields"
                                 : fmt::format("{:.6g} mm", mm * used.yield_indentation));
+  if (!input.parts.contact_law) line("yield velocity", yield_velocity_text(input));
   head("Model");
   line("mesh", mesh_text(input, used));
   line("symmetry", symmetry_text(input, used));

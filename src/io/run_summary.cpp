@@ -61,15 +61,16 @@ Answer strike(const Case& input, const Result& result) {
                             : x == 0.0 || x == 1.0
                                 ? fmt::format("the {} end", name_of(scene.beam.ends[x == 1.0]))
                                 : fmt::format("{:.4g} of the length", x);
+  const std::string contact = contact_words(input);
   const std::string reached = duration_text(result.outcome.time);
   const std::string end = duration_text(input.end_time);
-  return {
-      "strike",
-      fmt::format("{} at {:.4g} m/s, at {} of a {}-{} beam of {}", mass_text(scene.striker.mass),
-                  scene.striker.velocity, where, name_of(scene.beam.ends[0]),
-                  name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
-      fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
-                  result.work.all_seconds)};
+  return {"strike",
+          fmt::format("{}{} at {:.4g} m/s, at {} of a {}-{} beam of {}",
+                      mass_text(scene.striker.mass), contact.empty() ? "" : " (" + contact + ")",
+                      scene.striker.velocity, where, name_of(scene.beam.ends[0]),
+                      name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
+          fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
+                      result.work.all_seconds)};
 }
 
 Answer restitution(const Case& input, const Result& result) {
@@ -137,7 +138,7 @@ double first_yield_strain(const Case& input, const Result& result) {
   const double share = input.parts.section ? input.parts.section->first_yield()
                        : has_layers        ? n / (n - 1.0)
                                            : 1.0;
-  return 0.5 * input.scene.beam.thickness * result.used.yield_curvature * share;
+  return 0.5 * input.scene.beam.height() * result.used.yield_curvature * share;
 }
 
 Answer permanent_set(const Case& input, const Result& result) {

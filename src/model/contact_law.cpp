@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "numerics/bracketed_root.h"
+#include "numerics/gauss.h"
 
 namespace subimpact {
 namespace {
-
-// The work that a contact on its first loading takes up to an indentation, J.
-double work_up_to(const ContactLaw& law, double indentation) {
-  const ContactHistory reached{indentation};
-  return law.recoverable_energy(reached, indentation) + law.dissipated_energy(reached);
-}
 
 constexpr int n_histories = 8;
 constexpr int n_panels = 64;  // of an integral, even
@@ -49,12 +45,12 @@ class Rules {
  public:
   Rules(const ContactLaw& law, double depth) : law_(law), depth_(depth) {
     first_yield_ = law.yield_threshold({});
-    force_ = std::abs(law.force({}, depth));
+    force_ = std::abs(law.contact_force({}, depth));
     energy_ = force_ * depth;
     require(depth > 0.0 && std::isfinite(energy_) && energy_ > 0.0,
             "its force at an indentation of {:.4g} m is {:.4g} N, which is not above zero and "
             "finite",
-            depth, law.force({}, depth));
+            depth, law.contact_force({}, depth));
   }
 
   void check_history(double largest) {
@@ -73,14 +69,13 @@ class Rules {
     last_threshold_ = threshold;
     const double end = std::min(threshold, depth_);
     if (!(end > residual)) return;
-    check_same_force(law_.elastic_force(history, residual), 0.0, residual,
-                     "at the residual indentation");
+    check_same_force(law_.force(history, residual), 0.0, residual, "at the residual indentation");
     if (threshold < depth_) {
-      check_same_force(law_.elastic_force(history, end), law_.plastic_force(end), end,
+      check_same_force(law_.force(history, end), law_.plastic_force(end), end,
                        "where yielding begins");
     }
-    const auto force = [&](double x) { return law_.elastic_force(history, x); };
-    const auto slope = [&](double x) { return law_.elastic_slope(history, x); };
+    const auto force = [&](double x) { return law_.force(history, x); };
+    const auto slope = [&](double x) { return law_.slope(history, x); };
     check_branch("elastic", residual, end, force, slope,
                  law_.recoverable_energy(history, end) - law_.recoverable_energy(history, residual),
                  history);
@@ -91,12 +86,11 @@ class Rules {
     const auto force = [this](double x) { return law_.plastic_force(x); };
     const auto slope = [this](double x) { return law_.plastic_slope(x); };
     check_branch("plastic", first_yield_, depth_, force, slope,
-                 work_up_to(law_, depth_) - work_up_to(law_, first_yield_), {});
+                 law_.work_up_to(depth_) - law_.work_up_to(first_yield_), {});
     double dissipated = law_.dissipated_energy({first_yield_});
     for (int i = 1; i <= n_histories; ++i) {
       const double x = first_yield_ + (depth_ - first_yield_) * i / n_histories;
-      check_same_force(law_.elastic_force({x}, x), law_.plastic_force(x), x,
-                       "where unloading begins");
+      check_same_force(law_.force({x}, x), law_.plastic_force(x), x, "where unloading begins");
       const double more = law_.dissipated_energy({x});
       require(more >= dissipated - tolerance * energy_,
               "its dissipated energy falls while the largest indentation grows");
@@ -143,7 +137,64 @@ class Rules {
   double last_residual_ = 0.0, last_threshold_ = 0.0;
 };
 
+// By Gauss's rule on four panels in s, x = from + (to - from) s^2: exact for powers of half an
+// integer of the distance from `from`.
+template <class F>
+double work_of(F force, double from, double to) {
+  constexpr int panels = 4;
+  double sum = 0.0;
+  for (int panel = 0; panel < panels; ++panel) {
+    for (std::size_t i = 0; i < gauss<5>.points.size(); ++i) {
+      const double s = (panel + gauss<5>.points[i]) / panels;
+      sum += gauss<5>.weights[i] * 2.0 * s * force(from + (to - from) * s * s);
+    }
+  }
+  return (to - from) * sum / panels;
+}
+
+template <class F>
+double difference(F force, double x, double size) {
+  const double h = 1e-5 * std::max({std::abs(x), size, 1e-7});
+  return (force(x + h) - force(x - h)) / (2.0 * h);
+}
+
 }  // namespace
+
+double ContactLaw::residual_indentation(ContactHistory /*history*/) const { return 0.0; }
+
+double ContactLaw::yield_threshold(ContactHistory /*history*/) const {
+  return std::numeric_limits<double>::infinity();
+}
+
+ContactScales ContactLaw::scales() const {
+  constexpr double um = 1e-6;
+  const double force_there = contact_force({}, um);
+  const double exponent = std::max(std::log2(contact_force({}, 2.0 * um) / force_there), 1.0);
+  return {force_there / std::pow(um, exponent), exponent};
+}
+
+double ContactLaw::slope(ContactHistory history, double indentation) const {
+  return difference([&](double x) { return force(history, x); }, indentation,
+                    history.max_indentation);
+}
+
+double ContactLaw::plastic_slope(double indentation) const {
+  return difference([&](double x) { return plastic_force(x); }, indentation, 0.0);
+}
+
+double ContactLaw::recoverable_energy(ContactHistory history, double indentation) const {
+  const double residual = residual_indentation(history);
+  if (!(indentation > residual)) return 0.0;
+  return work_of([&](double x) { return force(history, x); }, residual, indentation);
+}
+
+double ContactLaw::dissipated_energy(ContactHistory history) const {
+  const double reached = history.max_indentation, first_yield = yield_threshold({});
+  if (!(reached > first_yield)) return 0.0;
+  return work_of([&](double x) { return force({}, x); }, 0.0, first_yield) +
+         work_of([&](double x) { return plastic_force(x); }, first_yield, reached) -
+         recoverable_energy(history, reached);
+}
 
 ContactBranch ContactLaw::branch(ContactHistory history, double indentation) const {
   if (indentation <= residual_indentation(history)) return ContactBranch::separated;
@@ -159,14 +210,14 @@ ContactBranch ContactLaw::first_branch(ContactHistory history) const {
 double ContactLaw::branch_force(ContactBranch branch, ContactHistory history,
                                 double indentation) const {
   if (branch == ContactBranch::separated) return 0.0;
-  return branch == ContactBranch::elastic ? elastic_force(history, indentation)
+  return branch == ContactBranch::elastic ? force(history, indentation)
                                           : plastic_force(indentation);
 }
 
 double ContactLaw::branch_slope(ContactBranch branch, ContactHistory history,
                                 double indentation) const {
   if (branch == ContactBranch::separated) return 0.0;
-  return branch == ContactBranch::elastic ? elastic_slope(history, indentation)
+  return branch == ContactBranch::elastic ? slope(history, indentation)
                                           : plastic_slope(indentation);
 }
 
@@ -177,18 +228,16 @@ double ContactLaw::indentation_at(double energy) const {
   const auto [stiffness, exponent] = scales();
   const double of_power_law =
       std::pow((exponent + 1.0) * energy / stiffness, 1.0 / (exponent + 1.0));
-  const auto too_little = [&](double indentation) {
-    return work_up_to(*this, indentation) < energy;
-  };
+  const auto too_little = [&](double indentation) { return work_up_to(indentation) < energy; };
   double low = of_power_law;
   double high = 2.0 * of_power_law;
   if (!too_little(low)) {
-    if (!(work_up_to(*this, low) > (1.0 + rounding) * energy)) return low;
+    if (!(work_up_to(low) > (1.0 + rounding) * energy)) return low;
     for (int i = 0; i < most_doublings && !too_little(low); ++i) low *= 0.5;
     high = 2.0 * low;
   }
   for (int i = 0; i < most_doublings && too_little(high); ++i) high *= 2.0;
-  return root_in([&](double x) { return work_up_to(*this, x) - energy; }, low, high);
+  return root_in([&](double x) { return work_up_to(x) - energy; }, low, high);
 }
 
 std::optional<std::string> broken_rule(const ContactLaw& law, double largest_indentation) {

@@ -22,13 +22,68 @@ void check(const FibreStrip& strip) {
 
 }  // namespace
 
-Fibres Fibres::continuous() { return Fibres(0); }
+Fibres Fibres::continuous(const Beam& beam) {
+  if (beam.section.shape == SectionShape::rectangle) return Fibres(0);
+  const CrossSection::Solid outer = beam.outer_solid(), gap = beam.gap();
+  const double height = outer.height;
+  const auto weight = [&](double width) {
+    return width * height * height * height / (12.0 * beam.second_moment());
+  };
+  std::vector<Band> bands{{0.0, 1.0, weight(outer.width), outer.is_round}};
+  const double inner = gap.height / height;
+  if (inner > 0.0 && outer.is_round) bands.push_back({0.0, inner, -weight(gap.width), true});
+  if (inner > 0.0 && !outer.is_round) {  // without cancellation: the webs, then the flanges
+    bands = {{0.0, inner, weight(outer.width - gap.width)}, {inner, 1.0, weight(outer.width)}};
+  }
+  Fibres fibres(std::move(bands), 1.0);
+  fibres.name_ = "exact";
+  return fibres;
+}
 
-Fibres Fibres::layered(int layers) {
+Fibres Fibres::layered(int layers, const Beam& beam) {
   if (layers < 2 || layers % 2 != 0) {
     throw std::invalid_argument("layered section: the number of layers must be even and positive");
   }
-  return Fibres(layers / 2);
+  Fibres fibres(layers / 2);
+  if (beam.section.shape != SectionShape::rectangle) fibres.tabulate_layers(continuous(beam));
+  return fibres;
+}
+
+// Each layer has the area of the section between its faces.
+void Fibres::tabulate_layers(const Fibres& exact) {
+  Moments sum{};
+  of_layers_ = {sum};
+  for (double k = 0.0; k < half_layers_; k += 1.0) {
+    const double weight =
+        exact.up_to((k + 1.0) / half_layers_).s0 - exact.up_to(k / half_layers_).s0;
+    const double zeta = (k + 0.5) / half_layers_;
+    sum = {sum.s0 + weight, sum.s1 + weight * zeta, sum.s2 + weight * zeta * zeta};
+    of_layers_.push_back(sum);
+  }
+  whole_ = sum;
+  slope_ = 3.0 * sum.s2;
+}
+
+Fibres Fibres::hardened(double h) const {
+  if (!(h >= 0.0 && h < 1.0)) {
+    throw std::invalid_argument("section: the share of stiffness after yield must be from 0 to 1");
+  }
+  Fibres fibres = *this;
+  if (h == 0.0) return fibres;
+  fibres.hardening_ = h;
+  fibres.never_yields_ = h * slope_ / 3.0;
+  if (half_layers_ == 0.0) {
+    fibres.half_layers_ = -1.0;
+    fibres.bands_ = {{0.0, 1.0, 1.0}};
+  } else if (half_layers_ > 0.0 && of_layers_.empty()) {
+    fibres.tabulate_layers(continuous());
+  }
+  for (Band& band : fibres.bands_) band.weight *= 1.0 - h;
+  for (Moments& m : fibres.of_layers_) {
+    m = {(1.0 - h) * m.s0, (1.0 - h) * m.s1, (1.0 - h) * m.s2 + fibres.never_yields_};
+  }
+  fibres.whole_ = fibres.up_to(extent_);
+  return fibres;
 }
 
 Fibres::Fibres(int half_layers)
@@ -71,8 +126,16 @@ Fibres::Fibres(std::vector<Band> bands, double extent)
 
 // Not inlined into up_to, which is small enough to be inlined without it: energies cost half more.
 [[gnu::noinline]] Fibres::Moments Fibres::of_bands_up_to(double zeta) const {
-  Moments sum{};
+  Moments sum{0.0, 0.0, never_yields_};
   for (const Band& band : bands_) {
+    if (band.is_round) {
+      const double r = band.to, s = std::min(zeta / r, 1.0), root = std::sqrt(1.0 - s * s);
+      const double w = band.weight * r, angle = std::asin(s);
+      sum.s0 += 0.5 * w * (angle + s * root);
+      sum.s1 += w * r * (1.0 - root * root * root) / 3.0;
+      sum.s2 += 0.125 * w * r * r * (angle - s * (1.0 - 2.0 * s * s) * root);
+      continue;
+    }
     const double a = band.from;
     const double b = std::min(zeta, band.to);
     if (!(b > a)) continue;
@@ -91,6 +154,7 @@ Fibres::Moments Fibres::up_to(double zeta) const {
   if (half_layers_ < 0.0) return of_bands_up_to(zeta);
   const double p = half_layers_;
   const double n = std::min(std::floor(p * zeta + 0.5), p);  // layers at or below zeta
+  if (!of_layers_.empty()) return of_layers_[static_cast<std::size_t>(n)];
   return {n / p, 0.5 * n * n / (p * p), n * (4.0 * n * n - 1.0) / (12.0 * p * p * p)};
 }
 
@@ -113,7 +177,7 @@ double Fibres::tangent(double x) const {
 double Fibres::work(double x) const { return response(x).work; }
 
 double Fibres::energy(double a, double b, double constant, double slope) const {
-  const Moments lower = up_to(a);
+  const Moments lower = a > 0.0 ? up_to(a) : Moments{};
   const Moments upper = up_to(b);
   return 1.5 *
          (constant * constant * (upper.s0 - lower.s0) +

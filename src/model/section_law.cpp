@@ -206,6 +206,7 @@ double SectionLaw::outer_stress(const SectionHistory& history, double curvature)
     stress = constant + slope * outermost;
     return inner >= outermost;  // go on to the zone that holds the outermost fibre
   });
+  stress += fibres_.hardening() * (x * outermost - stress);
   return -yield_stress_ * fibres_.outer_yield() *
          stress;  // eps = -z kappa: a positive curvature compresses z > 0
 }

@@ -87,7 +87,7 @@ Loop loop_of(const ContactLaw& law, const std::vector<HistoryRow>& rows) {
       const HistoryRow& last = rows[i - 1];
       const double lambda = last.indentation + (row.indentation - last.indentation) * k / parts;
       loop.times.push_back(last.time + (row.time - last.time) * k / parts);
-      loop.points.push_back({lambda, law.force(history, lambda)});
+      loop.points.push_back({lambda, law.contact_force(history, lambda)});
     }
     loop.times.push_back(row.time);
     loop.points.push_back({row.indentation, row.force});

@@ -238,7 +238,7 @@ PageData page_data(const Case& input, const Result& result, const Overlay* overl
       {"end", result.outcome.time},
       {"time_unit", unit_json(result.outcome.time)},
       {"length", beam.length},
-      {"thickness", beam.thickness},
+      {"thickness", beam.height()},
       {"ends", Json::array({name_of(beam.ends[0]), name_of(beam.ends[1])})},
       {"struck_at", input.scene.striker.position * beam.length},
       {"nose_radius", input.scene.striker.nose_radius.value_or(0.0)},

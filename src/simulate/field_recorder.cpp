@@ -85,7 +85,7 @@ void FieldRecorder::add_points(double time, const State& y) {
 
 void FieldRecorder::widen_envelope(double time) {
   last_followed_time_ = time;
-  const double outer = 0.5 * material_.thickness;
+  const double outer = 0.5 * material_.height();
   for (std::size_t i = 0; i < field_.size(); ++i) {
     EnvelopeRow& here = envelope_[i];
     here.displacement.include(field_.displacement(i), time);

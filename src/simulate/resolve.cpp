@@ -57,14 +57,14 @@ SectionField make_sections(const Problem& problem) {
   const auto& section = problem.section;
   const std::size_t n = problem.mesh->n_sections();
   if (problem.may_yield && std::isfinite(beam.yield_stress)) {
-    return SectionField(n, SectionLaw(beam, section.value_or(Fibres::continuous())));
+    return SectionField(n, SectionLaw(beam, section.value_or(Fibres::continuous(beam))));
   }
   return SectionField(n, (section ? section->slope() : 1.0) * beam.bending_stiffness());
 }
 
 // E h/2 of the fibre farthest from the axis.
 double outer_stiffness(const Problem& problem) {
-  const double of_rectangle = 0.5 * problem.beam.youngs_modulus * problem.beam.thickness;
+  const double of_rectangle = 0.5 * problem.beam.youngs_modulus * problem.beam.height();
   return problem.section ? problem.section->outer_modulus() * of_rectangle : of_rectangle;
 }
 
@@ -128,7 +128,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.mesh = beam.mesh().description();
   if (modes_are_left_out(options, beam)) used.mesh += modal_description;
   used.highest_frequency = beam.mesh().highest_frequency(beam.sections().stiffness());
-  const ContactResonance resonance = contact_resonance(beam, problem.beam.thickness);
+  const ContactResonance resonance = contact_resonance(beam, problem.beam.height());
   used.largest_contact_slope = resonance.largest_slope;
   used.joined_frequency = resonance.highest_frequency;
   used.contact_time = resonance.contact_time;
@@ -184,7 +184,7 @@ std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Optio
         fmt::format("is {:g} m, with which the mass matrix of a beam of {:g} m is not positive "
                     "definite; allowed: beams that are longer than thick; check the units, or use "
                     "a coarser mesh",
-                    problem.beam.thickness, problem.beam.length));
+                    problem.beam.height(), problem.beam.length));
   }
 }
 

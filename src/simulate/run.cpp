@@ -142,7 +142,7 @@ std::optional<std::string> rule_broken_by_law(const RunParts& parts) {
   if (!parts.problem.check_contact_law) return std::nullopt;
   const ContactLaw& law = parts.beam.contact().law();
   const double deepest = law.indentation_at(parts.settings.initial_energy);
-  return broken_rule(law, std::min(deepest, parts.problem.beam.thickness));
+  return broken_rule(law, std::min(deepest, parts.problem.beam.height()));
 }
 
 }  // namespace
@@ -159,7 +159,7 @@ LoopOptions loop_options(const RunParts& parts) {
     loop.correction_tolerance =
         correction_tolerance(given.solver.rtol) * parts.problem.striker.velocity;
   }
-  loop.largest_indentation = parts.problem.beam.thickness;
+  loop.largest_indentation = parts.problem.beam.height();
   loop.audit_interval = descriptor_of(given.solver.method).audit_interval;
   loop.shortest_contact = M_PI / used.joined_frequency;
   return loop;

@@ -7,7 +7,9 @@
 #include <stdexcept>
 
 #include "case/counted.h"
+#include "case/problem.h"
 #include "study/method_choice.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/study/judgement.h"
 
 namespace subimpact {
@@ -102,17 +104,34 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
   return comparison;
 }
 
-std::vector<TheoryRun> compare_theories(std::span<const Case> cases, Jobs jobs,
-                                        const std::function<void(std::size_t)>& announce,
-                                        const Progress& progress) {
+Case with_contact_law(const Case& input, const std::string& name) {
+  Case other = input;
+  assign(other, *find_case_key("contact.law"), name);
+  Contact& contact = other.scene.contact;
+  const ContactConstants& way =
+      constants_given(other, built_in_contact_law(other.scene.contact.kind));
+  for (const auto& [key, constant] :
+       {std::pair("contact.stiffness", &contact.stiffness),
+        std::pair("contact.striker_modulus", &contact.striker_modulus),
+        std::pair("contact.striker_poisson", &contact.striker_poisson),
+        std::pair("contact.beam_poisson", &contact.beam_poisson),
+        std::pair("contact.yield_pressure", &contact.yield_pressure)}) {
+    if (!uses_key(way, key)) constant->reset();
+  }
+  return other;
+}
+
+std::vector<ModelRun> compare_models(std::span<const Case> cases,
+                                     std::span<const std::string> names, Jobs jobs,
+                                     const std::function<void(std::size_t)>& announce,
+                                     const Progress& progress) {
   for (const Case& input : cases) resolve(input);
-  std::vector<TheoryRun> runs;
+  std::vector<ModelRun> runs;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (announce) announce(i);
     Case input = cases[i];
     input.output.keep_no_rows();
-    TheoryRun run{
-        input.scene.beam.theory, simulate_judged(input, cases_beside(input), jobs, progress), {}};
+    ModelRun run{names[i], simulate_judged(input, cases_beside(input), jobs, progress), {}};
     if (run.result.outcome.kind == OutcomeKind::stopped) break;
     const Result& first = runs.empty() ? run.result : runs.front().result;
     run.pairs = match_sub_impacts(first.sub_impacts, run.result.sub_impacts);

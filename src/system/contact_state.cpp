@@ -33,7 +33,7 @@ std::span<const EventFunction> ContactState::event_functions() const {
 }
 
 double ContactState::force(double indentation) const {
-  if (evaluation_ == Evaluation::switching) return law_->force(history_, indentation);
+  if (evaluation_ == Evaluation::switching) return law_->contact_force(history_, indentation);
   return law_->branch_force(branch_, history_, indentation);
 }
 

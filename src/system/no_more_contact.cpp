@@ -57,7 +57,7 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
     largest = std::max(largest, std::abs(curvatures_[i]));
     bar_.push_back(mesh.section_weights()[i] * curvatures_[i]);
   }
-  plastic_compliance_ = largest * material.youngs_modulus * 0.5 * material.thickness /
+  plastic_compliance_ = largest * material.youngs_modulus * 0.5 * material.height() /
                         material.yield_stress * sections.law().fibres().extent();
 }
 

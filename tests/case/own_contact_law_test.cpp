@@ -40,12 +40,8 @@ class OwnFoundation final : public ContactLaw {
   double yield_threshold(ContactHistory history) const override {
     return law_.yield_threshold(history);
   }
-  double elastic_force(ContactHistory history, double x) const override {
-    return law_.elastic_force(history, x);
-  }
-  double elastic_slope(ContactHistory history, double x) const override {
-    return law_.elastic_slope(history, x);
-  }
+  double force(ContactHistory history, double x) const override { return law_.force(history, x); }
+  double slope(ContactHistory history, double x) const override { return law_.slope(history, x); }
   double plastic_force(double x) const override { return law_.plastic_force(x); }
   double plastic_slope(double x) const override { return law_.plastic_slope(x); }
   double recoverable_energy(ContactHistory history, double x) const override {
@@ -106,10 +102,10 @@ class TwoLines final : public ContactLaw {
     return (1.0 - k1_ / k2_) * history.max_indentation;
   }
   double yield_threshold(ContactHistory history) const override { return history.max_indentation; }
-  double elastic_force(ContactHistory history, double x) const override {
+  double force(ContactHistory history, double x) const override {
     return k2_ * (x - residual_indentation(history));
   }
-  double elastic_slope(ContactHistory, double) const override { return k2_; }
+  double slope(ContactHistory, double) const override { return k2_; }
   double plastic_force(double x) const override { return k1_ * x; }
   double plastic_slope(double) const override { return k1_; }
   double recoverable_energy(ContactHistory history, double x) const override {
@@ -184,16 +180,16 @@ class WrongLine final : public ContactLaw {
     return fault_ == Fault::wrong_residual ? -0.2 * history.max_indentation - 1e-6 : 0.0;
   }
   double yield_threshold(ContactHistory) const override { return 1e300; }
-  double elastic_force(ContactHistory, double x) const override {
+  double force(ContactHistory, double x) const override {
     if (fault_ == Fault::pulls) return k * x * (x - 2e-5) / 2e-5;
     if (fault_ == Fault::jumps) return k * x - 100.0;
     return k * x;
   }
-  double elastic_slope(ContactHistory, double x) const override {
+  double slope(ContactHistory, double x) const override {
     return fault_ == Fault::pulls ? k * (2.0 * x - 2e-5) / 2e-5 : k;
   }
-  double plastic_force(double x) const override { return elastic_force({}, x); }
-  double plastic_slope(double x) const override { return elastic_slope({}, x); }
+  double plastic_force(double x) const override { return force({}, x); }
+  double plastic_slope(double x) const override { return slope({}, x); }
   double recoverable_energy(ContactHistory, double x) const override {
     switch (fault_) {
       case Fault::pulls:

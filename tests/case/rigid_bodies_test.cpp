@@ -18,7 +18,7 @@ Case rigid_case(ContactKind kind, double velocity) {
   input.scene = paper_scene();
   input.scene.contact.kind = kind;
   input.scene.striker.velocity = velocity;
-  if (kind != ContactKind::foundation) {
+  if (kind == ContactKind::hertz || kind == ContactKind::linear) {
     input.scene.striker.nose_radius.reset();
     input.scene.contact.stiffness = kind == ContactKind::hertz ? 3e10 : 2e7;
   }
@@ -87,6 +87,39 @@ TEST(RigidBodies, ComeOutTheSameByEveryMethod) {
     ASSERT_EQ(result.sub_impacts.size(), 1u);
     EXPECT_NEAR(result.sub_impacts[0].end.value(), reference.sub_impacts[0].end.value(), 1e-11);
     EXPECT_LT(result.max_momentum_error, 1e-12);
+  }
+}
+
+// Thornton's closed form, from just above the yield velocity to a thousand times it.
+TEST(RigidBodies, WithASphereThatYieldsHaveThorntonsRestitution) {
+  const double most_relative = 1e-9;
+  for (const Method method : {Method::erk, Method::nystrom, Method::exponential, Method::adams}) {
+    for (const double ratio : {0.5, 1.01, 1.5, 4.0, 30.0, 1000.0}) {
+      Case input = rigid_case(ContactKind::sphere, 1.0);
+      input.scene.striker.nose_radius = 0.01;
+      input.scene.contact = {ContactKind::sphere, {}, 2e11, 0.3, 0.3};
+      const double reduced = reduced_mass(input);
+      const double pressure = 1.6 * input.scene.beam.yield_stress;
+      const double modulus = 1.0 / (0.91 / 2e11 + 0.91 / input.scene.beam.youngs_modulus);
+      const double depth = std::pow(M_PI * pressure / (2.0 * modulus), 2) * 0.01;
+      const double yields_at =
+          std::sqrt(0.8 * 4.0 / 3.0 * modulus * std::sqrt(0.01) * std::pow(depth, 2.5) / reduced);
+      const double v = ratio * yields_at, q = 1.0 / ratio;
+      input.scene.striker.velocity = v;
+      input.solver.method = method;
+      input.solver.rtol = 1e-12;
+      input.end_time = 1e-3;
+      const Result result = simulate(input);
+      ASSERT_EQ(result.sub_impacts.size(), 1u) << result.outcome.message;
+      ASSERT_TRUE(result.sub_impacts[0].end.has_value());
+      const double e = (result.beam_mean_velocity - result.striker_velocity) / v;
+      const double expected =
+          ratio < 1.0 ? 1.0
+                      : std::sqrt(6.0 * std::sqrt(3.0) / 5.0) * std::sqrt(1.0 - q * q / 6.0) *
+                            std::pow(q / (q + 2.0 * std::sqrt(1.2 - 0.2 * q * q)), 0.25);
+      EXPECT_NEAR(e, expected, most_relative * expected) << to_string(method) << ' ' << ratio;
+      EXPECT_LT(result.max_energy_error, 1e-9) << to_string(method) << ' ' << ratio;
+    }
   }
 }
 

@@ -64,7 +64,7 @@ double largest_difference(std::size_t n_columns, const std::vector<double>& walk
   ContactHistory history;
   double largest = 0.0;
   for (const double indentation : walk) {
-    const double force = law.force(history, indentation);
+    const double force = law.contact_force(history, indentation);
     history = law.commit(history, indentation);
     const double difference = std::abs(bed.press(indentation) - force);
     EXPECT_LE(difference, bed.error_bound());
@@ -81,6 +81,39 @@ TEST(ContactLaw, IsTheSumOverAThousandColumnsOnRandomHistories) {
     const double force_at_yield = 1822.90;
     EXPECT_LE(largest_difference(1000, walk, deepest), 1e-4 * force_at_yield) << "seed " << seed;
   }
+}
+
+// Under noses that are round both ways, columns at equal gaps x^2/(2 R_1) + y^2/(2 R_2) = g are
+// pressed alike, and the area between two gaps is 2 pi sqrt(R_1 R_2) dg.
+TEST(ContactLaw, UnderARoundNoseIsTheSumOverRingsOfColumns) {
+  Scene scene = paper_scene();
+  const double R = scene.striker.nose_radius.value();
+  const auto check = [&](double area_per_gap) {
+    const PowerContact law = law_of(scene);
+    const double unit = law.yield_indentation(), deepest = 12.0 * unit;
+    const double modulus = scene.beam.youngs_modulus / scene.beam.height();
+    constexpr int n = 4000;
+    std::vector<double> flowed(n, 0.0);
+    ContactHistory history;
+    for (const double indentation : nested_walk(3, 500, -unit, deepest, 5.0 * unit)) {
+      double sum = 0.0;
+      for (int i = 0; i < n; ++i) {
+        const double shortening = indentation - (i + 0.5) * deepest / n;
+        double& rest = flowed[static_cast<std::size_t>(i)];
+        rest = std::max(rest, shortening - unit);
+        sum += std::max(modulus * (shortening - rest), 0.0) * area_per_gap * deepest / n;
+      }
+      const double force = law.contact_force(history, indentation);
+      history = law.commit(history, indentation);
+      EXPECT_NEAR(force, sum, 1e-5 * law.plastic_force(deepest));
+    }
+  };
+  scene.striker.nose = NoseShape::sphere;
+  check(2.0 * M_PI * R);
+  scene.beam.section = {.shape = SectionShape::circle, .diameter = 0.03};
+  check(2.0 * M_PI * std::sqrt(R / (1.0 / R + 1.0 / 0.015)));
+  scene.striker.nose = NoseShape::cylinder;
+  check(2.0 * M_PI * std::sqrt(R * 0.015));
 }
 
 TEST(ContactLaw, IsTheLimitOfManyColumnsApproachedAtSecondOrder) {

@@ -25,7 +25,7 @@ TEST(ContactLaw, HasTheNumbersOfThePapersExample) {
   const PowerContact law = paper_law();
   EXPECT_NEAR(law.stiffness(), 2.948976e10, 0.5e4);
   EXPECT_NEAR(law.yield_indentation(), 1.56337e-5, 0.5e-10);
-  EXPECT_NEAR(law.force({}, law.yield_indentation()), 1822.90, 0.005);
+  EXPECT_NEAR(law.contact_force({}, law.yield_indentation()), 1822.90, 0.005);
   EXPECT_EQ(law.exponent(), 1.5);
 }
 
@@ -36,7 +36,7 @@ TEST(ContactLaw, OfABeamThatNeverYieldsIsAnElasticFoundation) {
   const ContactHistory deep{1e-3};
   EXPECT_EQ(law.residual_indentation(deep), 0.0);
   EXPECT_EQ(law.branch(deep, 2e-3), ContactBranch::elastic);
-  EXPECT_DOUBLE_EQ(law.force(deep, 4e-4), law.stiffness() * 8e-6);
+  EXPECT_DOUBLE_EQ(law.contact_force(deep, 4e-4), law.stiffness() * 8e-6);
   EXPECT_EQ(law.dissipated_energy(deep), 0.0);
 }
 
@@ -44,8 +44,8 @@ TEST(ContactLaw, WithAnotherExponentIsThePowerLawOfThatExponent) {
   for (const double exponent : {1.0, 1.5, 2.0, 2.5}) {
     const PowerContact law(3.0, exponent, infinity);
     for (const double indentation : {0.1, 1.0, 7.0}) {
-      EXPECT_NEAR(law.force({}, indentation), 3.0 * std::pow(indentation, exponent),
-                  1e-12 * law.force({}, indentation));
+      EXPECT_NEAR(law.contact_force({}, indentation), 3.0 * std::pow(indentation, exponent),
+                  1e-12 * law.contact_force({}, indentation));
       EXPECT_NEAR(law.recoverable_energy({}, indentation),
                   3.0 * std::pow(indentation, exponent + 1.0) / (exponent + 1.0),
                   1e-12 * law.recoverable_energy({}, indentation));
@@ -65,7 +65,7 @@ TEST(ContactLaw, OfASceneIsHertzOrLinearWhereAsked) {
   EXPECT_EQ(law_of(scene).yield_indentation(), infinity);
   scene.contact.kind = ContactKind::linear;
   EXPECT_EQ(law_of(scene).exponent(), 1.0);
-  EXPECT_DOUBLE_EQ(law_of(scene).force({}, 2e-5), 3e5);
+  EXPECT_DOUBLE_EQ(law_of(scene).contact_force({}, 2e-5), 3e5);
   EXPECT_DOUBLE_EQ(law_of(scene).recoverable_energy({}, 2e-5), 3.0);
 }
 
@@ -77,10 +77,13 @@ TEST(ContactLaw, OfASphereIsHertzsWithBothBodiesElastic) {
   scene.contact = {ContactKind::hertz, {}, 2.157463e11, 0.3, 0.3};
   EXPECT_NEAR(law_of(scene).stiffness(), 1.580559e10, 0.5e4);
   // A rigid ball is twice as stiff as one of the beam's material; so is a rigid beam.
-  const double both = hertz_stiffness(0.01, 2e11, 0.3, 2e11, 0.3);
-  EXPECT_DOUBLE_EQ(hertz_stiffness(0.01, infinity, 0.3, 2e11, 0.3), 2.0 * both);
-  EXPECT_DOUBLE_EQ(hertz_stiffness(0.01, 2e11, 0.3, infinity, 0.1), 2.0 * both);
-  EXPECT_DOUBLE_EQ(hertz_stiffness(0.04, 2e11, 0.3, 2e11, 0.3), 2.0 * both);
+  const auto stiffness = [](double radius, double modulus_1, double modulus_2) {
+    return hertz_stiffness({radius, radius}, contact_compliance(modulus_1, 0.3, modulus_2, 0.3));
+  };
+  const double both = stiffness(0.01, 2e11, 2e11);
+  EXPECT_DOUBLE_EQ(stiffness(0.01, infinity, 2e11), 2.0 * both);
+  EXPECT_DOUBLE_EQ(stiffness(0.01, 2e11, infinity), 2.0 * both);
+  EXPECT_DOUBLE_EQ(stiffness(0.04, 2e11, 2e11), 2.0 * both);
 }
 
 // A mass against a wall under F = K d^n, by small Runge-Kutta steps: duration times v/d_max.
@@ -92,13 +95,14 @@ double duration_constant(double exponent) {
   double v = 1.0;
   double t = 0.0;
   for (;;) {
-    const double x1 = x + 0.5 * h * v, v1 = v - 0.5 * h * law.force({}, x);
-    const double x2 = x + 0.5 * h * v1, v2 = v - 0.5 * h * law.force({}, x1);
-    const double x3 = x + h * v2, v3 = v - h * law.force({}, x2);
+    const double x1 = x + 0.5 * h * v, v1 = v - 0.5 * h * law.contact_force({}, x);
+    const double x2 = x + 0.5 * h * v1, v2 = v - 0.5 * h * law.contact_force({}, x1);
+    const double x3 = x + h * v2, v3 = v - h * law.contact_force({}, x2);
     const double next = x + h / 6.0 * (v + 2.0 * v1 + 2.0 * v2 + v3);
     if (next <= 0.0) return (t - x / v) / d_max;
     v -= h / 6.0 *
-         (law.force({}, x) + 2.0 * law.force({}, x1) + 2.0 * law.force({}, x2) + law.force({}, x3));
+         (law.contact_force({}, x) + 2.0 * law.contact_force({}, x1) +
+          2.0 * law.contact_force({}, x2) + law.contact_force({}, x3));
     x = next;
     t += h;
   }
@@ -113,7 +117,7 @@ TEST(ContactLaw, OfAPowerHasTheClosedFormsDuration) {
 TEST(ContactLaw, ForceIsContinuousWhereBranchesMeet) {
   const PowerContact law = paper_law();
   const double unit = law.yield_indentation();
-  const double force_unit = law.force({}, unit);
+  const double force_unit = law.contact_force({}, unit);
   for (const double maximum : maxima) {
     const ContactHistory history{maximum * unit};
     const double residual = law.residual_indentation(history);
@@ -168,7 +172,7 @@ TEST(ContactLaw, NeverPulls) {
   const double unit = law.yield_indentation();
   for (const double maximum : maxima) {
     for (double x = -5.0; x < 15.0; x += 0.01)
-      EXPECT_GE(law.force({maximum * unit}, x * unit), 0.0);
+      EXPECT_GE(law.contact_force({maximum * unit}, x * unit), 0.0);
   }
 }
 
@@ -199,8 +203,8 @@ double work_along(const ContactLaw& law, ContactHistory history, double from, do
     for (int k = 0; k < n; ++k) {
       const double a = knots[i] + k * h;
       work += h / 6.0 *
-              (law.force(history, a) + 4.0 * law.force(history, a + 0.5 * h) +
-               law.force(history, a + h));
+              (law.contact_force(history, a) + 4.0 * law.contact_force(history, a + 0.5 * h) +
+               law.contact_force(history, a + h));
     }
   }
   return work;

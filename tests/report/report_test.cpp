@@ -266,15 +266,15 @@ TEST(FinerMeshes, HaveSubImpactsAndConfirmSome) {
   expect_in(finer_meshes_words(result), "63 cells have 1 sub-impact and do not confirm the one");
 }
 
-TEST(TheoryTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
-  TheoryRun rayleigh{BeamTheory::rayleigh, sample_result_with_errors(3), {}};
-  TheoryRun timoshenko{BeamTheory::timoshenko, sample_result_with_errors(3), {}};
+TEST(ModelTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
+  ModelRun rayleigh{"rayleigh", sample_result_with_errors(3), {}};
+  ModelRun timoshenko{"timoshenko", sample_result_with_errors(3), {}};
   timoshenko.result.sub_impacts[0].end = 1e-6 * 353.583;
   for (std::size_t i = 0; i < 3; ++i) {
     rayleigh.pairs.push_back({i, i});
     timoshenko.pairs.push_back({i, i});
   }
-  const std::string table = theory_table({rayleigh, timoshenko});
+  const std::string table = model_table({rayleigh, timoshenko});
   expect_in(table, "353.583 +- 0.017");
   expect_in(table, "+20.25");  // 353.583 - 333.333
   expect_in(table,

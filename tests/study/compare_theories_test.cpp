@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "paper_scene.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
@@ -21,10 +24,12 @@ Case strike(BeamTheory theory) {
   return input;
 }
 
+const std::string names[] = {"rayleigh", "timoshenko"};
+
 // The converged times are 403.89 us by Rayleigh's theory and 424.18 us by Timoshenko's.
-TEST(CompareTheories, FindsWhatShearAddsToTheFirstContact) {
+TEST(CompareModels, FindsWhatShearAddsToTheFirstContact) {
   const Case cases[] = {strike(BeamTheory::rayleigh), strike(BeamTheory::timoshenko)};
-  const auto runs = compare_theories(cases, 2);
+  const auto runs = compare_models(cases, names, 2);
   ASSERT_EQ(runs.size(), 2u);
   const double added =
       1e6 * (*runs[1].result.sub_impacts.at(0).end - *runs[0].result.sub_impacts.at(0).end);
@@ -32,21 +37,36 @@ TEST(CompareTheories, FindsWhatShearAddsToTheFirstContact) {
   EXPECT_EQ(n_leading_matches(runs[1].pairs), 2u);
 }
 
-TEST(CompareTheories, EndsWhenProgressSaysSo) {
+TEST(CompareModels, EndsWhenProgressSaysSo) {
   const Case cases[] = {strike(BeamTheory::rayleigh), strike(BeamTheory::timoshenko)};
   std::size_t begun = 0;
-  const auto runs = compare_theories(
-      cases, 1, [&](std::size_t i) { begun = i + 1; }, [&](double) { return begun < 2; });
+  const auto runs = compare_models(
+      cases, names, 1, [&](std::size_t i) { begun = i + 1; }, [&](double) { return begun < 2; });
   EXPECT_EQ(runs.size(), 1u);
 }
 
-TEST(CompareTheories, RefusesBeforeAnyRunWhatATheoryCannotModel) {
+TEST(CompareModels, RefusesBeforeAnyRunWhatATheoryCannotModel) {
   Case elements = strike(BeamTheory::timoshenko);
   elements.model.mesh = MeshKind::hermite;
   const Case cases[] = {strike(BeamTheory::rayleigh), elements};
   std::size_t begun = 0;
-  EXPECT_THROW(compare_theories(cases, 1, [&](std::size_t) { ++begun; }), InvalidCase);
+  EXPECT_THROW(compare_models(cases, names, 1, [&](std::size_t) { ++begun; }), InvalidCase);
   EXPECT_EQ(begun, 0u);
+}
+
+TEST(CompareModels, ByContactLawsDropTheConstantsThatALawDoesNotUse) {
+  Case input = strike(BeamTheory::rayleigh);
+  input.scene.beam.shear_coefficient.reset();
+  input.scene.contact = {ContactKind::sphere, {}, 2.1e11, 0.3, {}};
+  input.scene.contact.yield_pressure = 3e8;
+  const Case foundation = with_contact_law(input, "foundation");
+  EXPECT_FALSE(foundation.scene.contact.striker_modulus);
+  EXPECT_FALSE(foundation.scene.contact.yield_pressure);
+  const Case hertz = with_contact_law(input, "hertz");
+  EXPECT_TRUE(hertz.scene.contact.striker_modulus);
+  EXPECT_FALSE(hertz.scene.contact.yield_pressure);
+  for (const Case& one : {input, foundation, hertz}) EXPECT_NO_THROW(check(one));
+  EXPECT_THROW(with_contact_law(input, "spere"), InvalidCase);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ double difference(const Scene& scene, std::size_t n_columns) {
     const double next = turn(random);
     for (int i = 1; i <= 50; ++i) {
       const double lambda = at + (next - at) * i / 50.0;
-      const double force = law.force(history, lambda);
+      const double force = law.contact_force(history, lambda);
       history = law.commit(history, lambda);
       worst = std::max(worst, std::abs(force - columns.press(lambda)));
       largest = std::max(largest, force);
@@ -78,8 +78,8 @@ Outcome check_contact() {
   outcome.rows = {
       {"stiffness K, N/m^1.5", 2.948976e10, law.scales().stiffness, Bound::relative, 2e-7},
       {"yield indentation, mm", 1.56337e-2, 1e3 * law.yield_threshold({}), Bound::relative, 3e-6},
-      {"force at first yield, N", 1822.90, law.force({}, law.yield_threshold({})), Bound::absolute,
-       0.005}};
+      {"force at first yield, N", 1822.90, law.contact_force({}, law.yield_threshold({})),
+       Bound::absolute, 0.005}};
   const double coarse = difference(scene, 1000);
   const double fine = difference(scene, 4000);
   outcome.rows.push_back({"largest difference from 1000 columns, of the largest force", 1e-4,

@@ -19,20 +19,13 @@ class Spring final : public ContactLaw {
   explicit Spring(double stiffness) : stiffness_(stiffness) {}
   std::string name() const override { return "spring"; }
   ContactScales scales() const override { return {stiffness_, 1.0}; }
-  double residual_indentation(ContactHistory) const override { return 0.0; }
-  double yield_threshold(ContactHistory) const override {
-    return std::numeric_limits<double>::infinity();
-  }
-  double elastic_force(ContactHistory, double indentation) const override {
+  double force(ContactHistory, double indentation) const override {
     return stiffness_ * indentation;
   }
-  double elastic_slope(ContactHistory, double) const override { return stiffness_; }
-  double plastic_force(double) const override { return 0.0; }
-  double plastic_slope(double) const override { return 0.0; }
+  double slope(ContactHistory, double) const override { return stiffness_; }
   double recoverable_energy(ContactHistory, double indentation) const override {
     return 0.5 * stiffness_ * indentation * indentation;
   }
-  double dissipated_energy(ContactHistory) const override { return 0.0; }
 
  private:
   double stiffness_;

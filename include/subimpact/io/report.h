@@ -80,9 +80,10 @@ std::string failure_message(const Case& input, const Result& result);
 /// One line per method beside the reference, and the differences in words.
 std::string comparison_table(const Comparison& comparison);
 
-/// Starts and ends of every sub-impact by several theories, with their errors and how much later
-/// they come than by the first theory; then each theory in a sentence.
-std::string theory_table(const std::vector<TheoryRun>& runs);
+/// Force, contacts and the striker's velocity at the end by several models; starts and ends of
+/// every sub-impact, with their errors and how much later they come than by the first model; then
+/// each model beside the first in a sentence.
+std::string model_table(const std::vector<ModelRun>& runs);
 
 /// Starts and ends of all sub-impacts, and how much later they come per 1 % more of each key, with
 /// the digits that the errors allow.

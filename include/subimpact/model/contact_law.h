@@ -28,15 +28,17 @@ struct ContactScales {
 /// lambda (m), the striker's displacement less that of the struck point.
 ///
 /// A user-defined law derives from this class and is assigned to `Case::parts.contact_law`; the
-/// built-in laws use the same interface. With the largest indentation so far lambda_m (the
-/// history), the residual indentation lambda_r and the yield threshold lambda_y,
+/// built-in laws use the same interface. It consists of `force`, the curve of unloading and
+/// reloading that a history leaves; where it yields or leaves a dent, of the two ends of that
+/// curve too. With the largest indentation so far lambda_m (the history), the residual indentation
+/// lambda_r and the yield threshold lambda_y,
 ///
 ///     separated  lambda <= lambda_r               F = 0
-///     elastic    lambda_r < lambda <= lambda_y    F = elastic_force(history, lambda)
-///     plastic    lambda > lambda_y, growing       F = plastic_force(lambda)
+///     elastic    lambda_r < lambda <= lambda_y    F = force(history, lambda)
+///     plastic    lambda > lambda_y, growing       F = force({lambda}, lambda)
 ///
-/// A law that never yields has an infinite yield threshold and a residual indentation of zero. One
-/// that yields from the first touch on has the threshold lambda_m.
+/// Slopes are then differences of the forces, and energies their integrals; a law may give closed
+/// forms instead. One that yields from the first touch on has the threshold lambda_m.
 ///
 /// **Requirements.** Steps end at the events at which one branch follows another, and the balances
 /// of energy and impulse of the run contain the energies of the law, so a law that breaks one of
@@ -44,14 +46,14 @@ struct ContactScales {
 ///
 ///   - the functions are pure: they depend on their arguments alone, change nothing, and may be
 ///     called from several threads at once;
-///   - F is continuous: elastic_force is 0 at lambda_r; it equals plastic_force at lambda_y, both
-///     for the history before yielding goes on and for the history {lambda} after it;
+///   - F is continuous: force is 0 at lambda_r; at lambda_y it is the same for the history before
+///     yielding goes on and for the history {lambda_y} after it;
 ///   - the force is compressive: F > 0 in the elastic and plastic range;
 ///   - 0 <= lambda_r <= lambda_y, and neither falls while lambda_m grows;
-///   - the slopes are the derivatives of the forces;
-///   - the energies are the work of the force: d(recoverable)/d lambda = F on the elastic branch;
-///     along the plastic branch recoverable + dissipated grow by F d lambda, and dissipated never
-///     falls.
+///   - where given, the slopes are the derivatives of the forces;
+///   - where given, the energies are the work of the force: d(recoverable)/d lambda = F on the
+///     elastic branch; along the plastic branch recoverable + dissipated grow by F d lambda.
+///     Dissipated never falls.
 ///
 /// Forces are also evaluated a little beyond the range of their branch, in steps that are then cut
 /// at the end of the branch: there they should continue smoothly, with either sign. One evaluation
@@ -65,37 +67,41 @@ class ContactLaw {
 
   /// For summaries: "Walton and Braun, k1 = 1e7 N/m".
   virtual std::string name() const = 0;
-  virtual ContactScales scales() const = 0;
+  /// N, of unloading and reloading: at lambda_r < lambda <= lambda_y.
+  virtual double force(ContactHistory history, double indentation) const = 0;
+  /// lambda_r, m: where the force ends on unloading, and begins on reloading. By default 0.
+  virtual double residual_indentation(ContactHistory history) const;
+  /// lambda_y, m: the indentation above which the contact yields (further). By default infinite.
+  virtual double yield_threshold(ContactHistory history) const;
 
-  /// lambda_r, m: where the force ends on unloading, and begins on reloading.
-  virtual double residual_indentation(ContactHistory history) const = 0;
-  /// lambda_y, m: the indentation above which the contact yields (further).
-  virtual double yield_threshold(ContactHistory history) const = 0;
-
-  virtual double elastic_force(ContactHistory history, double indentation) const = 0;  ///< N
-  virtual double elastic_slope(ContactHistory history,
-                               double indentation) const = 0;  ///< dF/dlambda, N/m
-  virtual double plastic_force(double indentation) const = 0;  ///< N
-  virtual double plastic_slope(double indentation) const = 0;  ///< N/m
+  /// By default a power through the forces at 1 and 2 um.
+  virtual ContactScales scales() const;
+  /// dF/dlambda of `force`, N/m.
+  virtual double slope(ContactHistory history, double indentation) const;
+  /// N: force({lambda}, lambda); a law may give a form that continues smoothly to small lambda.
+  virtual double plastic_force(double indentation) const {
+    return force({indentation}, indentation);
+  }
+  virtual double plastic_slope(double indentation) const;  ///< N/m
 
   /// Work (J) that the contact returns on unloading from this indentation. On the plastic branch
   /// `history` is that of the indentation itself.
-  virtual double recoverable_energy(ContactHistory history, double indentation) const = 0;
+  virtual double recoverable_energy(ContactHistory history, double indentation) const;
   /// Work (J) that plastic indentation has consumed so far.
-  virtual double dissipated_energy(ContactHistory history) const = 0;
+  virtual double dissipated_energy(ContactHistory history) const;
 
   /// The largest slope dF/dlambda (N/m) that any history has up to an indentation: the step limit
   /// of central differences follows from it. By default that of unloading from there.
   virtual double largest_slope(double indentation) const {
-    return elastic_slope({indentation}, indentation);
+    return slope({indentation}, indentation);
   }
 
   /// The branch on which `indentation` lies, given the history.
   ContactBranch branch(ContactHistory history, double indentation) const;
   double branch_force(ContactBranch branch, ContactHistory history, double indentation) const;
   double branch_slope(ContactBranch branch, ContactHistory history, double indentation) const;
-  /// Force of the branch that holds at this indentation.
-  double force(ContactHistory history, double indentation) const {
+  /// N, of the branch that holds at this indentation.
+  double contact_force(ContactHistory history, double indentation) const {
     return branch_force(branch(history, indentation), history, indentation);
   }
   /// The branch on which a contact begins that closes with this history.
@@ -105,6 +111,10 @@ class ContactLaw {
     return {indentation > history.max_indentation ? indentation : history.max_indentation};
   }
 
+  /// Work (J) of a first loading up to an indentation.
+  double work_up_to(double indentation) const {
+    return recoverable_energy({indentation}, indentation) + dissipated_energy({indentation});
+  }
   /// The largest indentation (m) that work `energy` (J) can press into the surface.
   double indentation_at(double energy) const;
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "subimpact/model/scene.h"
+
 namespace subimpact {
 
 /// A strip of a section, the same above and below the neutral axis, of one width and material.
@@ -19,25 +21,30 @@ struct FibreStrip {
 ///
 /// A user-defined section is a list of strips (`strips`), assigned to `Case::parts.section`: any
 /// section that is symmetric about its neutral axis, of elastic-perfectly plastic materials. The
-/// sections of a case file use the same interface: `continuous`, the rectangle, and `layered`, the
-/// rectangle as p equal layers per half whose stress is taken at mid-layer.
+/// sections of a case file use the same interface: `continuous`, the exact section, and `layered`,
+/// p layers of equal thickness per half whose stress is taken at mid-layer.
 ///
 /// Model: every fibre is linear elastic-perfectly plastic, strains are linear over the thickness.
-/// With the curvature x = kappa/kappa_y and the moment m = M/M_y in units of the rectangular beam
-/// of one material, kappa_y = 2 Y/(E h) and M_y = Y b h^2/6, a fibre at the distance z from the
-/// neutral axis, of modulus E_z and yield stress Y_z, yields at x = 1/zeta with
+/// With the curvature x = kappa/kappa_y and the moment m = M/M_y in units of the beam of one
+/// material, kappa_y = 2 Y/(E h) and M_y = 2 Y I/h, a fibre at the distance z from the neutral
+/// axis, of modulus E_z and yield stress Y_z, yields at x = 1/zeta with
 ///
-///     zeta = (2 z/h) (E_z/E) (Y/Y_z),   weight  w dzeta = (dA/(b h/2)) (E/E_z) (Y_z/Y)^2
+///     zeta = (2 z/h) (E_z/E) (Y/Y_z),   weight  w dzeta = (h^2 dA/(6 I)) (E/E_z) (Y_z/Y)^2,
 ///
-/// (zeta = 2 z/h and w = 1 for the rectangle). All that the law needs of the distribution are its
-/// cumulative moments S_i(zeta) = integral of w zeta^i from 0 to zeta. The virgin curve is
+/// dA the area on one side of the axis (zeta = 2 z/h and w = 1 for the rectangle). All that the law
+/// needs of the distribution are its cumulative moments S_i(zeta) = integral of w zeta^i from 0 to
+/// zeta. The virgin curve is
 ///
 ///     m(x) = 3 [x S_2(z_e) + S_1 - S_1(z_e)],  z_e = 1/x
 ///
 /// (fibres below z_e are elastic, the others carry their yield stress). Unloading and reloading
 /// follow from the virgin curve by Masing's rules, which are exact for such fibres. The rectangle
 /// has m = x up to 1 and 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a first yield
-/// at x = 2p/(2p - 1): properties of that law, not errors of this code.
+/// at x = 2p/(2p - 1): properties of that law, not errors of this code. Linear kinematic hardening
+/// with h = E_t/E is each fibre beside an elastic one, m = (1 - h) f(x) + h x: a fibre at zeta = 0
+/// with h S_2, which never yields, beside the others with weights times 1 - h; Masing's rules hold.
+/// Its elastic energy is what unloading or reversed flow can return, that of the elastic fibre
+/// included.
 ///
 /// Mass and rotary inertia remain those of Beam: choose its density so that the mass per length is
 /// that of the section. Shear deformation is left out: a core that is soft in shear is not covered.
@@ -47,14 +54,18 @@ class Fibres {
     double s0, s1, s2;
   };
 
-  static Fibres continuous();
+  /// Of a beam's section; by default of a rectangle.
+  static Fibres continuous(const Beam& beam = {});
   /// `layers` over the whole thickness: even, at least 2; throws std::invalid_argument otherwise.
-  static Fibres layered(int layers);
+  static Fibres layered(int layers, const Beam& beam = {});
   /// A section made of strips, which may lie side by side at the same distance (their widths add
   /// up) or leave gaps. `name` is for summaries. Throws std::invalid_argument for no strips, for
   /// distances outside 0 to 1 and for a width, modulus or yield stress that is not positive and
   /// finite.
   static Fibres strips(std::vector<FibreStrip> strips, std::string name);
+
+  /// The same fibres with linear kinematic hardening, 0 <= h < 1.
+  Fibres hardened(double h) const;
 
   const std::string& name() const { return name_; }
 
@@ -62,7 +73,10 @@ class Fibres {
   Moments up_to(double zeta) const;
 
   double slope() const { return slope_; }  ///< dm/dx while elastic
-  /// That of the section which the fibres stand for: layers stand for the rectangle.
+  /// Largest |m| without hardening, the shape factor: 3/2 for the rectangle.
+  double shape_factor() const { return 3.0 * whole_.s1 / (1.0 - hardening_); }
+  double hardening() const { return hardening_; }  ///< h
+  /// That of the section which the fibres stand for: layers stand for the exact one.
   double represented_slope() const { return half_layers_ > 0.0 ? 1.0 : slope_; }
   double first_yield() const { return first_yield_; }  ///< x at which the first fibre yields
   double outermost() const { return outermost_; }      ///< zeta of the fibre farthest from the axis
@@ -84,17 +98,24 @@ class Fibres {
   double energy(double a, double b, double constant, double slope) const;
 
  private:
-  // The fibres between two zeta, of constant weight.
+  // The fibres between two zeta: of constant weight; or, in a circle of the radius `to`, of a
+  // weight that falls as its chords, from `weight` at 0.
   struct Band {
     double from, to, weight;
+    bool is_round = false;
   };
 
-  explicit Fibres(int half_layers);  // 0: continuous
+  explicit Fibres(int half_layers);  // of a rectangle; 0: continuous
   Fibres(std::vector<Band> bands, double extent);
   Moments of_bands_up_to(double zeta) const;
+  void tabulate_layers(const Fibres& exact);
 
   double half_layers_;       // 0: continuous; negative: bands
-  std::vector<Band> bands_;  // of strips, else empty
+  std::vector<Band> bands_;  // else empty
+  // Up to each layer; empty for a rectangle without hardening, which has closed forms.
+  std::vector<Moments> of_layers_;
+  double hardening_ = 0.0;
+  double never_yields_ = 0.0;  // S_2 of the elastic fibre
   Moments whole_;
   double slope_;
   double first_yield_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,18 +42,24 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
                    const std::function<void(const std::string& name)>& announce = {},
                    const Progress& progress = {});
 
-/// One theory's run of a scene, with error bars of its own, beside the run of the first theory.
-struct TheoryRun {
-  BeamTheory theory;
+/// The run of one model of a scene, with error bars of its own, beside the run of the first model.
+struct ModelRun {
+  std::string name;  ///< of the beam theory or contact law by which the models differ
   Result result;
-  std::vector<MatchedPair> pairs;  ///< the first theory's (first) against this run (second)
+  std::vector<MatchedPair> pairs;  ///< the first model's (first) against this run (second)
 };
 
-/// Runs a scene by several beam theories: cases that differ in beam.theory alone. `announce` is
-/// called with the index of each run that begins; `progress`, if any, can end the comparison: the
-/// runs are then those that had ended. Throws InvalidCase before anything is run.
-std::vector<TheoryRun> compare_theories(std::span<const Case> cases, Jobs jobs,
-                                        const std::function<void(std::size_t)>& announce = {},
-                                        const Progress& progress = {});
+/// The case with another contact law by its name ("sphere") and without the constants of the
+/// contact that this law does not use. Throws InvalidCase for an unknown name.
+Case with_contact_law(const Case& input, const std::string& name);
+
+/// Runs a scene by several models: cases that differ in beam theory or contact law alone, and their
+/// names. `announce` is called with the index of each run that begins; `progress`, if any, can end
+/// the comparison: the runs are then those that had ended. Throws InvalidCase before anything is
+/// run.
+std::vector<ModelRun> compare_models(std::span<const Case> cases,
+                                     std::span<const std::string> names, Jobs jobs,
+                                     const std::function<void(std::size_t)>& announce = {},
+                                     const Progress& progress = {});
 
 }  // namespace subimpact
