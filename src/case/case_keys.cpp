@@ -278,7 +278,7 @@ std::vector<CaseKey> make_case_keys() {
     row("contact.striker_poisson", "", poisson, "Poisson's ratio of the nose, for \"sphere\", or \"hertz\" without stiffness", "none; not needed with contact.stiffness", AT(scene.contact.striker_poisson)),
     row("contact.beam_poisson", "", poisson, "the same as beam.poisson", "beam.poisson", AT(scene.contact.beam_poisson)),
     row("contact.damping", "s/m", not_negative, "damping chi of the laws \"hertz\" and \"linear\": the force is that of the law times 1 + chi times the rate of the indentation (Hunt and Crossley)", as_in_case, AT(scene.contact.damping)),
-    row("contact.yield_pressure", "Pa", positive, "mean pressure at which the softer body yields, for \"sphere\"", "1.6 times beam.yield_stress", AT(scene.contact.yield_pressure)),
+    row("contact.yield_pressure", "Pa", positive, "contact pressure at which the softer body yields, for \"sphere\"", "1.6 times beam.yield_stress", AT(scene.contact.yield_pressure)),
 
     row("model.mesh", "", any_value, "discretisation of the beam", "\"cells\"; if model.elements is given, \"hermite\", with shear \"spectral\"", AT(model.mesh)),
     row("model.segments", "", segment_range, "number of cells over the whole length; with mesh = \"mixed\" by default 400", as_in_case, AT(model.segments)),

@@ -75,8 +75,9 @@ class PowerContact final : public ContactLaw {
 };
 
 /// A sphere that yields, or is pressed into a surface that does: Hertz's law up to the indentation
-/// delta_y; then the pressure stays at p_y over the growing contact, and unloading is Hertz's again
-/// with the radius of the dent. With a of the contact circle and F_m, delta_m at the deepest point,
+/// delta_y; then the pressure is cut off at p_y over the growing contact, and unloading is Hertz's
+/// again with the radius of the dent. With a of the contact circle and F_m, delta_m at the deepest
+/// point,
 ///
 ///     delta_y = (pi p_y/(2 E*))^2 R,   F_y = 4/3 E* sqrt(R) delta_y^1.5
 ///     loading     F = F_y + pi p_y R (delta - delta_y)
@@ -142,7 +143,7 @@ const BuiltInContactLaw& built_in_contact_law(ContactKind kind);
 /// The law that a scene names. Throws std::invalid_argument where a constant is missing.
 std::shared_ptr<const ContactLaw> make_contact_law(const Scene& scene);
 
-/// Mean pressure over p_0/Y at which metals yield under a sphere.
+/// Largest contact pressure over yield stress at which metals yield under a sphere.
 inline constexpr double yield_pressure_over_stress = 1.6;
 
 /// The velocity (m/s) from which a strike yields the contact of a beam that does not give way, so

@@ -124,6 +124,60 @@ TEST_P(Conservation, IsReportedInTheHistoryRows) {
   EXPECT_LT(momentum, 1e-12);
 }
 
+/// A row per contact law of a case file: with its constants, on a section that it describes.
+struct ShapedStrike {
+  const char* name;
+  ContactKind law;
+  CrossSection section;
+};
+
+const ShapedStrike laws[] = {
+    {"foundation on a circle",
+     ContactKind::foundation,
+     {.shape = SectionShape::circle, .diameter = 0.011}},
+    {"hertz on a tube",
+     ContactKind::hertz,
+     {.shape = SectionShape::tube, .diameter = 0.016, .wall = 0.0025}},
+    {"linear on a box",
+     ContactKind::linear,
+     {.shape = SectionShape::box, .height = 0.012, .width = 0.016, .wall = 0.0015}},
+    {"sphere on an I",
+     ContactKind::sphere,
+     {.shape = SectionShape::i, .height = 0.014, .width = 0.012, .flange = 0.002, .web = 0.0015}},
+    {"sphere on a rectangle",
+     ContactKind::sphere,
+     {.shape = SectionShape::rectangle, .height = 0.0075, .width = 0.0163}},
+};
+
+TEST(ConservationOfShapes, HoldsForEveryLawWithAndWithoutHardening) {
+  for (const ShapedStrike& strike : laws) {
+    for (const double hardening : {0.0, 0.05}) {
+      for (const SectionKind section : {SectionKind::exact, SectionKind::layers}) {
+        SCOPED_TRACE(testing::Message() << strike.name << ' ' << hardening);
+        Case input = paper_case(section, 0.4e-3);
+        input.model.segments = 101;
+        Beam& beam = input.scene.beam;
+        beam.width = beam.thickness = 0.0;
+        beam.section = strike.section;
+        beam.hardening = hardening;
+        Contact& contact = input.scene.contact;
+        contact.kind = strike.law;
+        if (strike.law == ContactKind::linear) {
+          contact.stiffness = 2e7;
+        } else if (strike.law != ContactKind::foundation) {
+          contact.striker_modulus = 2e11;
+          contact.striker_poisson = contact.beam_poisson = 0.3;
+        }
+        const Conserved conserved = followed(input);
+        EXPECT_LT(conserved.energy_error, 1e-8);
+        EXPECT_LT(conserved.momentum_error, 1e-12);
+        EXPECT_LT(conserved.plastic_loss, 1e-12);
+        EXPECT_GT(simulate(input).n_yielded_sections, 0u);
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, Conservation,
                          testing::Values(SectionKind::elastic, SectionKind::exact,
                                          SectionKind::layers),

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/hermite_mesh.h"
 #include "model/section_law.h"
 #include "numerics/gauss.h"
 #include "paper_scene.h"
@@ -118,8 +119,8 @@ class QuadratureSection {
       for (std::size_t i = 0; i < gauss<5>.points.size(); ++i) {
         const double t = first + (last - first) * (panel + gauss<5>.points[i]) / panels;
         const double z = is_round ? to * std::sin(t) : t;
-        const double weight = gauss<5>.weights[i] * (last - first) / panels *
-                              (is_round ? to * std::cos(t) : 1.0);
+        const double weight =
+            gauss<5>.weights[i] * (last - first) / panels * (is_round ? to * std::cos(t) : 1.0);
         fibres_.push_back({z, weight * width_at(beam_.section, z)});
       }
     }
@@ -130,7 +131,8 @@ class QuadratureSection {
   double curvature_ = 0.0, moment_ = 0.0, moment_before_ = 0.0, work_ = 0.0, dissipated_ = 0.0;
 };
 
-// Where a fibre begins to flow the stress has a kink, which costs the rule an error of second order.
+// Where a fibre begins to flow the stress has a kink, which costs the rule an error of second
+// order.
 int panels_of(const CrossSection& section) { return section.diameter ? 20000 : 8000; }
 
 class EveryShape : public testing::TestWithParam<Shaped> {};
@@ -204,6 +206,22 @@ TEST_P(EveryShape, HardensByTheShareOfItsElasticStiffness) {
   }
 }
 
+// A Rayleigh beam on pins: omega^2 = E I b^4/(rho A + rho I b^2), b = n pi/l.
+TEST_P(EveryShape, VibratesOnPinsAtTheClosedFormsFrequencies) {
+  Beam beam = beam_of(GetParam().section);
+  beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  const QuadratureSection points(beam, 2000);
+  const double area = points.area(), second = points.second_moment();
+  const HermiteMesh mesh(beam, 0.5, 64, 2, HermiteMesh::Extent::whole);
+  const NaturalModes modes = mesh.natural_modes(beam.bending_stiffness());
+  for (std::size_t n = 0; n < 3; ++n) {
+    const double b = static_cast<double>(n + 1) * M_PI / beam.length;
+    const double expected = std::sqrt(beam.youngs_modulus * second * std::pow(b, 4) /
+                                      (beam.density * (area + second * b * b)));
+    EXPECT_NEAR(modes.frequencies[n], expected, 1e-6 * expected);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sections, EveryShape, testing::ValuesIn(shapes),
                          [](const auto& shape) { return std::string(shape.param.name); });
 
@@ -241,9 +259,8 @@ TEST(Sections, OfACircleHaveTheClosedFormOfTheVirginCurve) {
 
 TEST(Sections, GivenAsARectangleOfAnotherFormAreTheShortForm) {
   const Beam brief = paper_beam();
-  Beam beam = beam_of({.shape = SectionShape::rectangle,
-                       .height = brief.thickness,
-                       .width = brief.width});
+  Beam beam =
+      beam_of({.shape = SectionShape::rectangle, .height = brief.thickness, .width = brief.width});
   EXPECT_EQ(beam.area(), brief.area());
   EXPECT_EQ(beam.second_moment(), brief.second_moment());
   EXPECT_EQ(beam.yield_moment(), brief.yield_moment());
@@ -288,10 +305,11 @@ TEST(Sections, HaveCowpersShearCoefficients) {
   // A thin tube, 2 (1 + nu)/(4 + 3 nu); an I or box whose flanges vanish is a rectangle.
   EXPECT_NEAR(coefficient({.shape = SectionShape::tube, .diameter = 1.0, .wall = 1e-6}, 0.3),
               2.6 / 4.9, 1e-5);
-  EXPECT_NEAR(coefficient({.shape = SectionShape::i, .height = 0.1, .width = 0.01,
-                           .flange = 1e-7, .web = 0.005},
-                          0.3),
-              13.0 / 15.3, 1e-4);
+  EXPECT_NEAR(
+      coefficient(
+          {.shape = SectionShape::i, .height = 0.1, .width = 0.01, .flange = 1e-7, .web = 0.005},
+          0.3),
+      13.0 / 15.3, 1e-4);
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ TEST(SphereContact, LosesRestitutionAsTheFourthRootOfAGreatVelocity) {
 TEST(SphereContact, IsHertzUpToItsYield) {
   const SphereContact law = steel();
   const double stiffness = 4.0 / 3.0 * modulus * std::sqrt(R), unit = yield_indentation();
-  const double force_there = std::pow(M_PI, 3) * R * R * std::pow(pressure, 3) /
-                             (6.0 * modulus * modulus);  // F_y
+  const double force_there =
+      std::pow(M_PI, 3) * R * R * std::pow(pressure, 3) / (6.0 * modulus * modulus);  // F_y
   EXPECT_NEAR(law.plastic_force(unit), force_there, 1e-14 * force_there);
   EXPECT_NEAR(law.scales().stiffness, stiffness, 1e-14 * stiffness);
   for (const double x : {1e-3, 0.1, 0.7, 1.0}) {
@@ -180,9 +180,8 @@ TEST(ContactYieldVelocity, IsThatOfTheEnergyUpToYieldAndHertzHasThatOfItsMateria
   Scene scene = paper_scene();
   scene.contact = {ContactKind::sphere, {}, 2e11, 0.3, 0.33};
   const auto law = make_contact_law(scene);
-  const double expected =
-      std::sqrt(0.8 * law->scales().stiffness * std::pow(law->yield_threshold({}), 2.5) /
-                scene.striker.mass);
+  const double expected = std::sqrt(0.8 * law->scales().stiffness *
+                                    std::pow(law->yield_threshold({}), 2.5) / scene.striker.mass);
   EXPECT_NEAR(contact_yield_velocity(scene, *law).value(), expected, 1e-12 * expected);
   scene.contact.kind = ContactKind::hertz;
   EXPECT_NEAR(contact_yield_velocity(scene, *make_contact_law(scene)).value(), expected,

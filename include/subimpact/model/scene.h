@@ -147,7 +147,7 @@ struct Contact {
   std::optional<double> beam_poisson;     ///< nu
   /// chi, s/m: F = K lambda^n (1 + chi lambda') (hertz, linear; Hunt and Crossley 1975)
   double damping = 0.0;
-  /// p_y, Pa: mean pressure at which the softer body yields (sphere); by default 1.6 Y.
+  /// p_y, Pa: contact pressure at which the softer body yields (sphere); by default 1.6 Y.
   std::optional<double> yield_pressure = {};
 };
 
