@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "paper_case.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,8 +1,5 @@
 // The whole strike, every event against the error the reference tables state for it.
 
-#include <algorithm>
-#include <cmath>
-
 #include "paper_case.h"
 
 namespace subimpact {

@@ -2,15 +2,10 @@
 
 #include "subimpact/simulate/observer.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <vector>
-
 #include "paper_scene.h"
 #include "same_results.h"
 #include "subimpact/case/simulate.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

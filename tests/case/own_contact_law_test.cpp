@@ -1,14 +1,8 @@
 // Contact laws that a caller brings, through the public door.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <string>
-
 #include "built_in_law.h"
 #include "paper_scene.h"
+#include "runs.h"
 #include "same_results.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
@@ -144,8 +138,7 @@ TEST(AnOwnContactLaw, ThatYieldsFromTheFirstTouchHasItsRestitution) {
       Case input = rigid_case();
       input.solver.method = method;
       input.parts.contact_law = std::make_shared<TwoLines>(1e7, 1e7 / ratio);
-      const Result result = simulate(input);
-      EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+      const Result result = completed(input);
       ASSERT_EQ(result.sub_impacts.size(), 1u);
       EXPECT_NEAR(result.beam_mean_velocity - result.striker_velocity, std::sqrt(ratio), tolerance)
           << to_string(method) << ' ' << ratio;
@@ -158,8 +151,7 @@ TEST(AnOwnContactLaw, ThatYieldsFromTheFirstTouchFollowsTheBeamThroughItsSubImpa
   Case input = paper_case();
   input.solver.rtol = 1e-10;
   input.parts.contact_law = std::make_shared<TwoLines>(1e8, 4e8);
-  const Result by_erk = simulate(input);
-  EXPECT_TRUE(by_erk.outcome.completed()) << by_erk.outcome.message;
+  const Result by_erk = completed(input);
   ASSERT_GT(by_erk.sub_impacts.size(), 2u);
   input.solver.method = Method::nystrom;
   const Result by_nystrom = simulate(input);

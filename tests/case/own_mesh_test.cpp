@@ -1,14 +1,11 @@
 // Meshes of a caller's own, and runs made of parts.
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <future>
-#include <memory>
-#include <vector>
 
 #include "model/cell_mesh.h"
 #include "paper_scene.h"
+#include "runs.h"
 #include "same_results.h"
 #include "subimpact/case/simulate.h"
 
@@ -72,8 +69,7 @@ TEST(AMeshOfOnesOwn, GivesTheBitsOfTheBuiltInOneThatItIs) {
                               Method::central_difference}) {
     input.solver.method = method;
     input.parts.mesh = nullptr;
-    const Result built_in = simulate(input);
-    ASSERT_TRUE(built_in.outcome.completed()) << built_in.outcome.message;
+    const Result built_in = completed(input);
     input.parts.mesh = std::make_shared<CountingMesh>(cells);
     expect_same(simulate(input), built_in);
   }
@@ -88,19 +84,11 @@ TEST(AMeshOfOnesOwn, WithoutDisplacementsHasNoShapesAndRefusesThoseAskedFor) {
   EXPECT_TRUE(result.shapes.empty());
   EXPECT_TRUE(result.envelope.empty());
   EXPECT_EQ(result.used.shape_interval, 0.0);
-  const auto key_refused = [](const Case& given) -> std::string {
-    try {
-      resolve(given);
-      return {};
-    } catch (const InvalidCase& refused) {
-      return refused.key;
-    }
-  };
   Case shapes = input, points = input;
   shapes.output.shapes = 1e-5;
   points.output.points = {0.5};
-  EXPECT_EQ(key_refused(shapes), "output.shapes");
-  EXPECT_EQ(key_refused(points), "output.points");
+  EXPECT_EQ(refusal_of(shapes).key, "output.shapes");
+  EXPECT_EQ(refusal_of(points).key, "output.points");
 }
 
 TEST(ARun, BuildsItsModelOnce) {
@@ -127,13 +115,8 @@ TEST(ARunOfParts, GivesTheBitsOfTheCase) {
 
 TEST(ARunOfParts, IsRefusedWithoutAMeshOrALawOrAnEnd) {
   const Case input = short_case();
-  const auto key_refused = [](const Problem& problem, const Options& options) -> std::string {
-    try {
-      resolve(problem, options);
-      return {};
-    } catch (const InvalidCase& refused) {
-      return refused.key;
-    }
+  const auto key_refused = [](const Problem& problem, const Options& options) {
+    return refusal_of([&] { resolve(problem, options); }).key;
   };
   Problem problem = problem_of(input);
   EXPECT_EQ(key_refused(problem, input), "");

@@ -1,11 +1,7 @@
 // Sections that a caller brings, through the public door.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "paper_scene.h"
+#include "runs.h"
 #include "same_results.h"
 #include "subimpact/case/simulate.h"
 
@@ -64,10 +60,7 @@ TEST(AnOwnSection, OfHalfTheWidthIsABeamOfHalfTheWidth) {
   const Result a = simulate(narrow);
   const Result b = simulate(wide);
   EXPECT_NEAR(b.used.first_period, a.used.first_period, 1e-12 * a.used.first_period);
-  ASSERT_EQ(a.sub_impacts.size(), b.sub_impacts.size());
-  for (std::size_t i = 0; i < a.sub_impacts.size(); ++i) {
-    EXPECT_NEAR(a.sub_impacts[i].start, b.sub_impacts[i].start, 1e-10);
-  }
+  expect_same_starts(a, b, 1e6 * 1e-10);
 }
 
 TEST(AnOwnSection, KeepsItsAccountsWhereItYieldsAndWhereItDoesNot) {
@@ -78,8 +71,7 @@ TEST(AnOwnSection, KeepsItsAccountsWhereItYieldsAndWhereItDoesNot) {
   for (const Method method : {Method::erk, Method::nystrom, Method::exponential}) {
     input.solver.method = method;
     input.model.section = method == Method::exponential ? SectionKind::elastic : SectionKind::exact;
-    const Result result = simulate(input);
-    EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+    const Result result = completed(input);
     EXPECT_LT(result.max_energy_error, 1e-5);
     EXPECT_EQ(result.n_yielded_sections > 0, method != Method::exponential);
     EXPECT_EQ(result.used.section,
@@ -93,8 +85,7 @@ TEST(AnOwnSection, StopsOnTheProofThatNoContactFollows) {
   input.stop = StopRule::no_more_contact;
   input.solver.rtol = 1e-7;
   input.parts.section = Fibres::strips({{.from = 0.5, .to = 1.0, .yield = 0.5}}, "box");
-  const Result stopped = simulate(input);
-  EXPECT_TRUE(stopped.outcome.completed()) << stopped.outcome.message;
+  const Result stopped = completed(input);
   input.stop = StopRule::end_time;
   EXPECT_EQ(simulate(input).sub_impacts.size(), stopped.sub_impacts.size());
 }

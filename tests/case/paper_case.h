@@ -1,15 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "paper_scene.h"
 #include "print.h"
-#include "subimpact/case/simulate.h"
+#include "runs.h"
 
 namespace subimpact {
 
@@ -50,8 +43,5 @@ inline std::vector<ReferenceEvent> reference_table(const std::string& name) {
   EXPECT_FALSE(table.empty()) << "no table " << name;
   return table;
 }
-
-inline double start_us(const SubImpact& s) { return 1e6 * s.start; }
-inline double end_us(const SubImpact& s) { return 1e6 * s.end.value_or(-1.0); }
 
 }  // namespace subimpact

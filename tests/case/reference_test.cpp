@@ -1,9 +1,5 @@
 // Event times against tables computed by independent programs (tests/data/README.md).
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-
 #include "paper_case.h"
 
 namespace subimpact {
@@ -22,8 +18,7 @@ class AgainstTheReference : public testing::TestWithParam<Table> {};
 
 TEST_P(AgainstTheReference, AllSubImpactsBeforeTwoMillisecondsAreFoundAtTheirTimes) {
   const Table& table = GetParam();
-  const Result result = simulate(paper_case(table.section, 2e-3));
-  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  const Result result = completed(paper_case(table.section, 2e-3));
   std::vector<ReferenceEvent> reference = reference_table(table.name);
   std::erase_if(reference, [](const ReferenceEvent& row) { return row.start_us > 2000.0; });
   ASSERT_EQ(result.sub_impacts.size(), reference.size());
@@ -68,8 +63,7 @@ TEST_P(WithoutLocation, TheWholeStrikeHasAsManySubImpacts) {
   Case input = paper_case(table.section, 8e-3);
   input.solver.table = "dormand-prince";
   input.solver.events = events;
-  const Result result = simulate(input);
-  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  const Result result = completed(input);
   EXPECT_EQ(result.sub_impacts.size(), table.count);
   double worst_time = 0.0;
   const std::vector<ReferenceEvent> reference = reference_table(table.name);

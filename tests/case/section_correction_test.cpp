@@ -1,11 +1,6 @@
 // Sections that begin to flow, reverse or close loops within a step of a whole run, and what the
 // correction of the step's end is worth. (One section alone: tests/system/section_*_test.cpp.)
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-
 #include "order_table.h"
 #include "paper_case.h"
 #include "simulate/event_loop.h"
@@ -157,8 +152,7 @@ TEST(SectionEvents, ThatMoveTheEndOfAStepPastAnEventLeaveItLocated) {
   input.solver.rtol = 1e-8;
   for (const double velocity : {15.982326781361104, 15.982295069666772}) {
     input.scene.striker.velocity = velocity;
-    const Result result = simulate(input);
-    EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+    const Result result = completed(input);
     EXPECT_GT(result.sub_impacts.back().start, 5.682e-3);
   }
 }

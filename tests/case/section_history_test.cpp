@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "paper_case.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

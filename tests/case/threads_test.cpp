@@ -1,12 +1,9 @@
 // Several runs at once, each with the results that it has alone.
 
-#include <gtest/gtest.h>
-
 #include <future>
-#include <memory>
-#include <vector>
 
 #include "paper_scene.h"
+#include "runs.h"
 #include "same_results.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/simulate.h"
@@ -49,8 +46,7 @@ TEST(RunsInSeveralThreads, GiveTheBitsOfRunsOneAfterTheOther) {
   for (std::size_t i = 0; i < at_once.size(); ++i) {
     const Case& input = cases[i % cases.size()];
     SCOPED_TRACE(to_string(input.solver.method));
-    const Result alone = simulate(input);
-    EXPECT_TRUE(alone.outcome.completed()) << alone.outcome.message;
+    const Result alone = completed(input);
     expect_same(at_once[i].get(), alone);
   }
 }

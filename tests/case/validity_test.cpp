@@ -3,12 +3,8 @@
 
 #include "subimpact/case/doubtful_units.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-
 #include "paper_case.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

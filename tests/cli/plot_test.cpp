@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <thread>
 
 #include "fake_gnuplot.h"
@@ -11,16 +6,9 @@
 namespace subimpact {
 namespace {
 
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
-}
-
 void make_run(const TemporaryDirectory& directory) {
-  const Finished finished =
-      run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "time.end=2e-4", "--set",
-                   "model.segments=51", "--set", "output.sections=0.5"},
-                  directory.path);
-  ASSERT_EQ(finished.status, 0) << finished.errors;
+  run_in(directory, paper("run", {"time.end=2e-4", "model.segments=51", "output.sections=0.5"},
+                          {"--out", "here"}));
 }
 
 /// Runs with a search path on which there is no gnuplot.
@@ -36,8 +24,7 @@ class WithoutGnuplot {
 TEST(Plot, DrawsTheFiguresOfARunIntoAFolderOfTheirOwn) {
   const TemporaryDirectory directory;
   make_run(directory);
-  const Finished finished = run_program({"plot", "here"}, directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
+  const Finished finished = run_in(directory, {"plot", "here"});
   EXPECT_EQ(finished.errors, "");
   for (const std::string name : {"response", "first-sub-impact", "indentation", "energies",
                                  "timeline", "bending", "shapes", "envelope"}) {
@@ -50,131 +37,104 @@ TEST(Plot, DrawsTheFiguresOfARunIntoAFolderOfTheirOwn) {
 TEST(Plot, OfARunLeavesNoFiguresToTheNextOne) {
   const TemporaryDirectory directory;
   make_run(directory);
-  ASSERT_EQ(run_program({"plot", "here"}, directory.path).status, 0);
+  run_in(directory, {"plot", "here"});
   make_run(directory);
-  EXPECT_FALSE(std::filesystem::exists(directory.path / "here/figures/timeline.svg"));
-  EXPECT_EQ(run_program({"plot", "here"}, directory.path).status, 0);
+  EXPECT_FALSE(directory.has("here/figures/timeline.svg"));
+  run_in(directory, {"plot", "here"});
 }
 
 TEST(Plot, SaysOnStderrWhichSectionsItLeftOut) {
   const TemporaryDirectory directory;
   std::string sections = "output.sections=0.5";
   for (int i = 1; i < 26; ++i) sections += ",0.3";
-  ASSERT_EQ(run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "time.end=1e-5",
-                         "--set", "model.segments=51", "--set", sections},
-                        directory.path)
-                .status,
-            0);
+  run_in(directory,
+         paper("run", {"time.end=1e-5", "model.segments=51", sections}, {"--out", "here"}));
   for (const char* command : {"plot", "report"}) {
-    const Finished finished = run_program({command, "here"}, directory.path);
-    EXPECT_EQ(finished.status, 0);
-    expect_in(finished.errors, "subimpact: note: not drawn: bending: sections 25 to 26");
+    expect_in(run_in(directory, {command, "here"}).errors,
+              "subimpact: note: not drawn: bending: sections 25 to 26");
   }
 }
 
 TEST(Plot, DrawsElsewhereIfAsked) {
   const TemporaryDirectory directory;
   make_run(directory);
-  EXPECT_EQ(run_program({"plot", "here", "--out", "there"}, directory.path).status, 0);
-  EXPECT_TRUE(std::filesystem::exists(directory.path / "there" / "timeline.svg"));
-  EXPECT_FALSE(std::filesystem::exists(directory.path / "here/figures/timeline.svg"));
+  run_in(directory, {"plot", "here", "--out", "there"});
+  EXPECT_TRUE(directory.has("there/timeline.svg"));
+  EXPECT_FALSE(directory.has("here/figures/timeline.svg"));
 }
 
 TEST(Plot, OfWhatIsNoRunEndsWithStatus2AndSaysWhatIsMissing) {
   const TemporaryDirectory directory;
-  const Finished nowhere = run_program({"plot", "nowhere"}, directory.path);
-  EXPECT_EQ(nowhere.status, 2);
+  const Finished nowhere = run_in(directory, {"plot", "nowhere"}, 2);
   expect_in(nowhere.errors, "nowhere: is not a directory");
-  const Finished empty = run_program({"plot", "."}, directory.path);
-  EXPECT_EQ(empty.status, 2);
-  expect_in(empty.errors, "summary.json: cannot be read");
+  expect_in(run_in(directory, {"plot", "."}, 2).errors, "summary.json: cannot be read");
 }
 
 TEST(Run, KeepsSectionsWithErrorBarsToo) {
   const TemporaryDirectory directory;
-  const Finished finished =
-      run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--error-bars", "--set",
-                   "time.end=1e-4", "--set", "model.segments=51", "--set", "output.sections=0.5"},
-                  directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  EXPECT_TRUE(std::filesystem::exists(directory.path / "here" / "sections.csv"));
+  run_in(directory, paper("run", {"time.end=1e-4", "model.segments=51", "output.sections=0.5"},
+                          {"--out", "here", "--error-bars"}));
+  EXPECT_TRUE(directory.has("here/sections.csv"));
 }
 
 TEST(Report, IsOnePageBesideTheRun) {
   const TemporaryDirectory directory;
   make_run(directory);
-  const Finished finished = run_program({"report", "here"}, directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.output, "here/report.html");
-  const std::string page = read_file(directory.path / "here" / "report.html");
-  expect_in(page, "<!DOCTYPE html>");
-  expect_in(page, "</html>");
+  expect_in(run_in(directory, {"report", "here"}).output, "here/report.html");
+  const std::string page = directory.read("here/report.html");
+  expect_in(page, "<!DOCTYPE html>", "</html>");
 }
 
 TEST(Report, OfSeveralRunsComparesThemInADirectoryOfItsOwn) {
   const TemporaryDirectory directory;
   make_run(directory);
-  ASSERT_EQ(run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "there", "--set", "time.end=2e-4",
-                         "--set", "model.segments=51", "--set", "solver.rtol=1e-6"},
-                        directory.path)
-                .status,
-            0);
-  const Finished finished =
-      run_program({"report", "here", "there", "--out", "both"}, directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.output, "both/comparison.html");
-  expect_in(read_file(directory.path / "both" / "comparison.html"), "<td>solver.rtol</td>");
-  const Finished nowhere = run_program({"report", "here", "there"}, directory.path);
-  EXPECT_EQ(nowhere.status, 2);
-  expect_in(nowhere.errors, "--out DIR must name the directory");
+  run_in(directory, paper("run", {"time.end=2e-4", "model.segments=51", "solver.rtol=1e-6"},
+                          {"--out", "there"}));
+  expect_in(run_in(directory, {"report", "here", "there", "--out", "both"}).output,
+            "both/comparison.html");
+  expect_in(directory.read("both/comparison.html"), "<td>solver.rtol</td>");
+  expect_in(run_in(directory, {"report", "here", "there"}, 2).errors,
+            "--out DIR must name the directory");
 }
 
 TEST(Plot, DrawsWithScriptsOfAUserAndHandsOutThoseThatAreMissing) {
   const TemporaryDirectory directory;
   make_run(directory);
-  const Finished first = run_program({"plot", "here", "--scripts", "mine"}, directory.path);
-  EXPECT_EQ(first.status, 0) << first.errors;
-  expect_in(first.output, "mine/response.gp");
+  expect_in(run_in(directory, {"plot", "here", "--scripts", "mine"}).output, "mine/response.gp");
   directory.write("mine/timeline.gp", "plot nonsense from a user\n");
-  const Finished second = run_program({"plot", "here", "--scripts", "mine"}, directory.path);
-  EXPECT_EQ(second.status, 3);
-  expect_in(second.errors, "timeline.svg: gnuplot failed");
-  EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures/response.pdf"));
+  expect_in(run_in(directory, {"plot", "here", "--scripts", "mine"}, 3).errors,
+            "timeline.svg: gnuplot failed");
+  EXPECT_TRUE(directory.has("here/figures/response.pdf"));
 }
 
 TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
   const TemporaryDirectory directory;
   make_run(directory);
   const WithoutGnuplot hidden;
-  const Finished finished = run_program({"plot", "here"}, directory.path);
-  EXPECT_EQ(finished.status, 2);
-  expect_in(finished.errors, "gnuplot is not installed");
-  expect_in(finished.errors, "apt-get install gnuplot-nox");
+  expect_in(run_in(directory, {"plot", "here"}, 2).errors, "gnuplot is not installed",
+            "apt-get install gnuplot-nox");
 }
 
 TEST(Plot, DrawsNoScriptThatHoldsTheDataOfAnotherRun) {
   const TemporaryDirectory directory;
   make_run(directory);
-  ASSERT_EQ(run_program({"plot", "here", "--out", "drawn"}, directory.path).status, 0);
+  run_in(directory, {"plot", "here", "--out", "drawn"});
   std::filesystem::create_directory(directory.path / "mine");
   std::filesystem::copy_file(directory.path / "drawn" / "timeline.gp",
                              directory.path / "mine" / "timeline.gp");
   const Finished finished =
-      run_program({"plot", "here", "--scripts", "mine", "--out", "there"}, directory.path);
-  EXPECT_EQ(finished.status, 2);
+      run_in(directory, {"plot", "here", "--scripts", "mine", "--out", "there"}, 2);
   expect_in(finished.errors, "mine/timeline.gp: is the finished script of a drawn figure");
-  EXPECT_FALSE(std::filesystem::exists(directory.path / "there"));
-  EXPECT_FALSE(std::filesystem::exists(directory.path / "mine" / "style.gp"));
+  EXPECT_FALSE(directory.has("there"));
+  EXPECT_FALSE(directory.has("mine/style.gp"));
 }
 
 TEST(Plot, RefusesTheDirectoryOfTheRunOrOfTheFiguresAsThatOfTheScripts) {
   const TemporaryDirectory directory;
   make_run(directory);
   for (const char* scripts : {"here", "./here/", "there"}) {
-    const Finished finished =
-        run_program({"plot", "here", "--scripts", scripts, "--out", "there"}, directory.path);
-    EXPECT_EQ(finished.status, 2) << scripts;
-    expect_in(finished.errors, "is the directory of the run or of its figures; name another");
+    expect_in(run_in(directory, {"plot", "here", "--scripts", scripts, "--out", "there"}, 2).errors,
+              "is the directory of the run or of its figures; name another");
     EXPECT_FALSE(std::filesystem::exists(directory.path / scripts / "style.gp"));
   }
 }
@@ -182,7 +142,7 @@ TEST(Plot, RefusesTheDirectoryOfTheRunOrOfTheFiguresAsThatOfTheScripts) {
 TEST(FiguresThatCannotBeWritten, LeaveTheOthersAndEndWithStatus3) {
   const TemporaryDirectory directory;
   make_run(directory);
-  ASSERT_EQ(run_program({"plot", "here", "--out", "whole"}, directory.path).status, 0);
+  run_in(directory, {"plot", "here", "--out", "whole"});
   std::filesystem::path longest;
   for (const auto& entry : std::filesystem::directory_iterator(directory.path / "whole")) {
     if (longest.empty() || entry.file_size() > file_size(longest)) longest = entry.path();
@@ -200,8 +160,7 @@ TEST(FiguresThatCannotBeWritten, LeaveTheOthersAndEndWithStatus3) {
     for (const char* ending : {".svg", ".png", ".pdf", ".gp"}) {
       EXPECT_TRUE(std::filesystem::exists(place / (other + ending))) << other << ending;
     }
-    EXPECT_FALSE(
-        std::filesystem::exists(directory.path / "report/report.html"));  // longer than any figure
+    EXPECT_FALSE(directory.has("report/report.html"));  // longer than any figure
     if (command == "report") expect_in(finished.errors, "report.html: cannot be written");
   }
 }
@@ -214,7 +173,7 @@ TEST(Plot, TakesGnuplotWithItWhenASignalEndsIt) {
   const FakeGnuplot gnuplot(directory.path / "bin",
                             "echo $$ > " + number.string() +
                                 "\nkill -TERM $(cut -d' ' -f4 /proc/$PPID/stat)\nexec sleep 300\n");
-  EXPECT_EQ(run_program({"plot", "here"}, directory.path).status, -SIGTERM);
+  run_in(directory, {"plot", "here"}, -SIGTERM);
   ASSERT_TRUE(std::filesystem::exists(number));
   for (int i = 0; i < 300 && is_running(number); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

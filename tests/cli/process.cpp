@@ -16,12 +16,12 @@ namespace subimpact {
 
 namespace fs = std::filesystem;
 
-Finished run_program(const std::vector<std::string>& arguments, const fs::path& working_directory,
-                     int interrupt_after, int signal, unsigned long most_bytes) {
+Finished run_program(const Words& arguments, const fs::path& working_directory, int interrupt_after,
+                     int signal, unsigned long most_bytes) {
   const TemporaryDirectory streams;
   const std::string output = streams.path / "stdout";
   const std::string errors = streams.path / "stderr";
-  std::vector<std::string> words = {SUBIMPACT_PROGRAM};
+  Words words = {SUBIMPACT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -53,22 +53,6 @@ Finished run_program(const std::vector<std::string>& arguments, const fs::path& 
   finished.output = read_file(output);
   finished.errors = read_file(errors);
   return finished;
-}
-
-TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (fs::temp_directory_path() / "subimpact-cli-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp failed: " + name);
-  path = name;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  fs::remove_all(path, ignored);
-}
-
-std::string TemporaryDirectory::write(const std::string& name, const std::string& content) const {
-  std::ofstream(path / name) << content;
-  return path / name;
 }
 
 }  // namespace subimpact

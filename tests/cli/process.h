@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "read_file.h"
+#include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 
@@ -17,25 +18,36 @@ struct Finished {
   double megabytes = 0.0;  ///< resident memory at its largest
 };
 
+using Words = std::vector<std::string>;
+
 /// Runs the program with these arguments, its streams captured, in the given working directory.
 /// `interrupt_after` in ms: sends `signal` then; 0: never. `most_bytes`: of a file that is written;
 /// 0: as many as the disk holds.
-Finished run_program(const std::vector<std::string>& arguments,
-                     const std::filesystem::path& working_directory = ".", int interrupt_after = 0,
-                     int signal = SIGINT, unsigned long most_bytes = 0);
+Finished run_program(const Words& arguments, const std::filesystem::path& working_directory = ".",
+                     int interrupt_after = 0, int signal = SIGINT, unsigned long most_bytes = 0);
 
-/// A directory of the test's own, removed at its end.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+/// The same in a directory of the test, expected to end with that status.
+inline Finished run_in(const TemporaryDirectory& directory, const Words& arguments,
+                       int status = 0) {
+  const Finished finished = run_program(arguments, directory.path);
+  EXPECT_EQ(finished.status, status) << testing::PrintToString(arguments) << finished.errors;
+  return finished;
+}
 
-  /// Writes a file into it and returns its path.
-  std::string write(const std::string& name, const std::string& content) const;
+/// The same where the program leaves no files.
+inline Finished run_anywhere(const Words& arguments, int status = 0) {
+  const TemporaryDirectory directory;
+  const Finished finished = run_in(directory, arguments, status);
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path)) << testing::PrintToString(arguments);
+  return finished;
+}
 
-  std::filesystem::path path;
-};
+/// A command on the paper's case with settings and, before them, other arguments.
+inline Words paper(const std::string& command, const Words& settings = {}, const Words& more = {}) {
+  Words words = {command, SUBIMPACT_PAPER_CASE};
+  words.insert(words.end(), more.begin(), more.end());
+  for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+  return words;
+}
 
 }  // namespace subimpact

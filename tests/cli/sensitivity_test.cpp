@@ -1,18 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <sstream>
-
 #include <nlohmann/json.hpp>
 
 #include "process.h"
 
 namespace subimpact {
 namespace {
-
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
-}
 
 std::vector<std::string> of_paper(const std::string& command,
                                   const std::vector<std::string>& more = {}) {
@@ -25,15 +16,12 @@ std::vector<std::string> of_paper(const std::string& command,
 
 TEST(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
   const TemporaryDirectory directory;
-  const Finished finished = run_program(
-      of_paper("sensitivity", {"--by", "striker.velocity,beam.thickness", "--out", "s"}),
-      directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  for (const char* piece : {"us per 1 %", "striker.", "velocity", "218.94", "sensitivity.csv in s",
-                            "at rtol 1e-13 in place of 1e-08"}) {
-    expect_in(finished.output, piece);
-  }
-  std::istringstream csv(read_file(directory.path / "s" / "sensitivity.csv"));
+  expect_in(run_in(directory, of_paper("sensitivity",
+                                       {"--by", "striker.velocity,beam.thickness", "--out", "s"}))
+                .output,
+            "us per 1 %", "striker.", "velocity", "218.94", "sensitivity.csv in s",
+            "at rtol 1e-13 in place of 1e-08");
+  std::istringstream csv(directory.read("s/sensitivity.csv"));
   std::string heading, start, end;
   std::getline(csv, heading);
   std::getline(csv, start);
@@ -47,9 +35,7 @@ TEST(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
 
 TEST(SensitivityCommand, WritesNothingWithoutADirectory) {
   const TemporaryDirectory directory;
-  const Finished finished =
-      run_program(of_paper("sensitivity", {"--by", "striker.mass"}), directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
+  run_in(directory, of_paper("sensitivity", {"--by", "striker.mass"}));
   EXPECT_TRUE(std::filesystem::is_empty(directory.path));
 }
 
@@ -60,17 +46,13 @@ TEST(SensitivityCommand, ChoosesTheMeshOfACaseThatLeavesItOpen) {
                   "youngs_modulus = 71.96e9 }\n"
                   "striker = { mass = 0.201, nose_radius = 0.01, velocity = 15.9 }\n"
                   "time = { end = 3e-4 }\n");
-  const Finished finished =
-      run_program({"sensitivity", "open.toml", "--by", "striker.velocity"}, directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.output, "Hermite");
+  expect_in(run_in(directory, {"sensitivity", "open.toml", "--by", "striker.velocity"}).output,
+            "Hermite");
 }
 
 TEST(SensitivityCommand, RefusesKeysByName) {
   const auto refused = [](const std::string& key, const std::string& piece) {
-    const Finished finished = run_program(of_paper("sensitivity", {"--by", key}));
-    EXPECT_EQ(finished.status, 2) << key;
-    expect_in(finished.errors, piece);
+    expect_in(run_anywhere(of_paper("sensitivity", {"--by", key}), 2).errors, piece);
   };
   refused("striker.velocty", "did you mean \"striker.velocity\"?");
   refused("striker.gap", "striker.gap");
@@ -80,24 +62,21 @@ TEST(SensitivityCommand, RefusesKeysByName) {
 
 TEST(Run, OfACaseWithScatterStatesHowFarItCanBePredicted) {
   const TemporaryDirectory directory;
-  const Finished finished = run_program(
-      of_paper("run", {"--set", "scatter.striker.velocity=0.01", "--out", "r"}), directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  for (const char* piece : {"predictable", "standard deviations by the scatter of the case"}) {
-    expect_in(finished.output, piece);
-  }
-  const auto summary = nlohmann::json::parse(read_file(directory.path / "r" / "summary.json"));
+  expect_in(
+      run_in(directory, of_paper("run", {"--set", "scatter.striker.velocity=0.01", "--out", "r"}))
+          .output,
+      "predictable", "standard deviations by the scatter of the case");
+  const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
   // 1.654 us by ln v.
   EXPECT_NEAR(summary.at("predictability").at("zones").at(0).at("start_scatter_s"), 0.0, 1e-15);
-  const std::string events = read_file(directory.path / "r" / "events.csv");
+  const std::string events = directory.read("r/events.csv");
   expect_in(events.substr(0, events.find('\n')), ",start_scatter_s,end_scatter_s,");
 }
 
 TEST(Run, OfACaseWithoutScatterDoesNotSayHowFarItCanBePredicted) {
   const TemporaryDirectory directory;
-  const Finished finished = run_program(of_paper("run", {"--out", "r"}), directory.path);
-  EXPECT_EQ(finished.output.find("predictable"), std::string::npos);
-  const auto summary = nlohmann::json::parse(read_file(directory.path / "r" / "summary.json"));
+  expect_not_in(run_program(of_paper("run", {"--out", "r"}), directory.path).output, "predictable");
+  const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
   EXPECT_TRUE(summary.at("predictability").is_null());
 }
 

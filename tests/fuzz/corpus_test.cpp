@@ -1,11 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <vector>
-
 #include "targets.h"
+#include "testing.h"
 
 namespace subimpact::fuzz {
 namespace {

@@ -1,12 +1,8 @@
 // What is particular to the methods of SUNDIALS: vector operations, tables, failures by name.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-
 #include "integrate/sundials.h"
 #include "test_systems.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -25,12 +21,6 @@ State run(SpringChain& chain, const std::string& table, VectorOperations operati
   integrator->state_at(20.0, end);
   if (steps) *steps = integrator->work().steps;
   return end;
-}
-
-double largest_difference(const State& a, const State& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
 }
 
 TEST(VectorOperations, OfTheProjectGiveTheNumbersOfTheLibrary) {

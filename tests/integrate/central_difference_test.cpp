@@ -1,11 +1,7 @@
 #include "integrate/central_difference.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "test_systems.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,15 +1,10 @@
 // The multistep methods: accuracy by tolerance, stability on oscillations, restarts, failures.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <functional>
-#include <ostream>
-
 #include "integrate/sundials.h"
 #include "mechanical_systems.h"
 #include "order_table.h"
+#include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -34,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Families, Multistep,
                          testing::Values(Family{"adams", adams_order_limit, make_cvode_adams},
                                          Family{"bdf2", 2, make_cvode_bdf},
                                          Family{"bdf5", bdf_order_limit, make_cvode_bdf}),
-                         [](const auto& info) { return info.param.name; });
+                         NamedAsPrinted{});
 
 struct Errors {
   double at_steps = 0.0, inside = 0.0;
@@ -102,45 +97,8 @@ TEST_P(Multistep, CountsGoOnOverRestarts) {
   EXPECT_EQ(work.factorisations > 4, newton);
 }
 
-struct Mishap {
-  int code;
-};
 TEST_P(Multistep, WhatTheAccelerationThrowsComesOutWhole) {
-  class Thrower final : public MechanicalSystem {
-   public:
-    std::size_t n_positions() const override { return bar_.n_positions(); }
-    Scales scales() const override { return bar_.scales(); }
-    void acceleration(std::span<const double> q, std::span<double> a) override {
-      if (++calls_ == 20) throw Mishap{17};
-      bar_.acceleration(q, a);
-    }
-    void force(std::span<const double> q, Part part, std::span<double> result) override {
-      bar_.force(q, part, result);
-    }
-    const SparsityPattern& pattern() const override { return bar_.pattern(); }
-    void mass_entries(std::span<double> values) const override { bar_.mass_entries(values); }
-    void stiffness_entries(std::span<const double> q, Part part,
-                           std::span<double> values) override {
-      bar_.stiffness_entries(q, part, values);
-    }
-    State initial() const { return bar_.initial(); }
-
-   private:
-    ElasticBar bar_{4};
-    int calls_ = 0;
-  } system;
-  const auto integrator = GetParam().with_tolerance(system, 1e-6);
-  integrator->restart(0.0, system.initial());
-  int code = 0;
-  try {
-    for (int i = 0; i < 50; ++i) integrator->step();
-  } catch (const Mishap& mishap) {
-    code = mishap.code;
-  }
-  EXPECT_EQ(code, 17);
-  integrator->restart(0.0, system.initial());
-  integrator->step();
-  EXPECT_GT(integrator->time(), 0.0);
+  expect_mishap(GetParam(), ThrowingBar::In::acceleration, 20);
 }
 
 // A slow oscillation sets the order; a fast one, far below the tolerance, sees steps of one radian:

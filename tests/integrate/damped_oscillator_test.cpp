@@ -2,11 +2,7 @@
 
 #include "integrate/damped_oscillator.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,13 +1,7 @@
 // The exponential method's parts against quadrature and closed forms.
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <memory>
-
 #include "integrate/exponential.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

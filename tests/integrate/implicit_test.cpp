@@ -1,16 +1,10 @@
 // The implicit and half-implicit Runge-Kutta methods: orders, damping, matrices, failures.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <ostream>
-#include <stdexcept>
-
 #include "integrate/sundials.h"
 #include "mechanical_systems.h"
 #include "order_table.h"
+#include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -56,12 +50,6 @@ std::vector<ImplicitMethod> default_methods() {
           {"imex", imex_tables().front(), make_arkode_imex}};
 }
 
-std::string test_name(const testing::TestParamInfo<ImplicitMethod>& info) {
-  std::string name = info.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
 class ImplicitOrder : public testing::TestWithParam<ImplicitMethod> {
  protected:
   // `error_of(n)` with n steps growing by the cube root of 2, while the error is neither coarse nor
@@ -80,52 +68,26 @@ class ImplicitOrder : public testing::TestWithParam<ImplicitMethod> {
     const double order = GetParam().table.order;
     table.expect_finest_order_within(4, order - 0.4, order + 0.4);
   }
-
-  double error_at_steps(KnownSystem& system, double end, int n) try {
-    const auto integrator = GetParam().with_step(system, end / n);
-    integrator->restart(0.0, system.initial());
-    double largest = 0.0;
-    for (int i = 0; i < n; ++i) {
-      integrator->step();
-      largest = std::max(largest, system.error(integrator->time(), integrator->state()));
-    }
-    return largest;
-  } catch (const IntegrationFailure&) {
-    return std::numeric_limits<double>::infinity();  // Newton's iteration fails with long steps
-  }
-
-  double error_inside_steps(KnownSystem& system, double end, int n) try {
-    const auto integrator = GetParam().with_step(system, end / n);
-    integrator->restart(0.0, system.initial());
-    double largest = 0.0;
-    State inside;
-    for (int i = 0; i < n; ++i) {
-      integrator->step();
-      const double t = integrator->start_time() + 0.37 * end / n;
-      integrator->state_at(t, inside);
-      largest = std::max(largest, system.error(t, inside));
-    }
-    return largest;
-  } catch (const IntegrationFailure&) {
-    return std::numeric_limits<double>::infinity();  // Newton's iteration fails with long steps
-  }
 };
 
-INSTANTIATE_TEST_SUITE_P(Methods, ImplicitOrder, testing::ValuesIn(all_methods()), test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, ImplicitOrder, testing::ValuesIn(all_methods()),
+                         NamedAsPrinted{});
 
 TEST_P(ImplicitOrder, OnABarWithConsistentMassIsTheTables) {
   ElasticBar bar(5);
-  expect_order("elastic bar", [&](int n) { return error_at_steps(bar, 6.0, n); });
+  expect_order("elastic bar", [&](int n) { return error_in_steps(GetParam(), bar, 6.0, n, 1.0); });
 }
 
 TEST_P(ImplicitOrder, OnACurvedMotionWithCoupledMassIsTheTables) {
   CurvedSystem system;
-  expect_order("curved motion", [&](int n) { return error_at_steps(system, 4.0, n); });
+  expect_order("curved motion",
+               [&](int n) { return error_in_steps(GetParam(), system, 4.0, n, 1.0); });
 }
 
 TEST_P(ImplicitOrder, InsideStepsIsTheTables) {
   CurvedSystem system;
-  expect_order("inside steps", [&](int n) { return error_inside_steps(system, 4.0, n); });
+  expect_order("inside steps",
+               [&](int n) { return error_in_steps(GetParam(), system, 4.0, n, 0.37); });
 }
 
 // |R(i omega h)| after one step of an oscillator.
@@ -166,7 +128,7 @@ TEST(DirkDamping, NoTableLetsAnOscillationGrow) {
 }
 
 class Implicit : public testing::TestWithParam<ImplicitMethod> {};
-INSTANTIATE_TEST_SUITE_P(Methods, Implicit, testing::ValuesIn(default_methods()), test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, Implicit, testing::ValuesIn(default_methods()), NamedAsPrinted{});
 
 TEST_P(Implicit, ErrorFallsWithTheTolerance) {
   CurvedSystem system;
@@ -235,52 +197,9 @@ TEST_P(Implicit, RestartKeepsTheStepSize) {
   EXPECT_GT(integrator->time() - integrator->start_time(), 0.4 * before);
 }
 
-struct Mishap {
-  int code;
-};
-class Mishappening final : public MechanicalSystem {
- public:
-  bool in_force = true;
-  int calls_left = 7;
-  std::size_t n_positions() const override { return bar_.n_positions(); }
-  Scales scales() const override { return bar_.scales(); }
-  void acceleration(std::span<const double> q, std::span<double> a) override {
-    bar_.acceleration(q, a);
-  }
-  void force(std::span<const double> q, Part part, std::span<double> result) override {
-    if (in_force && --calls_left == 0) throw Mishap{42};
-    bar_.force(q, part, result);
-  }
-  const SparsityPattern& pattern() const override { return bar_.pattern(); }
-  void mass_entries(std::span<double> values) const override { bar_.mass_entries(values); }
-  void stiffness_entries(std::span<const double> q, Part part, std::span<double> values) override {
-    if (!in_force && --calls_left == 0) throw Mishap{43};
-    bar_.stiffness_entries(q, part, values);
-  }
-  State initial() const { return bar_.initial(); }
-
- private:
-  ElasticBar bar_{4};
-};
-
 TEST_P(Implicit, WhatForceOrStiffnessThrowsComesOutWhole) {
-  for (const bool in_force : {true, false}) {
-    Mishappening system;
-    system.in_force = in_force;
-    const auto integrator = GetParam().with_tolerance(system, 1e-6);
-    integrator->restart(0.0, system.initial());
-    int code = 0;
-    try {
-      for (int i = 0; i < 20; ++i) integrator->step();
-    } catch (const Mishap& mishap) {
-      code = mishap.code;
-    }
-    EXPECT_EQ(code, in_force ? 42 : 43);
-    // And the integrator can be used again.
-    integrator->restart(0.0, system.initial());
-    integrator->step();
-    EXPECT_GT(integrator->time(), 0.0);
-  }
+  expect_mishap(GetParam(), ThrowingBar::In::force, 7);
+  expect_mishap(GetParam(), ThrowingBar::In::stiffness, 7);
 }
 
 TEST_P(Implicit, AnUnknownTableIsRefused) {

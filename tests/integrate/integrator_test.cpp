@@ -1,31 +1,19 @@
 // What every method promises besides its order: steps, states inside them, restarts, work, errors.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
 #include "methods.h"
 #include "order_table.h"
 #include "test_systems.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
-double largest_difference(const State& a, const State& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
-}
-
 class EveryMethod : public testing::TestWithParam<ExplicitMethod> {};
-INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(all_methods()),
-                         [](const auto& info) { return test_name(info.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn(all_methods()), NamedAsPrinted{});
 
 class EveryAdaptiveMethod : public testing::TestWithParam<ExplicitMethod> {};
 INSTANTIATE_TEST_SUITE_P(Methods, EveryAdaptiveMethod, testing::ValuesIn(adaptive_methods()),
-                         [](const auto& info) { return test_name(info.param); });
+                         NamedAsPrinted{});
 
 TEST_P(EveryMethod, StatesInsideAStepAgreeWithItsEnds) {
   CurvedMotion motion;

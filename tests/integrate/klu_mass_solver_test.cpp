@@ -1,12 +1,9 @@
 #include "integrate/sundials.h"
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-
 #include "banded_examples.h"
 #include "model/cell_mesh.h"
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

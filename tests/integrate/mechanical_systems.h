@@ -2,32 +2,15 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <utility>
-
 #include "test_systems.h"
 
 namespace subimpact {
 
 /// Mass q'' = f(q) of known motion, small enough to be written as full matrices.
-class KnownSystem : public MechanicalSystem {
+class KnownSystem : public Known<MechanicalSystem> {
  public:
   using Vector = Eigen::VectorXd;
   using Matrix = Eigen::MatrixXd;
-
-  virtual State exact(double t) const = 0;
-  State initial() const { return exact(0.0); }
-  double error(double t, const State& y) const {
-    const State right = exact(t);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      largest = std::fmax(largest, std::abs(y[i] - right[i]));
-    }
-    return largest;
-  }
 
   std::size_t n_positions() const override { return static_cast<std::size_t>(mass_.rows()); }
   Scales scales() const override { return {1.0, 1.0}; }
@@ -172,5 +155,57 @@ class Oscillators final : public KnownSystem {
   }
   Vector frequencies_, amplitudes_;
 };
+
+/// A bar of which one function throws at a call.
+class ThrowingBar final : public MechanicalSystem {
+ public:
+  enum class In { acceleration, force, stiffness };
+  struct Mishap {
+    In place;
+  };
+  ThrowingBar(In place, int call) : place_(place), calls_left_(call) {}
+  std::size_t n_positions() const override { return bar_.n_positions(); }
+  Scales scales() const override { return bar_.scales(); }
+  void acceleration(std::span<const double> q, std::span<double> a) override {
+    count(In::acceleration);
+    bar_.acceleration(q, a);
+  }
+  void force(std::span<const double> q, Part part, std::span<double> result) override {
+    count(In::force);
+    bar_.force(q, part, result);
+  }
+  const SparsityPattern& pattern() const override { return bar_.pattern(); }
+  void mass_entries(std::span<double> values) const override { bar_.mass_entries(values); }
+  void stiffness_entries(std::span<const double> q, Part part, std::span<double> values) override {
+    count(In::stiffness);
+    bar_.stiffness_entries(q, part, values);
+  }
+  State initial() const { return bar_.initial(); }
+
+ private:
+  void count(In place) {
+    if (place == place_ && --calls_left_ == 0) throw Mishap{place};
+  }
+  ElasticBar bar_{4};
+  In place_;
+  int calls_left_;
+};
+
+/// What the bar throws comes out of a step whole, and the integrator can be used again.
+template <class Method>
+void expect_mishap(const Method& method, ThrowingBar::In place, int call) {
+  ThrowingBar system(place, call);
+  const auto integrator = method.with_tolerance(system, 1e-6);
+  integrator->restart(0.0, system.initial());
+  try {
+    for (int i = 0; i < 50; ++i) integrator->step();
+    ADD_FAILURE() << "nothing came out";
+  } catch (const ThrowingBar::Mishap& mishap) {
+    EXPECT_EQ(mishap.place, place);
+  }
+  integrator->restart(0.0, system.initial());
+  integrator->step();
+  EXPECT_GT(integrator->time(), 0.0);
+}
 
 }  // namespace subimpact

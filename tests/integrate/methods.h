@@ -1,14 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <ostream>
-#include <string>
-#include <vector>
-
 #include "integrate/central_difference.h"
 #include "integrate/nystrom.h"
 #include "integrate/sundials.h"
+#include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 
@@ -28,41 +24,32 @@ inline std::ostream& operator<<(std::ostream& out, const ExplicitMethod& method)
 }
 
 inline std::vector<ExplicitMethod> adaptive_methods() {
+  using MakeIt = std::unique_ptr<Integrator> (*)(SecondOrderOde&, const IntegratorOptions&);
   std::vector<ExplicitMethod> methods;
+  const auto add = [&](const std::string& family, const auto& table, double band, MakeIt make) {
+    IntegratorOptions options;
+    options.table = table.name;
+    methods.push_back({family + table.name, table.order, band, table.evaluations,
+                       [=](SecondOrderOde& ode, double step) mutable {
+                         options.fixed_step = step;
+                         return make(ode, options);
+                       },
+                       [=](SecondOrderOde& ode, double rtol) mutable {
+                         options.relative_tolerance = rtol;
+                         return make(ode, options);
+                       }});
+  };
   for (const CoefficientTable& table : explicit_tables()) {
-    const auto make = [name = table.name](SecondOrderOde& ode, auto set) {
-      IntegratorOptions options;
-      options.table = name;
-      set(options);
+    add("erk_", table, 0.3, [](SecondOrderOde& ode, const IntegratorOptions& options) {
       return make_arkode_erk(ode, options);
-    };
-    methods.push_back(
-        {"erk_" + table.name, table.order, 0.3, table.evaluations,
-         [make](SecondOrderOde& ode, double step) {
-           return make(ode, [step](IntegratorOptions& options) { options.fixed_step = step; });
-         },
-         [make](SecondOrderOde& ode, double rtol) {
-           return make(ode,
-                       [rtol](IntegratorOptions& options) { options.relative_tolerance = rtol; });
-         }});
+    });
   }
+  // Of the highest orders double precision shows little: rounding is soon reached.
   for (const NystromTable& table : nystrom_tables()) {
-    const auto make = [name = table.name](SecondOrderOde& ode, auto set) {
-      IntegratorOptions options;
-      options.table = name;
-      set(options);
-      return std::unique_ptr<Integrator>(std::make_unique<Nystrom>(ode, options));
-    };
-    // Of the highest orders double precision shows little: rounding is soon reached.
-    methods.push_back(
-        {"nystrom_" + table.name, table.order, table.order > 8 ? 1.0 : 0.5, table.evaluations,
-         [make](SecondOrderOde& ode, double step) {
-           return make(ode, [step](IntegratorOptions& options) { options.fixed_step = step; });
-         },
-         [make](SecondOrderOde& ode, double rtol) {
-           return make(ode,
-                       [rtol](IntegratorOptions& options) { options.relative_tolerance = rtol; });
-         }});
+    add("nystrom_", table, table.order > 8 ? 1.0 : 0.5,
+        [](SecondOrderOde& ode, const IntegratorOptions& options) {
+          return std::unique_ptr<Integrator>(std::make_unique<Nystrom>(ode, options));
+        });
   }
   return methods;
 }
@@ -79,15 +66,6 @@ inline std::vector<ExplicitMethod> all_methods() {
                      },
                      {}});
   return methods;
-}
-
-/// Names for parametrised tests: letters, digits and underscores only.
-inline std::string test_name(const ExplicitMethod& method) {
-  std::string name = method.name;
-  for (char& c : name) {
-    if (c == '-' || c == '.') c = '_';
-  }
-  return name;
 }
 
 }  // namespace subimpact

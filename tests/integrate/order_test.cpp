@@ -1,14 +1,9 @@
 // Every method has the order its table claims, at whole steps and inside them, no less and no more.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "methods.h"
 #include "order_table.h"
 #include "test_systems.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -35,56 +30,26 @@ class Order : public testing::TestWithParam<ExplicitMethod> {
     const double band = GetParam().order_band;
     table.expect_finest_order_within(4, GetParam().order - band, GetParam().order + band);
   }
-
-  // Largest error over all step ends; infinite if the motion with such steps grows out of hand.
-  double error_at_steps(KnownMotion& motion, double end, int n) try {
-    const auto integrator = GetParam().with_step(motion, end / n);
-    integrator->restart(0.0, motion.initial());
-    double largest = 0.0;
-    for (int i = 0; i < n; ++i) {
-      integrator->step();
-      largest = std::max(largest, motion.error(integrator->time(), integrator->state()));
-    }
-    return largest;
-  } catch (const IntegrationFailure&) {
-    return std::numeric_limits<double>::infinity();
-  }
-
-  // Largest error at a part of each step.
-  double error_inside_steps(KnownMotion& motion, double end, int n) try {
-    const double step = end / n;
-    const auto integrator = GetParam().with_step(motion, step);
-    integrator->restart(0.0, motion.initial());
-    double largest = 0.0;
-    State inside;
-    for (int i = 0; i < n; ++i) {
-      integrator->step();
-      const double t = integrator->start_time() + 0.37 * step;
-      integrator->state_at(t, inside);
-      largest = std::max(largest, motion.error(t, inside));
-    }
-    return largest;
-  } catch (const IntegrationFailure&) {
-    return std::numeric_limits<double>::infinity();
-  }
 };
 
-INSTANTIATE_TEST_SUITE_P(Methods, Order, testing::ValuesIn(all_methods()),
-                         [](const auto& info) { return test_name(info.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, Order, testing::ValuesIn(all_methods()), NamedAsPrinted{});
 
 TEST_P(Order, OnAChainOfSpringsIsTheMethodsOwn) {
   SpringChain chain(5);
-  expect_order("spring chain", [&](int n) { return error_at_steps(chain, 20.0, n); });
+  expect_order("spring chain",
+               [&](int n) { return error_in_steps(GetParam(), chain, 20.0, n, 1.0); });
 }
 
 TEST_P(Order, OnACurvedMotionIsTheMethodsOwn) {
   CurvedMotion motion;
-  expect_order("curved motion", [&](int n) { return error_at_steps(motion, 4.0, n); });
+  expect_order("curved motion",
+               [&](int n) { return error_in_steps(GetParam(), motion, 4.0, n, 1.0); });
 }
 
 TEST_P(Order, InsideStepsIsTheMethodsOwn) {
   CurvedMotion motion;
-  expect_order("inside steps", [&](int n) { return error_inside_steps(motion, 4.0, n); });
+  expect_order("inside steps",
+               [&](int n) { return error_in_steps(GetParam(), motion, 4.0, n, 0.37); });
 }
 
 }  // namespace

@@ -1,14 +1,8 @@
 // Events found by the library's own root-finding: their times, and the traps of such root-finding.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <ostream>
-
 #include "integrate/sundials.h"
 #include "mechanical_systems.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,21 +1,14 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <numbers>
-#include <span>
-#include <utility>
-#include <vector>
-
+#include "ode/integrator.h"
 #include "ode/second_order_ode.h"
+#include "testing.h"
 
 namespace subimpact {
 
 /// A problem whose motion is known at every time.
-class KnownMotion : public SecondOrderOde {
+template <class Ode>
+class Known : public Ode {
  public:
   virtual State exact(double t) const = 0;
   State initial() const { return exact(0.0); }
@@ -26,12 +19,43 @@ class KnownMotion : public SecondOrderOde {
     const std::size_t n = right.size() / 2;
     double largest = 0.0;
     for (std::size_t i = 0; i < right.size(); ++i) {
-      const double unit = i < n ? scales().position : scales().velocity;
+      const double unit = i < n ? this->scales().position : this->scales().velocity;
       largest = std::fmax(largest, std::abs(y[i] - right[i]) / unit);
     }
     return largest;
   }
 };
+
+using KnownMotion = Known<SecondOrderOde>;
+
+inline double largest_difference(const State& a, const State& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+/// The largest error of n steps up to `end`, at the part `place` of each; infinite if the motion
+/// with such steps grows out of hand, or Newton's iteration fails.
+template <class Method, class Motion>
+double error_in_steps(const Method& method, Motion& motion, double end, int n, double place) try {
+  const auto integrator = method.with_step(motion, end / n);
+  integrator->restart(0.0, motion.initial());
+  double largest = 0.0;
+  State inside;
+  for (int i = 0; i < n; ++i) {
+    integrator->step();
+    const double t = place < 1.0 ? integrator->start_time() + place * end / n : integrator->time();
+    if (place < 1.0) {
+      integrator->state_at(t, inside);
+    } else {
+      inside = integrator->state();
+    }
+    largest = std::max(largest, motion.error(t, inside));
+  }
+  return largest;
+} catch (const IntegrationFailure&) {
+  return std::numeric_limits<double>::infinity();
+}
 
 /// A chain of n unit masses between two walls, joined by unit springs, time sped up by `rate`: all
 /// modes k = 1..n are excited, each with its own phase. omega_k = 2 rate sin(k pi/(2(n + 1))).

@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <utility>
-#include <vector>
-
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -19,354 +15,170 @@ std::string refusal_of(const std::string& text, const std::vector<Override>& ove
   return "(accepted)";
 }
 
-void expect_all_in(const std::string& message, const std::vector<std::string>& pieces) {
-  for (const std::string& piece : pieces) {
-    EXPECT_NE(message.find(piece), std::string::npos)
-        << '"' << piece << "\" is not in: " << message;
+std::string refusal_with(const std::string& setting) {
+  return refusal_of(small_case_text(), {parse_override(setting)});
+}
+
+/// Ways to spoil the small case, and what the message must then contain: place, key, what was found
+/// and what is allowed.
+constexpr const char* spoilt_cases[][3] = {
+    {"length = 0.7112", "lenght = 0.7112",
+     R"(bad.toml:2:1: |unknown key "beam.lenght"|width, thickness|did you mean "beam.length"?)"},
+    {"density = 2600", "density = 2600\nrtol = 1e-9",
+     R"(bad.toml:6:1: |unknown key "beam.rtol"|did you mean "solver.rtol"?)"},
+    {"density = 2600", "density = 2600\nend = 8e-3",
+     R"(bad.toml:6:1: |end is a key of [time]|"time.end" or "beam.ends"?)"},
+    {"length = 0.7112", "length = 711.2 mm",
+     R"(bad.toml:2:|711.2 mm is a value with a unit|in quotes, "711.2 mm"|SI)"},
+    {"mass = 0.201", "mass = 201g # light", R"(bad.toml:8:|201 g is a value with a unit|"201 g")"},
+    {"[beam]", "output = { interval = 1us, shapes = 0 }\n[beam]",
+     "bad.toml:1:|1 us is a value with a unit"},
+    {"length = 0.7112", R"(length = "711.2 kg")",
+     R"(bad.toml:2:1: |("711.2 kg")|"kg" is none of its units: m, mm)"},
+    {"mass = 0.201", "mass = 0.201\nposition = \"0.5 m\"",
+     "bad.toml:9:1: |write the number without a unit"},
+    {"[time]", "[model]\nsegments = \"501 cells\"\n[time]",
+     R"(bad.toml:12:1: |("501 cells")|a whole number)"},
+    {"velocity = 15.9", R"(velocity = "15.9 M/S")", R"("M/S" is none of its units: m/s, mm/s)"},
+    {"mass = 0.201", R"(mass = "-201 g")", "striker.mass is -0.201|above 0 (kg)"},
+    {"length = 0.7112", R"(length = "28 in")", R"("in" is none of its units: m, mm, um, cm, km)"},
+    {"length = 0.7112", R"(length = "0.7 0.1")", R"(("0.7 0.1")|none of its units)"},
+    {"length = 0.7112", R"(length = "mm")", R"(("mm")|above 0 (m))"},
+    {"density = 2600", "density = 2600\nvelocity = 3",
+     R"(velocity is a key of [striker]|"striker.velocity"?)"},
+    {"mass = 0.201", "mass = 0.201\nlaw = \"hertz\"", "law is a key of [contact]"},
+    {"[time]", "[solver]\nmesh = \"cells\"\n[time]", "mesh is a key of [model]"},
+    {"[beam]", "lengt = 1\n[beam]",
+     R"(bad.toml:1:1: |unknown key "lengt"|outside all tables|title)"},
+    {"[time]", "[tiem]",
+     "bad.toml:11:2: |unknown table [tiem]|[beam], [beam.damping], [striker]|did you mean [time]?"},
+    {"mass = 0.201\n", "", "bad.toml:7:2: |striker.mass is missing|above 0 (kg)|under [striker]"},
+    {"[time]\nend = 2e-5\n", "", "bad.toml: |table [time] is missing|at least: end"},
+    {"length = 0.7112", R"(length = "0.7112")",
+     R"(bad.toml:2:1: |beam.length is a text ("0.7112")|a number, finite and above 0 (m)|without quotes)"},
+    {"[time]", "[model]\nmesh = \"hermite\"\nspacing = \"points\"\n[time]",
+     R"(bad.toml:13:1: model.spacing is "points"|only cells have a spacing|allowed with this mesh: "cells"|leave it out)"},
+    {"[time]", "[model]\nmesh = \"rigid\"\nspacing = \"points\"\n[time]",
+     R"(bad.toml:13:1: model.spacing is "points"|allowed with this mesh: "cells")"},
+    {"[striker]", "ends = [\"pinned\", \"free\"]\n[model]\nspacing = \"points\"\n[striker]",
+     R"(: model.spacing is "points", which is for free ends|allowed with supports: "cells"|leave it out)"},
+    {"nose_radius = 0.01\n", "",
+     R"(bad.toml: striker.nose_radius is missing|"foundation" needs it|(m))"},
+    {"[time]", "[contact]\nstiffness = 1e7\n[time]",
+     R"(bad.toml:12:1: contact.stiffness is given|"foundation" derives its stiffness|leave it out)"},
+    {"[time]", "[contact]\nlaw = \"linear\"\n[time]",
+     R"(bad.toml: contact.stiffness is missing|"linear" needs it|give it in N/m)"},
+    {"[time]", "[contact]\nlaw = \"linear\"\nstiffness = 1e6\nstriker_modulus = 2e11\n[time]",
+     R"(bad.toml:14:1: contact.striker_modulus is given|"linear" does not use it)"},
+    {"[time]", "[contact]\nlaw = \"hertz\"\n[time]",
+     "bad.toml: contact.striker_modulus is missing|contact.stiffness in N/m^1.5"},
+    {"[time]", "[contact]\nlaw = \"hertz\"\nstiffness = 1e10\nbeam_poisson = 0.3\n[time]",
+     "bad.toml:14:1: contact.beam_poisson is given|already sets the stiffness"},
+    {"[time]", "[output]\nsections = [0.5, 1.5]\n[time]",
+     "bad.toml:12:1: output.sections is [0.5, 1.5]|a list of numbers, each from 0 to 1"},
+    {"[time]", "[output]\nsections = [\"middle\"]\n[time]",
+     R"(bad.toml:12:1: output.sections is a list (["middle"])|a list of numbers)"},
+    {"[time]", "[output]\nsections = [0.5]\ninterval = 0\n[time]",
+     "bad.toml:12:1: output.sections is given|output.interval = 0"},
+    {"[time]", "[output]\npoints = [0.5]\ninterval = 0\n[time]",
+     "bad.toml:12:1: output.points is given|output.interval = 0"},
+    {"[time]", "[output]\nshapes = 1e-15\n[time]",
+     "bad.toml:12:1: |output.shapes is 1e-15 s|at most 2e+07 rows"},
+    {"[time]", "[contact]\nlaw = 3\n[time]",
+     R"(bad.toml:12:1: |contact.law is a whole number (3)|"foundation")"},
+    {"[time]", "[model]\nsegments = 501.0\n[time]",
+     "bad.toml:12:1: |model.segments is a floating-point number|a whole number, from 5 to "
+     "100001|without decimal point"},
+    {"end = 2e-5", "end = 2024-01-31", "bad.toml:12:1: |time.end is a date|above 0 (s)"},
+    {"[time]", "[study]\nbeyond_critical = 1\n[time]",
+     "bad.toml:12:1: |study.beyond_critical is a whole number (1)|true or false"},
+    {"end = 2e-5", "end.value = 2e-5", "bad.toml:12:1: |time.end is a table|a number"},
+    {"[time]", "[[time]]", R"(bad.toml:11:3: |"time" is a list|allowed: a table)"},
+    {"width = 0.0163", "width = -0.0163", "bad.toml:3:1: |beam.width is -0.0163|above 0 (m)"},
+    {"mass = 0.201", "mass = 0", "bad.toml:8:1: |striker.mass is 0|above 0 (kg)"},
+    {"density = 2600", "density = nan",
+     "bad.toml:5:1: |beam.density is nan|finite and above 0 (kg/m3)"},
+    {"youngs_modulus = 71.96e9", "youngs_modulus = inf",
+     "bad.toml:6:1: |beam.youngs_modulus is inf|finite and above 0 (Pa)"},
+    {"density = 2600", "density = 2600\nyield_stress = -inf",
+     "bad.toml:6:1: |beam.yield_stress is -inf|above 0, or inf (Pa)"},
+    {"velocity = 15.9", "velocity = 15.9\nposition = 1.5",
+     "bad.toml:11:1: |striker.position is 1.5|from 0 to 1"},
+    {"velocity = 15.9", "velocity = 15.9\nposition = 0.0005",
+     "bad.toml:11:1: |striker.position is 0.0005|501 segments|0.000998"},
+    {"[time]", "[model]\nsegments = 1000000000000\n[time]",
+     "bad.toml:12:1: |model.segments is 1000000000000|from 5 to 100001"},
+    {"[time]", "[model]\nlayers = 41\n[time]",
+     "bad.toml:12:1: |model.layers is 41|even, from 2 to 10000"},
+    {"[time]", "[contact]\nlaw = \"foundaton\"\n[time]",
+     R"(bad.toml:12:1: |contact.law is "foundaton"|"foundation"|did you mean "foundation"?)"},
+    {"[time]", "[solver]\nmethod = \"leapfrog\"\n[time]",
+     R"(bad.toml:12:1: |solver.method is "leapfrog"|"central-difference", "erk")"},
+    {"[time]", "[solver]\ntable = \"dop54\"\n[time]",
+     R"(bad.toml:12:1: |solver.table is "dop54"|"dop853", "dormand-prince")"},
+    {"density = 2600", "density = 2600\nends = [\"free\", \"glued\"]",
+     R"(bad.toml:6:1: |beam.ends is "glued"|a list of two out of "free")"},
+    {"density = 2600", "density = 2600\nends = [\"free\", \"fixed\"]",
+     R"(bad.toml:6:1: |beam.ends is "fixed"|did you mean "clamped"?)"},
+    {"density = 2600", "density = 2600\nends = [\"Simply supported\", \"ss\"]",
+     R"(bad.toml:6:1: |beam.ends is "Simply supported"|did you mean "pinned"?)"},
+    {"density = 2600", "density = 2600\nends = \"built-in\"",
+     R"(bad.toml:6:1: |beam.ends is a text ("built-in")|did you mean ["clamped", "clamped"]?)"},
+    {"density = 2600", "density = 2600\nends = [\"hinged\"]",
+     R"(bad.toml:6:1: |did you mean ["pinned", "pinned"]?)"},
+    {"density = 2600", "density = 2600\nends = \"cantilever\"",
+     R"(bad.toml:6:1: |did you mean ["clamped", "free"]?)"},
+    {"mass = 0.201", "mass = 0,201",
+     "bad.toml:8:|0,201 has a decimal comma|TOML writes a decimal point: 0.201"},
+    {"mass = 0.201", R"(mass = "0,201")",
+     "bad.toml:8:1: striker.mass|TOML writes a decimal point: 0.201"},
+    {"[time]\nend = 2e-5", "time = { end = 2,5e-5 }",
+     "bad.toml:11:|2,5e-5 has a decimal comma|TOML writes a decimal point: 2.5e-5"},
+    {"[time]", "[solver]\ntolerance = 1e-9\n[time]",
+     R"(bad.toml:12:1: |unknown key "solver.tolerance"|has moved to "solver.rtol"|write rtol under [solver])"},
+    {"[time]", "[model]\ncells = 501\n[time]",
+     R"(bad.toml:12:1: |unknown key "model.cells"|has moved to "model.segments")"},
+    {"density = 2600", "density = 2600\nends = [\"free\"]",
+     R"(bad.toml:6:1: |beam.ends is ["free"]|a list of two)"},
+    {"density = 2600", "density = 2600\nends = [1, 2]",
+     "bad.toml:6:1: |beam.ends is a list of numbers ([1, 2])|a list of two"},
+    {"[time]", "[solver]\nrtol = 1e-20\n[time]",
+     "bad.toml:12:1: |solver.rtol is 1e-20|from 1e-14 to 0.1"},
+    {"[time]", "[output]\ninterval = 1e-15\n[time]",
+     "bad.toml:12:1: |output.interval is 1e-15 s|at most 5e+06 rows"},
+    {"[time]", "[output]\nsubzone_gap = 0.2\n[time]",
+     "bad.toml:12:1: |output.subzone_gap is 0.2|output.zone_gap = 0.1"},
+    {"[beam]", "title = \"open\n[beam]", "bad.toml:1:|not valid TOML"},
+    {"length = 0.7112", "length = 0.7112\nlength = 0.8", "bad.toml:3:|not valid TOML|length"},
+    {"[beam]", "\xff\xfe[beam]", "bad.toml:1:1: |not valid TOML"},
+};
+
+TEST(BadCaseFile, IsRefusedWithPlaceKeyFindingAndAllowedValues) {
+  for (const auto& [from, to, message] : spoilt_cases) {
+    const std::string refusal = refusal_of(small_case_with(from, to));
+    EXPECT_TRUE(refusal.find("bad.toml:") == 0) << refusal;
+    expect_all_in(refusal, message);
   }
 }
-
-/// One way to spoil the small case, and what the message must then contain besides the file: place,
-/// key, what was found and what is allowed.
-struct Spoilt {
-  const char* claim;
-  const char* from;
-  const char* to;
-  std::vector<std::string> message;
-};
-
-void PrintTo(const Spoilt& spoilt, std::ostream* out) { *out << spoilt.claim; }
-
-class SpoiltCaseFile : public testing::TestWithParam<Spoilt> {};
-
-TEST_P(SpoiltCaseFile, IsRefusedWithPlaceKeyFindingAndAllowedValues) {
-  const Spoilt& spoilt = GetParam();
-  expect_all_in(refusal_of(small_case_with(spoilt.from, spoilt.to)), spoilt.message);
-}
-
-const Spoilt spoilt_cases[] = {
-    {"UnknownKey",
-     "length = 0.7112",
-     "lenght = 0.7112",
-     {"bad.toml:2:1: ", "unknown key \"beam.lenght\"", "width, thickness",
-      "did you mean \"beam.length\"?"}},
-    {"KeyOfAnotherTable",
-     "density = 2600",
-     "density = 2600\nrtol = 1e-9",
-     {"bad.toml:6:1: ", "unknown key \"beam.rtol\"", "did you mean \"solver.rtol\"?"}},
-    {"KeyOfAnotherTableWithASimilarOneInItsOwn",
-     "density = 2600",
-     "density = 2600\nend = 8e-3",
-     {"bad.toml:6:1: ", "end is a key of [time]", "\"time.end\" or \"beam.ends\"?"}},
-    {"UnitWithoutQuotes",
-     "length = 0.7112",
-     "length = 711.2 mm",
-     {"bad.toml:2:", "711.2 mm is a value with a unit", "in quotes, \"711.2 mm\"", "SI"}},
-    {"UnitWithoutQuotesOrABlank",
-     "mass = 0.201",
-     "mass = 201g # light",
-     {"bad.toml:8:", "201 g is a value with a unit", "\"201 g\""}},
-    {"UnitWithoutQuotesInAnInlineTable",
-     "[beam]",
-     "output = { interval = 1us, shapes = 0 }\n[beam]",
-     {"bad.toml:1:", "1 us is a value with a unit"}},
-    {"UnitOfAnotherQuantity",
-     "length = 0.7112",
-     "length = \"711.2 kg\"",
-     {"bad.toml:2:1: ", "(\"711.2 kg\")", "\"kg\" is none of its units: m, mm"}},
-    {"UnitOfANumberThatHasNone",
-     "mass = 0.201",
-     "mass = 0.201\nposition = \"0.5 m\"",
-     {"bad.toml:9:1: ", "write the number without a unit"}},
-    {"UnitOfACount",
-     "[time]",
-     "[model]\nsegments = \"501 cells\"\n[time]",
-     {"bad.toml:12:1: ", "(\"501 cells\")", "a whole number"}},
-    {"UnitThatIsInCapitals",
-     "velocity = 15.9",
-     "velocity = \"15.9 M/S\"",
-     {"\"M/S\" is none of its units: m/s, mm/s"}},
-    {"NegativeValueWithAUnit",
-     "mass = 0.201",
-     "mass = \"-201 g\"",
-     {"striker.mass is -0.201", "above 0 (kg)"}},
-    {"InchesThatAreNotKnown",
-     "length = 0.7112",
-     "length = \"28 in\"",
-     {"\"in\" is none of its units: m, mm, um, cm, km"}},
-    {"TwoNumbers",
-     "length = 0.7112",
-     "length = \"0.7 0.1\"",
-     {"(\"0.7 0.1\")", "none of its units"}},
-    {"UnitAlone", "length = 0.7112", "length = \"mm\"", {"(\"mm\")", "above 0 (m)"}},
-    {"VelocityUnderBeam",
-     "density = 2600",
-     "density = 2600\nvelocity = 3",
-     {"velocity is a key of [striker]", "\"striker.velocity\"?"}},
-    {"LawUnderStriker",
-     "mass = 0.201",
-     "mass = 0.201\nlaw = \"hertz\"",
-     {"law is a key of [contact]"}},
-    {"MeshUnderSolver",
-     "[time]",
-     "[solver]\nmesh = \"cells\"\n[time]",
-     {"mesh is a key of [model]"}},
-    {"KeyOutsideTables",
-     "[beam]",
-     "lengt = 1\n[beam]",
-     {"bad.toml:1:1: ", "unknown key \"lengt\"", "outside all tables", "title"}},
-    {"UnknownTable",
-     "[time]",
-     "[tiem]",
-     {"bad.toml:11:2: ", "unknown table [tiem]", "[beam], [beam.damping], [striker]",
-      "did you mean [time]?"}},
-    {"MissingKey",
-     "mass = 0.201\n",
-     "",
-     {"bad.toml:7:2: ", "striker.mass is missing", "above 0 (kg)", "under [striker]"}},
-    {"MissingTable",
-     "[time]\nend = 2e-5\n",
-     "",
-     {"bad.toml: ", "table [time] is missing", "at least: end"}},
-    {"TextForANumber",
-     "length = 0.7112",
-     "length = \"0.7112\"",
-     {"bad.toml:2:1: ", "beam.length is a text (\"0.7112\")", "a number, finite and above 0 (m)",
-      "without quotes"}},
-    {"PointsOfElements",
-     "[time]",
-     "[model]\nmesh = \"hermite\"\nspacing = \"points\"\n[time]",
-     {"bad.toml:13:1: model.spacing is \"points\"", "only cells have a spacing",
-      "allowed with this mesh: \"cells\"", "leave it out"}},
-    {"PointsOfARigidBeam",
-     "[time]",
-     "[model]\nmesh = \"rigid\"\nspacing = \"points\"\n[time]",
-     {"bad.toml:13:1: model.spacing is \"points\"", "allowed with this mesh: \"cells\""}},
-    {"PointsOnSupports",
-     "[striker]",
-     "ends = [\"pinned\", \"free\"]\n[model]\nspacing = \"points\"\n[striker]",
-     {": model.spacing is \"points\", which is for free ends", "allowed with supports: \"cells\"",
-      "leave it out"}},
-    {"FoundationWithoutANose",
-     "nose_radius = 0.01\n",
-     "",
-     {"bad.toml: striker.nose_radius is missing", "\"foundation\" needs it", "(m)"}},
-    {"FoundationWithAStiffness",
-     "[time]",
-     "[contact]\nstiffness = 1e7\n[time]",
-     {"bad.toml:12:1: contact.stiffness is given", "\"foundation\" derives its stiffness",
-      "leave it out"}},
-    {"LinearWithoutAStiffness",
-     "[time]",
-     "[contact]\nlaw = \"linear\"\n[time]",
-     {"bad.toml: contact.stiffness is missing", "\"linear\" needs it", "give it in N/m"}},
-    {"LinearWithAModulus",
-     "[time]",
-     "[contact]\nlaw = \"linear\"\nstiffness = 1e6\nstriker_modulus = 2e11\n[time]",
-     {"bad.toml:14:1: contact.striker_modulus is given", "\"linear\" does not use it"}},
-    {"HertzWithNeitherStiffnessNorModuli",
-     "[time]",
-     "[contact]\nlaw = \"hertz\"\n[time]",
-     {"bad.toml: contact.striker_modulus is missing", "contact.stiffness in N/m^1.5"}},
-    {"HertzWithBoth",
-     "[time]",
-     "[contact]\nlaw = \"hertz\"\nstiffness = 1e10\nbeam_poisson = 0.3\n[time]",
-     {"bad.toml:14:1: contact.beam_poisson is given", "already sets the stiffness"}},
-    {"SectionBeyondTheBeam",
-     "[time]",
-     "[output]\nsections = [0.5, 1.5]\n[time]",
-     {"bad.toml:12:1: output.sections is [0.5, 1.5]", "a list of numbers, each from 0 to 1"}},
-    {"SectionsAsTexts",
-     "[time]",
-     "[output]\nsections = [\"middle\"]\n[time]",
-     {"bad.toml:12:1: output.sections is a list ([\"middle\"])", "a list of numbers"}},
-    {"SectionsWithoutRows",
-     "[time]",
-     "[output]\nsections = [0.5]\ninterval = 0\n[time]",
-     {"bad.toml:12:1: output.sections is given", "output.interval = 0"}},
-    {"PointsWithoutRows",
-     "[time]",
-     "[output]\npoints = [0.5]\ninterval = 0\n[time]",
-     {"bad.toml:12:1: output.points is given", "output.interval = 0"}},
-    {"EndlessShapes",
-     "[time]",
-     "[output]\nshapes = 1e-15\n[time]",
-     {"bad.toml:12:1: ", "output.shapes is 1e-15 s", "at most 2e+07 rows"}},
-    {"NumberForAText",
-     "[time]",
-     "[contact]\nlaw = 3\n[time]",
-     {"bad.toml:12:1: ", "contact.law is a whole number (3)", "\"foundation\""}},
-    {"FloatForACount",
-     "[time]",
-     "[model]\nsegments = 501.0\n[time]",
-     {"bad.toml:12:1: ", "model.segments is a floating-point number",
-      "a whole number, from 5 to 100001", "without decimal point"}},
-    {"DateForANumber",
-     "end = 2e-5",
-     "end = 2024-01-31",
-     {"bad.toml:12:1: ", "time.end is a date", "above 0 (s)"}},
-    {"NumberForAFlag",
-     "[time]",
-     "[study]\nbeyond_critical = 1\n[time]",
-     {"bad.toml:12:1: ", "study.beyond_critical is a whole number (1)", "true or false"}},
-    {"TableForANumber",
-     "end = 2e-5",
-     "end.value = 2e-5",
-     {"bad.toml:12:1: ", "time.end is a table", "a number"}},
-    {"ListOfTablesForATable",
-     "[time]",
-     "[[time]]",
-     {"bad.toml:11:3: ", "\"time\" is a list", "allowed: a table"}},
-    {"Negative",
-     "width = 0.0163",
-     "width = -0.0163",
-     {"bad.toml:3:1: ", "beam.width is -0.0163", "above 0 (m)"}},
-    {"Zero", "mass = 0.201", "mass = 0", {"bad.toml:8:1: ", "striker.mass is 0", "above 0 (kg)"}},
-    {"NotANumber",
-     "density = 2600",
-     "density = nan",
-     {"bad.toml:5:1: ", "beam.density is nan", "finite and above 0 (kg/m3)"}},
-    {"InfiniteModulus",
-     "youngs_modulus = 71.96e9",
-     "youngs_modulus = inf",
-     {"bad.toml:6:1: ", "beam.youngs_modulus is inf", "finite and above 0 (Pa)"}},
-    {"NegativeYieldStress",
-     "density = 2600",
-     "density = 2600\nyield_stress = -inf",
-     {"bad.toml:6:1: ", "beam.yield_stress is -inf", "above 0, or inf (Pa)"}},
-    {"StrikeOffTheBeam",
-     "velocity = 15.9",
-     "velocity = 15.9\nposition = 1.5",
-     {"bad.toml:11:1: ", "striker.position is 1.5", "from 0 to 1"}},
-    {"StrikeOutsideTheOutermostCells",
-     "velocity = 15.9",
-     "velocity = 15.9\nposition = 0.0005",
-     {"bad.toml:11:1: ", "striker.position is 0.0005", "501 segments", "0.000998"}},
-    {"HugeSegments",
-     "[time]",
-     "[model]\nsegments = 1000000000000\n[time]",
-     {"bad.toml:12:1: ", "model.segments is 1000000000000", "from 5 to 100001"}},
-    {"OddLayers",
-     "[time]",
-     "[model]\nlayers = 41\n[time]",
-     {"bad.toml:12:1: ", "model.layers is 41", "even, from 2 to 10000"}},
-    {"UnknownLaw",
-     "[time]",
-     "[contact]\nlaw = \"foundaton\"\n[time]",
-     {"bad.toml:12:1: ", "contact.law is \"foundaton\"", "\"foundation\"",
-      "did you mean \"foundation\"?"}},
-    {"UnknownMethod",
-     "[time]",
-     "[solver]\nmethod = \"leapfrog\"\n[time]",
-     {"bad.toml:12:1: ", "solver.method is \"leapfrog\"", "\"central-difference\", \"erk\""}},
-    {"UnknownTableOfCoefficients",
-     "[time]",
-     "[solver]\ntable = \"dop54\"\n[time]",
-     {"bad.toml:12:1: ", "solver.table is \"dop54\"", "\"dop853\", \"dormand-prince\""}},
-    {"UnknownSupport",
-     "density = 2600",
-     "density = 2600\nends = [\"free\", \"glued\"]",
-     {"bad.toml:6:1: ", "beam.ends is \"glued\"", "a list of two out of \"free\""}},
-    {"FixedSupport",
-     "density = 2600",
-     "density = 2600\nends = [\"free\", \"fixed\"]",
-     {"bad.toml:6:1: ", "beam.ends is \"fixed\"", "did you mean \"clamped\"?"}},
-    {"SimplySupported",
-     "density = 2600",
-     "density = 2600\nends = [\"Simply supported\", \"ss\"]",
-     {"bad.toml:6:1: ", "beam.ends is \"Simply supported\"", "did you mean \"pinned\"?"}},
-    {"BuiltInAsOneText",
-     "density = 2600",
-     "density = 2600\nends = \"built-in\"",
-     {"bad.toml:6:1: ", "beam.ends is a text (\"built-in\")",
-      "did you mean [\"clamped\", \"clamped\"]?"}},
-    {"HingedAsAListOfOne",
-     "density = 2600",
-     "density = 2600\nends = [\"hinged\"]",
-     {"bad.toml:6:1: ", "did you mean [\"pinned\", \"pinned\"]?"}},
-    {"Cantilever",
-     "density = 2600",
-     "density = 2600\nends = \"cantilever\"",
-     {"bad.toml:6:1: ", "did you mean [\"clamped\", \"free\"]?"}},
-    {"DecimalComma",
-     "mass = 0.201",
-     "mass = 0,201",
-     {"bad.toml:8:", "0,201 has a decimal comma", "TOML writes a decimal point: 0.201"}},
-    {"DecimalCommaInAText",
-     "mass = 0.201",
-     "mass = \"0,201\"",
-     {"bad.toml:8:1: striker.mass", "TOML writes a decimal point: 0.201"}},
-    {"DecimalCommaWithinBraces",
-     "[time]\nend = 2e-5",
-     "time = { end = 2,5e-5 }",
-     {"bad.toml:11:", "2,5e-5 has a decimal comma", "TOML writes a decimal point: 2.5e-5"}},
-    {"ToleranceByAnotherName",
-     "[time]",
-     "[solver]\ntolerance = 1e-9\n[time]",
-     {"bad.toml:12:1: ", "unknown key \"solver.tolerance\"", "has moved to \"solver.rtol\"",
-      "write rtol under [solver]"}},
-    {"CellsForSegments",
-     "[time]",
-     "[model]\ncells = 501\n[time]",
-     {"bad.toml:12:1: ", "unknown key \"model.cells\"", "has moved to \"model.segments\""}},
-    {"OneEndOnly",
-     "density = 2600",
-     "density = 2600\nends = [\"free\"]",
-     {"bad.toml:6:1: ", "beam.ends is [\"free\"]", "a list of two"}},
-    {"NumbersForEnds",
-     "density = 2600",
-     "density = 2600\nends = [1, 2]",
-     {"bad.toml:6:1: ", "beam.ends is a list of numbers ([1, 2])", "a list of two"}},
-    {"TolerancePastRounding",
-     "[time]",
-     "[solver]\nrtol = 1e-20\n[time]",
-     {"bad.toml:12:1: ", "solver.rtol is 1e-20", "from 1e-14 to 0.1"}},
-    {"EndlessHistory",
-     "[time]",
-     "[output]\ninterval = 1e-15\n[time]",
-     {"bad.toml:12:1: ", "output.interval is 1e-15 s", "at most 5e+06 rows"}},
-    {"SubZonesLongerThanZones",
-     "[time]",
-     "[output]\nsubzone_gap = 0.2\n[time]",
-     {"bad.toml:12:1: ", "output.subzone_gap is 0.2", "output.zone_gap = 0.1"}},
-    {"UnclosedText", "[beam]", "title = \"open\n[beam]", {"bad.toml:1:", "not valid TOML"}},
-    {"KeyTwice",
-     "length = 0.7112",
-     "length = 0.7112\nlength = 0.8",
-     {"bad.toml:3:", "not valid TOML", "length"}},
-    {"NoUtf8", "[beam]", "\xff\xfe[beam]", {"bad.toml:1:1: ", "not valid TOML"}},
-};
-
-INSTANTIATE_TEST_SUITE_P(OfEveryKind, SpoiltCaseFile, testing::ValuesIn(spoilt_cases),
-                         [](const auto& info) { return std::string(info.param.claim); });
 
 TEST(BadCaseFile, EveryProblemIsReportedOnALineOfItsOwn) {
   std::string text = small_case_with("width = 0.0163", "width = -1");
   text.replace(text.find("mass = 0.201"), 12, "mass = true ");
   const std::string message = refusal_of(text);
-  expect_all_in(message, {"bad.toml:3:1: beam.width", "\nbad.toml:8:1: striker.mass"});
+  expect_in(message, "bad.toml:3:1: beam.width", "\nbad.toml:8:1: striker.mass");
 }
 
 TEST(BadCaseFile, AnEmptyFileNamesTheTablesItNeeds) {
-  expect_all_in(refusal_of(""), {"[beam]", "[striker]", "[time]"});
+  expect_in(refusal_of(""), "[beam]", "[striker]", "[time]");
 }
 
 TEST(BadCaseFile, AFileThatIsNotThereIsNamed) {
-  try {
-    read_case_file("/nowhere/case.toml");
-    FAIL() << "a missing file was read";
-  } catch (const CaseFileError& error) {
-    expect_all_in(error.what(), {"/nowhere/case.toml", "cannot be read", "No such file"});
-  }
+  expect_in(message_of<CaseFileError>([&] { read_case_file("/nowhere/case.toml"); }),
+            "/nowhere/case.toml", "cannot be read", "No such file");
 }
 
 TEST(BadCaseFile, ADirectoryIsNoCaseFile) {
-  try {
-    read_case_file("/tmp");
-    FAIL() << "a directory was read";
-  } catch (const CaseFileError& error) {
-    expect_all_in(error.what(), {"/tmp", "is a directory"});
-  }
+  expect_in(message_of<CaseFileError>([&] { read_case_file("/tmp"); }), "/tmp", "is a directory");
 }
 
 TEST(BadCaseFile, OfDoubtfulUnitsIsToldThemFirst) {
@@ -376,8 +188,7 @@ TEST(BadCaseFile, OfDoubtfulUnitsIsToldThemFirst) {
   const auto doubt = message.find("check the unit first: beam.youngs_modulus is 71960 Pa");
   ASSERT_NE(doubt, std::string::npos) << message;
   EXPECT_LT(doubt, message.find("history rows")) << message;
-  EXPECT_EQ(refusal_of(small_case_text() + "[output]\ninterval = 1e-15\n").find("check the unit"),
-            std::string::npos);
+  expect_not_in(refusal_of(small_case_text() + "[output]\ninterval = 1e-15\n"), "check the unit");
 }
 
 TEST(BadCaseFile, IsNeitherATableNorAPictureNorAScript) {
@@ -386,12 +197,9 @@ TEST(BadCaseFile, IsNeitherATableNorAPictureNorAScript) {
                                    {"report.html", "a page"},
                                    {"response.svg", "a picture"},
                                    {"response.gp", "a script"}}) {
-    try {
-      read_case_file(std::string("/nowhere/") + name);
-      FAIL() << name << " was read";
-    } catch (const CaseFileError& error) {
-      expect_all_in(error.what(), {name, what, "no case file", "subimpact new"});
-    }
+    const std::string path = std::string("/nowhere/") + name;
+    expect_in(message_of<CaseFileError>([&] { read_case_file(path); }), name, what, "no case file",
+              "subimpact new");
   }
 }
 
@@ -424,34 +232,23 @@ TEST(Units, StandForTheSameDoublesAsNumbersInSI) {
   EXPECT_EQ(bare.value.end_time, 8e-3);
 }
 
-TEST(BadOverride, OfAWrongUnitNamesThoseThereAre) {
-  expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=8 mm")}),
-                {"--set time.end=8 mm: ", "\"mm\" is none of its units: s, ms, us, ns"});
-}
-
 TEST(BadOverride, IsNamedAsTheCommandLineGaveIt) {
-  expect_all_in(refusal_of(small_case_text(), {parse_override("striker.mass=-1")}),
-                {"--set striker.mass=-1: ", "striker.mass is -1", "above 0 (kg)"});
-  expect_all_in(refusal_of(small_case_text(), {parse_override("striker.mas=1")}),
-                {"--set striker.mas=1: ", "unknown key", "did you mean \"striker.mass\"?"});
-  expect_all_in(refusal_of(small_case_text(), {parse_override("striler.mass=1")}),
-                {"--set striler.mass=1: ", "unknown table [striler]", "did you mean [striker]?"});
-  expect_all_in(refusal_of(small_case_text(), {parse_override("mass=1")}),
-                {"did you mean \"striker.mass\" or \"beam.damping.mass\"?"});
-  expect_all_in(refusal_of(small_case_text(), {parse_override("beam.damping=1")}),
-                {"unknown key \"beam.damping\"", "it is a table"});
-  expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=")}),
-                {"--set time.end=: ", "time.end is ''", "above 0 (s)"});
-}
-
-TEST(BadOverride, WithADecimalCommaIsToldToWriteAPoint) {
-  expect_all_in(refusal_of(small_case_text(), {parse_override("striker.mass=0,201")}),
-                {"--set striker.mass=0,201: ", "TOML writes a decimal point: 0.201"});
-}
-
-TEST(BadOverride, OfAMovedKeyIsToldItsNewName) {
-  expect_all_in(refusal_of(small_case_text(), {parse_override("solver.tolerance=1e-9")}),
-                {"--set solver.tolerance=1e-9: ", "has moved to \"solver.rtol\""});
+  for (const auto& [setting, message] :
+       {std::pair("striker.mass=-1", "striker.mass is -1|above 0 (kg)"),
+        {"striker.mas=1", R"(unknown key|did you mean "striker.mass"?)"},
+        {"striler.mass=1", "unknown table [striler]|did you mean [striker]?"},
+        {"mass=1", R"(did you mean "striker.mass" or "beam.damping.mass"?)"},
+        {"beam.damping=1", R"(unknown key "beam.damping"|it is a table)"},
+        {"time.end=", "time.end is ''|above 0 (s)"},
+        {"time.end=8 mm", R"("mm" is none of its units: s, ms, us, ns)"},
+        {"striker.mass=0,201", "TOML writes a decimal point: 0.201"},
+        {"solver.tolerance=1e-9", R"(has moved to "solver.rtol")"},
+        {"solver.pair_detection=false", R"(did you mean "study.pair_detection"?)"},
+        {"time.end=1\nother=2", "time.end is|above 0 (s)"}}) {
+    const std::string refusal = refusal_with(setting);
+    expect_all_in(refusal, message);
+    expect_in(refusal, std::string("--set ") + std::string(setting).substr(0, 8));
+  }
 }
 
 TEST(KeysOfOtherPrograms, LeadToKeysThatThereAreFromNamesThatThereAreNot) {
@@ -465,19 +262,9 @@ TEST(KeysOfOtherPrograms, LeadToKeysThatThereAreFromNamesThatThereAreNot) {
                                    {"solver.dt", "solver.step"}}) {
     EXPECT_NE(find_case_key(own), nullptr) << own;
     EXPECT_EQ(find_case_key(other), nullptr) << other;
-    expect_all_in(refusal_of(small_case_text(), {parse_override(std::string(other) + "=1")}),
-                  {other, std::string("has moved to \"") + own + '"'});
+    expect_in(refusal_with(std::string(other) + "=1"), other,
+              std::string("has moved to \"") + own + '"');
   }
-}
-
-TEST(BadOverride, OfAKeyInItsFormerTableIsToldThePresentOne) {
-  expect_all_in(refusal_of(small_case_text(), {parse_override("solver.pair_detection=false")}),
-                {"did you mean \"study.pair_detection\"?"});
-}
-
-TEST(BadOverride, CannotSmuggleInASecondKey) {
-  expect_all_in(refusal_of(small_case_text(), {parse_override("time.end=1\nother=2")}),
-                {"time.end is", "above 0 (s)"});
 }
 
 TEST(BadOverride, WithoutAnEqualsSignIsNoSetting) {

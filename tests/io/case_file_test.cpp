@@ -1,14 +1,9 @@
 #include "subimpact/io/case_file.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-
-#include <cmath>
-
 #include "print.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -145,8 +140,7 @@ TEST(CaseFile, AWrongKeyOfATableWithinATableIsNamedWithThoseThatAreAllowed) {
     FAIL();
   } catch (const std::exception& error) {
     const std::string words = error.what();
-    EXPECT_NE(words.find("unknown key \"beam.damping.ratoi\""), std::string::npos) << words;
-    EXPECT_NE(words.find("did you mean \"beam.damping.ratio\""), std::string::npos) << words;
+    expect_in(words, "unknown key \"beam.damping.ratoi\"", "did you mean \"beam.damping.ratio\"");
   }
 }
 

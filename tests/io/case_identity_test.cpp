@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

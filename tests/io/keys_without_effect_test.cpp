@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
 
+#include "case_with.h"
 #include "print.h"
 #include "small_case.h"
-#include "subimpact/io/case_file.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -14,90 +14,59 @@ namespace {
 using Notes = std::vector<std::string>;
 
 Notes notes_on(const std::string& more, const std::vector<std::string>& settings = {}) {
-  std::vector<Override> overrides;
-  for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
-  return read_case_text(small_case_text() + more, "small.toml", overrides).notes();
+  return read_case_text(small_case_text() + more, "small.toml", overrides(settings)).notes();
 }
 
 TEST(KeysWithoutEffect, AreNoneInACaseOfRequiredKeys) { EXPECT_EQ(notes_on(""), Notes{}); }
 
-struct Idle {
-  const char* claim;
-  const char* more;  // after the small case
-  Notes notes;
-};
-
-void PrintTo(const Idle& idle, std::ostream* out) { *out << idle.claim; }
-
-class IdleKeys : public testing::TestWithParam<Idle> {};
-
-TEST_P(IdleKeys, AreNamedWithTheKeyThatMakesThemIdle) {
-  EXPECT_EQ(notes_on(GetParam().more), GetParam().notes);
-}
-
-const Idle idle_cases[] = {
-    {"LayersBesideTheExactSection",
-     "[model]\nsection = \"exact\"\nlayers = 40\n",
+// After the small case, and the notes on it: each names the key that makes another one idle.
+const std::pair<const char*, Notes> idle_cases[] = {
+    {"[model]\nsection = \"exact\"\nlayers = 40\n",
      {"model.section = \"exact\" has no effect with beam.yield_stress = inf",
       "model.layers = 40 has no effect with model.section = \"exact\""}},
-    {"LayersWhereTheSectionIsLeftOut",
-     "[model]\nlayers = 40\n",
-     {"model.layers = 40 has no effect with model.section = \"exact\""}},
-    {"ElementsBesideCells",
-     "[model]\nmesh = \"cells\"\nelements = 100\nsections_per_element = 3\nhinges = \"off\"\n",
+    {"[model]\nlayers = 40\n", {"model.layers = 40 has no effect with model.section = \"exact\""}},
+    {"[model]\nmesh = \"cells\"\nelements = 100\nsections_per_element = 3\nhinges = \"off\"\n",
      {"model.elements = 100 has no effect with model.mesh = \"cells\"",
       "model.sections_per_element = 3 has no effect with model.mesh = \"cells\"",
       "model.hinges = \"off\" has no effect with model.mesh = \"cells\""}},
-    {"SegmentsBesideElements",
-     "[model]\nmesh = \"hermite\"\nsegments = 501\n",
+    {"[model]\nmesh = \"hermite\"\nsegments = 501\n",
      {"model.segments = 501 has no effect with model.mesh = \"hermite\""}},
-    {"SpacingBesideElements",
-     "[model]\nmesh = \"hermite\"\nspacing = \"cells\"\n",
+    {"[model]\nmesh = \"hermite\"\nspacing = \"cells\"\n",
      {"model.spacing = \"cells\" has no effect with model.mesh = \"hermite\""}},
-    {"StrikerOfCentralDifferencesUnderNystrom",
-     "[solver]\nmethod = \"nystrom\"\n[study]\nstriker_update = \"constant-force\"\n",
+    {"[solver]\nmethod = \"nystrom\"\n[study]\nstriker_update = \"constant-force\"\n",
      {"study.striker_update = \"constant-force\" has no effect with solver.method = "
       "\"nystrom\""}},
-    {"AnyMeshBesideARigidBeam",
-     "[model]\nmesh = \"rigid\"\nsegments = 501\nsection = \"elastic\"\nsymmetry = \"off\"\n",
+    {"[model]\nmesh = \"rigid\"\nsegments = 501\nsection = \"elastic\"\nsymmetry = \"off\"\n",
      {"model.segments = 501 has no effect with model.mesh = \"rigid\"",
       "model.section = \"elastic\" has no effect with model.mesh = \"rigid\"",
       "model.symmetry = \"off\" has no effect with model.mesh = \"rigid\""}},
-    {"ReachOfARefinementThatIsNone",
-     "[model]\nmesh = \"hermite\"\nrefined_length = 0.1\n",
+    {"[model]\nmesh = \"hermite\"\nrefined_length = 0.1\n",
      {"model.refined_length = 0.1 has no effect with model.strike_refinement = 1"}},
-    {"SectionOfABeamThatNeverYields",
-     "[model]\nsection = \"layers\"\nlayers = 20\n",
+    {"[model]\nsection = \"layers\"\nlayers = 20\n",
      {"model.section = \"layers\" has no effect with beam.yield_stress = inf",
       "model.layers = 20 has no effect with beam.yield_stress = inf"}},
-    {"ToleranceOfCentralDifferences",
-     "[solver]\nmethod = \"central-difference\"\nrtol = 1e-9\nmax_step = 1e-7\n",
+    {"[solver]\nmethod = \"central-difference\"\nrtol = 1e-9\nmax_step = 1e-7\n",
      {"solver.rtol = 1e-09 has no effect with solver.method = \"central-difference\"",
       "solver.max_step = 1e-07 has no effect with solver.method = \"central-difference\""}},
-    {"ToleranceBesideAFixedStep",
-     "[solver]\nmethod = \"nystrom\"\nrtol = 1e-9\nstep = 1e-7\n",
+    {"[solver]\nmethod = \"nystrom\"\nrtol = 1e-9\nstep = 1e-7\n",
      {"solver.rtol = 1e-09 has no effect with solver.step = 1e-07"}},
-    {"ReversalsOfElasticSections",
-     "[model]\nsection = \"elastic\"\n[solver]\nreversals = \"located\"\n",
+    {"[model]\nsection = \"elastic\"\n[solver]\nreversals = \"located\"\n",
      {"solver.reversals = \"located\" has no effect with model.section = \"elastic\""}},
-    {"PairsBesideInterpolatedEvents",
-     "[solver]\nevents = \"interpolated\"\n[study]\npair_detection = true\n",
+    {"[solver]\nevents = \"interpolated\"\n[study]\npair_detection = true\n",
      {"study.pair_detection = true has no effect with solver.events = \"interpolated\""}},
-    {"VectorsOfSundialsUnderNystrom",
-     "[solver]\nmethod = \"nystrom\"\n[study]\nvector_operations = \"library\"\nbeyond_critical = "
+    {"[solver]\nmethod = \"nystrom\"\n[study]\nvector_operations = \"library\"\nbeyond_critical = "
      "true\n",
      {"study.vector_operations = \"library\" has no effect with solver.method = \"nystrom\"",
       "study.beyond_critical = true has no effect with solver.method = \"nystrom\""}},
-    {"NoseRadiusBesideALinearContact",
-     "[contact]\nlaw = \"linear\"\nstiffness = 1e7\n",
+    {"[contact]\nlaw = \"linear\"\nstiffness = 1e7\n",
      {"striker.nose_radius = 0.01 has no effect with contact.law = \"linear\""}},
-    {"NoseRadiusBesideAStiffness",
-     "[contact]\nlaw = \"hertz\"\nstiffness = 1e10\n",
+    {"[contact]\nlaw = \"hertz\"\nstiffness = 1e10\n",
      {"striker.nose_radius = 0.01 has no effect with contact.stiffness = 10000000000"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(OfEveryKind, IdleKeys, testing::ValuesIn(idle_cases),
-                         [](const auto& info) { return std::string(info.param.claim); });
+TEST(IdleKeys, AreNamedWithTheKeyThatMakesThemIdle) {
+  for (const auto& [more, notes] : idle_cases) EXPECT_EQ(notes_on(more), notes) << more;
+}
 
 TEST(KeysWithoutEffect, OfTheFileNeedNoNoteIfASettingMadeThemIdle) {
   const std::string file = "[model]\nsection = \"layers\"\nlayers = 40\n[solver]\nrtol = 1e-9\n";
@@ -140,10 +109,8 @@ TEST(MeshSize, OfTwoMeshesIsRefusedUnlessOneIsNamed) {
     FAIL() << "two sizes were accepted";
   } catch (const CaseFileError& error) {
     const std::string message = error.what();
-    for (const char* piece : {"small.toml:15:1: model.elements is given, and model.segments too",
-                              "leave one out", "model.mesh = \"hermite\""}) {
-      EXPECT_NE(message.find(piece), std::string::npos) << message;
-    }
+    expect_in(message, "small.toml:15:1: model.elements is given, and model.segments too",
+              "leave one out", "model.mesh = \"hermite\"");
   }
   EXPECT_NO_THROW(read_case_text(small_case_text() + both + "mesh = \"hermite\"\n", "small.toml"));
 }

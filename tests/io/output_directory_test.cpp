@@ -1,18 +1,14 @@
 #include "subimpact/io/output_directory.h"
 
-#include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <algorithm>
-#include <csignal>
-#include <fstream>
-
+#include "file_size_limit.h"
 #include "io/sealed_files.h"
 #include "read_file.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -30,6 +26,14 @@ std::vector<std::string> names_in(const fs::path& directory) {
 
 using Names = std::vector<std::string>;
 
+// A directory's files of a kind, made by one writer.
+void make(const fs::path& directory, const std::string& kind, const std::string& identity,
+          const std::map<std::string, std::string>& all) {
+  OutputDirectory files(directory, kind, identity);
+  for (const auto& [name, content] : all) write_file(files.staging() / name, content);
+  files.commit();
+}
+
 void commit(OutputDirectory& files, const std::string& name, const std::string& content) {
   write_file(files.staging() / name, content);
   files.commit();
@@ -45,31 +49,20 @@ std::string refusal_of(const fs::path& directory, const std::string& kind,
   return "(accepted)";
 }
 
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in: " << text;
-}
-
 TEST(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
   const TemporaryDirectory directory;
-  {
-    const OutputDirectory files(directory.path, "run");
-    write_file(files.staging() / "events.csv", "1");
+  for (const char* name : {"", "new"}) {  // which is there, and which is made
+    {
+      const OutputDirectory files(directory.path / name, "run");
+      write_file(files.staging() / "events.csv", "1");
+    }
+    EXPECT_TRUE(fs::is_empty(directory.path)) << name;
   }
-  EXPECT_TRUE(fs::is_empty(directory.path));
-}
-
-TEST(AnOutputDirectory, ThatWasMadeAndNotCommittedIsRemoved) {
-  const TemporaryDirectory directory;
-  {
-    const OutputDirectory files(directory.path / "new", "run");
-    write_file(files.staging() / "events.csv", "1");
-  }
-  EXPECT_TRUE(fs::is_empty(directory.path));
 }
 
 TEST(AnOutputDirectory, IsRefusedWhereAFileHasItsName) {
   const TemporaryDirectory directory;
-  std::ofstream(directory.path / "file") << "x";
+  directory.write("file", "x");
   expect_in(refusal_of(directory.path / "file", "run"), "a file has that name");
   expect_in(refusal_of(directory.path / "file" / "below", "run"), "cannot be made");
 }
@@ -90,7 +83,7 @@ TEST(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
     write_file(files.staging() / "events.csv", content);
     files.commit();
     EXPECT_TRUE(files.notes().empty());
-    EXPECT_EQ(read_file(directory.path / "real" / "events.csv"), content);
+    EXPECT_EQ(directory.read("real/events.csv"), content);
   }
 }
 
@@ -98,37 +91,29 @@ TEST(AnOutputDirectory, HasOneWriterAtATime) {
   const TemporaryDirectory directory;
   {
     const OutputDirectory first(directory.path, "run");
-    expect_in(refusal_of(directory.path, "run"), "process " + std::to_string(getpid()) + " on ");
-    expect_in(refusal_of(directory.path, "run"), "is writing into this directory; wait until");
+    expect_in(refusal_of(directory.path, "run"), "process " + std::to_string(getpid()) + " on ",
+              "is writing into this directory; wait until");
   }
   EXPECT_EQ(refusal_of(directory.path, "run"), "(accepted)");
 }
 
 TEST(AnOutputDirectory, LosesTheFilesOfTheRunBefore) {
   const TemporaryDirectory directory;
-  {
-    OutputDirectory files(directory.path, "run");
-    write_file(files.staging() / "sections.csv", "old");
-    commit(files, "events.csv", "old");
-  }
+  make(directory.path, "run", "1", {{"sections.csv", "old"}, {"events.csv", "old"}});
   OutputDirectory files(directory.path, "run");
-  EXPECT_EQ(read_file(directory.path / "events.csv"), "old");
+  EXPECT_EQ(directory.read("events.csv"), "old");
   commit(files, "events.csv", "new");
-  EXPECT_EQ(read_file(directory.path / "events.csv"), "new");
-  EXPECT_FALSE(fs::exists(directory.path / "sections.csv"));
+  EXPECT_EQ(directory.read("events.csv"), "new");
+  EXPECT_FALSE(directory.has("sections.csv"));
   EXPECT_TRUE(files.notes().empty());
 }
 
 TEST(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
   const TemporaryDirectory directory;
-  std::ofstream(directory.path / "notes.txt") << "mine";
-  std::ofstream(directory.path / "transitions.csv") << "mine";
+  directory.write("notes.txt", "mine");
+  directory.write("transitions.csv", "mine");
   fs::create_symlink("notes.txt", directory.path / "summary.json");
-  {
-    OutputDirectory files(directory.path, "run");
-    write_file(files.staging() / "figure.gp", "drawn");
-    commit(files, "events.csv", "old");
-  }
+  make(directory.path, "run", "1", {{"figure.gp", "drawn"}, {"events.csv", "old"}});
   std::ofstream(directory.path / "events.csv", std::ios::app) << " and my remark";
   std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
   OutputDirectory files(directory.path, "run");
@@ -136,22 +121,18 @@ TEST(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
     write_file(files.staging() / name, "new");
   }
   files.commit();
-  EXPECT_EQ(read_file(directory.path / "notes.txt"), "mine");
-  EXPECT_EQ(read_file(directory.path / "transitions.csv.kept"), "mine");
-  EXPECT_EQ(read_file(directory.path / "events.csv.kept"), "old and my remark");
-  EXPECT_EQ(read_file(directory.path / "figure.gp"), "drawn and my colours");
+  EXPECT_EQ(directory.read("notes.txt"), "mine");
+  EXPECT_EQ(directory.read("transitions.csv.kept"), "mine");
+  EXPECT_EQ(directory.read("events.csv.kept"), "old and my remark");
+  EXPECT_EQ(directory.read("figure.gp"), "drawn and my colours");
   EXPECT_TRUE(fs::is_symlink(directory.path / "summary.json.kept"));
-  EXPECT_EQ(read_file(directory.path / "summary.json"), "new");
+  EXPECT_EQ(directory.read("summary.json"), "new");
   EXPECT_EQ(files.notes().size(), 4u);
 }
 
 TEST(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
   const TemporaryDirectory directory;
-  {
-    OutputDirectory files(directory.path, "run", "1");
-    write_file(files.staging() / "figure.gp", "drawn");
-    commit(files, "events.csv", "old");
-  }
+  make(directory.path, "run", "1", {{"figure.gp", "drawn"}, {"events.csv", "old"}});
   std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
   {
     OutputDirectory files(directory.path, "run", "2");
@@ -160,51 +141,39 @@ TEST(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
   }
   const OutputDirectory later(directory.path, "figures", "2");
   EXPECT_EQ(later.notes(), Names());
-  EXPECT_EQ(read_file(directory.path / "figure.gp"), "drawn and my colours");
+  EXPECT_EQ(directory.read("figure.gp"), "drawn and my colours");
 }
 
 TEST(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
   const TemporaryDirectory directory;
-  {
-    OutputDirectory run(directory.path, "run", "1");
-    commit(run, "events.csv", "of run 1");
-  }
-  {
-    OutputDirectory figures(directory.path, "figures", "1");
-    commit(figures, "response.svg", "of run 1");
-  }
+  make(directory.path, "run", "1", {{"events.csv", "of run 1"}});
+  make(directory.path, "figures", "1", {{"response.svg", "of run 1"}});
   EXPECT_EQ(SealedFiles(directory.path).text("events.csv"), "of run 1");
   EXPECT_EQ(SealedFiles(directory.path).text("response.svg"), "of run 1");
   expect_in(refusal_of(directory.path, "figures", "2"), "holds the results of another run");
   OutputDirectory run(directory.path, "run", "2");
   commit(run, "events.csv", "of run 2");
-  EXPECT_FALSE(fs::exists(directory.path / "response.svg"));
+  EXPECT_FALSE(directory.has("response.svg"));
 }
 
 TEST(AnOutputDirectory, DoesNotMixTheFiguresOfTwoRunsWithoutIdentity) {
   const TemporaryDirectory directory;
-  {
-    OutputDirectory figures(directory.path, "figures", "");
-    commit(figures, "bending.svg", "of one run");
-  }
+  make(directory.path, "figures", "", {{"bending.svg", "of one run"}});
   OutputDirectory figures(directory.path, "figures", "");
   commit(figures, "response.svg", "of another run");
-  EXPECT_FALSE(fs::exists(directory.path / "bending.svg"));
+  EXPECT_FALSE(directory.has("bending.svg"));
 }
 
 TEST(AnOutputDirectory, HoldsFilesOfOneKind) {
   const TemporaryDirectory directory;
-  {
-    OutputDirectory files(directory.path, "compare");
-    commit(files, "comparison.csv", "1");
-  }
+  make(directory.path, "compare", "1", {{"comparison.csv", "1"}});
   expect_in(refusal_of(directory.path, "run"), "holds the results of `subimpact compare`");
   EXPECT_EQ(refusal_of(directory.path, "compare"), "(accepted)");
 }
 
 TEST(AnOutputDirectory, WithAManifestOfAnotherProgramIsRefused) {
   const TemporaryDirectory directory;
-  std::ofstream(directory.path / "manifest.json") << "{\"name\": \"of a web page\"}";
+  directory.write("manifest.json", "{\"name\": \"of a web page\"}");
   expect_in(refusal_of(directory.path, "run"), "is not a manifest of this program");
   EXPECT_EQ(names_in(directory.path), (Names{"manifest.json"}));
 }
@@ -212,14 +181,14 @@ TEST(AnOutputDirectory, WithAManifestOfAnotherProgramIsRefused) {
 // A manifest from elsewhere may name files outside its directory.
 TEST(AnOutputDirectory, IsNotLedOutsideByItsManifest) {
   const TemporaryDirectory directory;
-  std::ofstream(directory.path / "outside") << "x";
+  directory.write("outside", "x");
   fs::create_directory(directory.path / "inside");
   std::ofstream(directory.path / "inside" / "manifest.json")
       << R"({"subimpact_manifest": 1, "kind": "run", "identity": "1", "commit": "1", "files": {},
              "replaced": {"../outside": {"bytes": 1, "sha256":
              "2d711642b726b04401627ca9fbac32f5c8530fb1903cc4db02258717921a4881"}}})";
   expect_in(refusal_of(directory.path / "inside", "run"), "is not the name of a file of results");
-  EXPECT_TRUE(fs::exists(directory.path / "outside"));
+  EXPECT_TRUE(directory.has("outside"));
 }
 
 // The states that a killed writer leaves: before the manifest is replaced, after it, and with some
@@ -288,42 +257,28 @@ TEST(AFullDisk, SendsWhatWasStagedElsewhere) {
 
 TEST(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
   const TemporaryDirectory directory;
-  std::signal(SIGXFSZ, SIG_IGN);
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit small{1000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
   std::string message;
-  try {
-    write_file(directory.path / "events.csv", std::string(5000, 'x'));
-  } catch (const OutputError& error) {
-    message = error.what();
+  {
+    const FileSizeLimit limit(1000);
+    message = message_of<OutputError>(
+        [&] { write_file(directory.path / "events.csv", std::string(5000, 'x')); });
   }
-  setrlimit(RLIMIT_FSIZE, &before);
   expect_in(message, "events.csv: cannot be written (File too large); free the disk");
 }
 
 // Rows of 485 TB.
 TEST(ADiskTooSmall, IsFoundBeforeTheRunAndTheOlderFilesStay) {
   const TemporaryDirectory directory;
-  {
-    OutputDirectory files(directory.path, "run", "1");
-    commit(files, "events.csv", "old");
-  }
+  make(directory.path, "run", "1", {{"events.csv", "old"}});
   const Names before = names_in(directory.path);
   Case input;
   input.end_time = 1.0;
   input.output.interval = 2e-7;
   input.output.sections.assign(1'000'000, 0.5);
   EXPECT_GT(foreseen_bytes(input), 4.8e14);
-  std::string message;
-  try {
-    const ResultWriter files(directory.path, input);
-  } catch (const OutputError& error) {
-    message = error.what();
-  }
-  expect_in(message, directory.path.string() + ": the rows of this run take some 4.9e+05 GB, and");
-  expect_in(message, "use a longer output.interval, or choose another directory with --out");
+  expect_in(message_of<OutputError>([&] { const ResultWriter files(directory.path, input); }),
+            directory.path.string() + ": the rows of this run take some 4.9e+05 GB, and",
+            "use a longer output.interval, or choose another directory with --out");
   EXPECT_EQ(names_in(directory.path), before);
 }
 
@@ -331,12 +286,8 @@ TEST(FilesBeingMade, AreNamedByTheirPlaceInMessages) {
   const TemporaryDirectory directory;
   OutputDirectory files(directory.path, "run");
   fs::create_directory(files.staging() / "events.csv");
-  try {
-    write_file(files.staging() / "events.csv", "new");
-    ADD_FAILURE() << "written";
-  } catch (const OutputError& error) {
-    expect_in(error.what(), (directory.path / "events.csv").string() + ": cannot be written");
-  }
+  expect_in(message_of<OutputError>([&] { write_file(files.staging() / "events.csv", "new"); }),
+            (directory.path / "events.csv").string() + ": cannot be written");
 }
 
 TEST(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
@@ -346,8 +297,8 @@ TEST(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
   write_file(directory.path / ".subimpact-notes", "mine");
   OutputDirectory files(directory.path, "run");
   commit(files, "events.csv", "1");
-  EXPECT_EQ(read_file(directory.path / ".subimpact-backup" / "data"), "mine");
-  EXPECT_EQ(read_file(directory.path / ".subimpact-notes"), "mine");
+  EXPECT_EQ(directory.read(".subimpact-backup/data"), "mine");
+  EXPECT_EQ(directory.read(".subimpact-notes"), "mine");
 }
 
 TEST(AnOutputDirectory, ThatIsInUseIsRefusedAsSuch) {
@@ -358,19 +309,12 @@ TEST(AnOutputDirectory, ThatIsInUseIsRefusedAsSuch) {
 
 TEST(APipeInPlaceOfAFile, IsRefusedInsteadOfWaitedFor) {
   const TemporaryDirectory directory;
-  {
-    OutputDirectory files(directory.path, "run");
-    commit(files, "events.csv", "1");
-  }
+  make(directory.path, "run", "1", {{"events.csv", "1"}});
   const fs::path file = directory.path / "events.csv";
   fs::remove(file);
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
-  try {
-    SealedFiles(directory.path).text("events.csv");
-    ADD_FAILURE() << "read";
-  } catch (const ResultsError& error) {
-    expect_in(error.what(), "it is no regular file");
-  }
+  expect_in(message_of<ResultsError>([&] { SealedFiles(directory.path).text("events.csv"); }),
+            "it is no regular file");
 }
 
 TEST(ADirectoryRemovedDuringARun, LosesNoRow) {

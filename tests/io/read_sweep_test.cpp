@@ -1,14 +1,10 @@
 #include "io/run_tables.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
 #include "subimpact/io/output_directory.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -73,10 +69,6 @@ class Sweep {
  private:
   TemporaryDirectory directory_;
 };
-
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in: " << text;
-}
 
 TEST(ReadSweep, HasKeysResultsAndSubImpactsOfEveryRun) {
   const SweptRuns runs = Sweep(runs_csv, sub_impacts_csv()).read();
@@ -154,8 +146,7 @@ TEST(SealedTablesOfASweep, AreThoseOfTheManifestOrRefused) {
     read_sweep(directory.path);
     ADD_FAILURE() << "read";
   } catch (const ResultsError& error) {
-    EXPECT_NE(std::string(error.what()).find("changed or cut short"), std::string::npos)
-        << error.what();
+    expect_in(std::string(error.what()), "changed or cut short");
   }
 }
 

@@ -2,14 +2,6 @@
 #include "io/run_tables.h"
 #include "subimpact/io/report.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <limits>
-#include <sstream>
-
 #include <nlohmann/json.hpp>
 
 #include "print.h"
@@ -18,6 +10,7 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

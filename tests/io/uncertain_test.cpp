@@ -1,11 +1,8 @@
 #include "io/uncertain.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <random>
-#include <string>
+
+#include "testing.h"
 
 namespace subimpact {
 namespace {

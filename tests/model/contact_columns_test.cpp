@@ -1,15 +1,10 @@
 // The contact law against what it stands for: a bed of columns, each with its own plastic memory.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "built_in_law.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
+#include "subimpact/model/contact_law.h"
 #include "built_in_law.h"
 #include "paper_scene.h"
 #include "random_walk.h"
-#include "subimpact/model/contact_law.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,17 +1,9 @@
 // Sections made of strips, against a sum over thousands of fibres with a memory each.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "model/section_law.h"
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,12 +1,7 @@
 #include "subimpact/model/fibres.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include "order_table.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

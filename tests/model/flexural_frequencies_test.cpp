@@ -1,12 +1,7 @@
 #include "model/flexural_frequencies.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,17 +1,12 @@
 // Natural frequencies of the Hermite mesh, out of dense eigenvalues, against the continuum.
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <tuple>
-
 #include "dense.h"
 #include "model/flexural_frequencies.h"
 #include "model/hermite_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,18 +1,11 @@
 #include "model/hermite_mesh.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
-#include <stdexcept>
-#include <vector>
-
 #include "dense.h"
+#include "mesh_contract.h"
 #include "numerics/mass_solver.h"
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -62,10 +55,6 @@ std::vector<HermiteMesh> meshes() {
   return all;
 }
 
-double dot(std::span<const double> a, std::span<const double> b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
 // Displacement and slope at every node of a free beam's mesh.
 template <class W, class T>
 std::vector<double> nodal(std::span<const double> nodes, double slope_unit, W w, T t) {
@@ -85,41 +74,9 @@ std::vector<double> equal_nodes(const Beam& beam, std::size_t n, std::size_t kep
   return nodes;
 }
 
-TEST(HermiteMesh, BendingForcesAreTheExactTransposeOfCurvatures) {
+TEST(HermiteMesh, KeepsTheContractOfMeshes) {
   for (const HermiteMesh& mesh : meshes()) {
-    for (unsigned seed = 0; seed < 5; ++seed) {
-      const std::vector<double> displacement = random_numbers(seed, mesh.n_unknowns());
-      const std::vector<double> moments = random_numbers(seed + 50, mesh.n_sections());
-      std::vector<double> curvatures(mesh.n_sections());
-      std::vector<double> forces(mesh.n_unknowns(), 7.0);
-      mesh.curvatures(displacement, curvatures);
-      mesh.bending_forces(moments, forces);
-      double internal = 0.0;
-      double size = 0.0;
-      for (std::size_t i = 0; i < curvatures.size(); ++i) {
-        internal += mesh.section_weights()[i] * moments[i] * curvatures[i];
-        size += std::abs(mesh.section_weights()[i] * moments[i] * curvatures[i]);
-      }
-      EXPECT_NEAR(internal + dot(forces, displacement), 0.0, 1e-13 * size) << mesh.description();
-    }
-  }
-}
-
-TEST(HermiteMesh, OneSectionsStencilIsItsRowOfCurvatures) {
-  for (const HermiteMesh& mesh : meshes()) {
-    const std::vector<double> w = random_numbers(8, mesh.n_unknowns());
-    std::vector<double> curvatures(mesh.n_sections());
-    mesh.curvatures(w, curvatures);
-    for (std::size_t i = 0; i < curvatures.size(); ++i) {
-      const BeamMesh::SectionStencil row = mesh.section_stencil(i);
-      double kappa = 0.0;
-      double size = 0.0;
-      for (std::size_t j = 0; j < row.coefficients.size(); ++j) {
-        kappa += row.coefficients[j] * w[row.first + j];
-        size += std::abs(row.coefficients[j] * w[row.first + j]);
-      }
-      EXPECT_NEAR(curvatures[i], kappa, 1e-13 * size) << mesh.description() << ", section " << i;
-    }
+    expect_mesh_contract(mesh);
     EXPECT_LE(mesh.stiffness_bandwidth(), 3u);
   }
 }
@@ -181,18 +138,6 @@ TEST(HermiteMesh, OfConstantCurvatureIsBentByMomentsAtItsEndsAlone) {
   for (std::size_t i = 0; i < forces.size(); ++i) {
     const bool couple = i == 1 || i + 1 == forces.size();
     EXPECT_NEAR(couple ? 0.0 : forces[i], 0.0, 1e-11) << i;
-  }
-}
-
-TEST(HermiteMesh, BendingHasNoNetForce) {
-  for (const HermiteMesh& mesh : meshes()) {
-    if (mesh.translation().empty()) continue;
-    const std::vector<double> moments = random_numbers(4, mesh.n_sections());
-    std::vector<double> forces(mesh.n_unknowns());
-    mesh.bending_forces(moments, forces);
-    double size = 0.0;
-    for (const double f : forces) size += std::abs(f);
-    EXPECT_NEAR(dot(forces, mesh.translation()), 0.0, 1e-14 * size) << mesh.description();
   }
 }
 
@@ -413,18 +358,15 @@ TEST(HermiteMesh, IsSolvedForItsMassByTheBandedSolver) {
 TEST(HermiteMesh, HighestFrequencyIsAnUpperBoundAndClose) {
   for (const HermiteMesh& mesh : meshes()) {
     const double stiffness = paper_beam().bending_stiffness();
-    const double highest =
-        std::sqrt(squared_frequencies(mesh, stiffness)(index(mesh.n_unknowns() - 1)));
+    const double highest = highest_of(mesh, stiffness);
     EXPECT_GE(mesh.highest_frequency(stiffness), highest * (1.0 - 1e-12)) << mesh.description();
   }
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
     Beam beam = paper_beam();
     beam.theory = theory;
     const HermiteMesh mesh(beam, 0.5, 200, 2, Extent::half);
-    const double stiffness = beam.bending_stiffness();
-    const double highest =
-        std::sqrt(squared_frequencies(mesh, stiffness)(index(mesh.n_unknowns() - 1)));
-    EXPECT_LE(mesh.highest_frequency(stiffness), (1.0 + 1e-5) * highest);
+    const double highest = highest_of(mesh, beam.bending_stiffness());
+    EXPECT_LE(mesh.highest_frequency(beam.bending_stiffness()), (1.0 + 1e-5) * highest);
   }
 }
 

@@ -1,18 +1,12 @@
 // Natural modes of equal Hermite elements in closed form against a dense decomposition.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <string>
-#include <tuple>
-
+#include "model/hermite_modes.h"
+#include "mesh_contract.h"
 #include "model/flexural_frequencies.h"
 #include "model/hermite_mesh.h"
-#include "model/hermite_modes.h"
 #include "paper_scene.h"
 #include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -151,46 +145,8 @@ TEST_P(ModesOfElements, AreNeitherLostNorDoubledByTheirCountBetweenThem) {
   }
 }
 
-TEST_P(ModesOfElements, AreOrthonormalInTheMassMatrix) {
-  const HermiteMesh elements = mesh();
-  const NaturalModes modes = elements.natural_modes(stiffness());
-  std::vector<double> product(modes.size());
-  double worst = 0.0;
-  for (std::size_t j = 0; j < modes.size(); ++j) {
-    elements.mass().multiply(modes.shape(j), product);
-    for (std::size_t k = 0; k <= j; ++k) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < modes.size(); ++i) sum += product[i] * modes.shape(k)[i];
-      worst = std::max(worst, std::abs(sum - (j == k ? 1.0 : 0.0)));
-    }
-  }
-  EXPECT_LT(worst, 1e-12);
-}
-
-TEST_P(ModesOfElements, SatisfyTheEquationsOfMotion) {
-  // K phi = omega^2 Mass phi, against the size of the highest mode's terms.
-  const HermiteMesh elements = mesh();
-  const NaturalModes modes = elements.natural_modes(stiffness());
-  std::vector<double> kappa(elements.n_sections());
-  std::vector<double> force(modes.size());
-  std::vector<double> inertia(modes.size());
-  double worst = 0.0;
-  for (std::size_t k = 0; k < modes.size(); ++k) {
-    elements.curvatures(modes.shape(k), kappa);
-    for (double& x : kappa) x *= stiffness();
-    elements.bending_forces(kappa, force);
-    elements.mass().multiply(modes.shape(k), inertia);
-    const double w2 = modes.frequencies[k] * modes.frequencies[k];
-    const double highest = modes.frequencies.back() * modes.frequencies.back();
-    double residual = 0.0;
-    double size = 0.0;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-      residual = std::max(residual, std::abs(force[i] + w2 * inertia[i]));
-      size = std::max(size, std::abs(inertia[i]));
-    }
-    worst = std::max(worst, residual / (highest * size));
-  }
-  EXPECT_LT(worst, 1e-12);
+TEST_P(ModesOfElements, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
+  expect_modes(mesh(), stiffness(), 1e-12);
 }
 
 TEST(HermiteModes, OfUnequalElementsAndOfACantileverAreDecomposed) {

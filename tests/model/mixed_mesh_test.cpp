@@ -2,16 +2,11 @@
 
 #include "model/mixed_mesh.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <stdexcept>
-
 #include "model/flexural_frequencies.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -2,12 +2,8 @@
 
 #include "model/mixed_sections.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

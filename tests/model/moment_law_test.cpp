@@ -2,12 +2,10 @@
 
 #include "model/moment_law.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <random>
 
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

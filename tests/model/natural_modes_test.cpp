@@ -1,14 +1,12 @@
 // Natural modes in closed form against a dense decomposition, and a beam in their coordinates.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
+#include "mesh_contract.h"
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
 #include "paper_scene.h"
 #include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -53,45 +51,8 @@ TEST_P(ModesOfCells, InClosedFormHaveTheDenseDecompositionsFrequencies) {
   EXPECT_LT(worst, 1e-12);
 }
 
-TEST_P(ModesOfCells, AreOrthonormalInTheMassMatrix) {
-  const CellMesh chain = mesh();
-  const NaturalModes modes = chain.natural_modes(beam().bending_stiffness());
-  std::vector<double> product(modes.size());
-  double worst = 0.0;
-  for (std::size_t j = 0; j < modes.size(); ++j) {
-    chain.mass().multiply(modes.shape(j), product);
-    for (std::size_t k = 0; k <= j; ++k) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < modes.size(); ++i) sum += product[i] * modes.shape(k)[i];
-      worst = std::max(worst, std::abs(sum - (j == k ? 1.0 : 0.0)));
-    }
-  }
-  EXPECT_LT(worst, 1e-12);
-}
-
-TEST_P(ModesOfCells, SatisfyTheEquationsOfMotion) {
-  // K phi = omega^2 Mass phi, against the size of the highest mode's terms.
-  const CellMesh chain = mesh();
-  const double stiffness = beam().bending_stiffness();
-  const NaturalModes modes = chain.natural_modes(stiffness);
-  std::vector<double> kappa(chain.n_sections());
-  std::vector<double> force(modes.size());
-  std::vector<double> inertia(modes.size());
-  for (std::size_t k = 0; k < modes.size(); ++k) {
-    chain.curvatures(modes.shape(k), kappa);
-    for (double& x : kappa) x *= stiffness;
-    chain.bending_forces(kappa, force);
-    chain.mass().multiply(modes.shape(k), inertia);
-    const double w2 = modes.frequencies[k] * modes.frequencies[k];
-    double residual = 0.0;
-    double size = 0.0;
-    for (std::size_t i = 0; i < modes.size(); ++i) {
-      residual = std::max(residual, std::abs(force[i] + w2 * inertia[i]));
-      size = std::max(size, std::abs(inertia[i]));
-    }
-    const double highest = modes.frequencies.back() * modes.frequencies.back();
-    EXPECT_LT(residual, 5e-13 * highest * size) << k;
-  }
+TEST_P(ModesOfCells, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
+  expect_modes(mesh(), beam().bending_stiffness(), 5e-13);
 }
 
 INSTANTIATE_TEST_SUITE_P(

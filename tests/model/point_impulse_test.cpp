@@ -1,14 +1,10 @@
 // A point impulse on a Rayleigh beam at rest: the velocities an instant later are Mass^-1 S I0.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "model/cell_mesh.h"
 #include "numerics/mass_solver.h"
 #include "order_table.h"
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

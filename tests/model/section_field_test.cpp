@@ -1,12 +1,8 @@
 #include "model/section_field.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

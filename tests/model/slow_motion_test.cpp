@@ -3,13 +3,10 @@
 
 #include "model/slow_motion.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

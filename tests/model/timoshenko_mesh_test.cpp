@@ -1,12 +1,6 @@
 #include "model/timoshenko_mesh.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-#include <stdexcept>
-#include <vector>
-
+#include "mesh_contract.h"
 #include "model/cell_mesh.h"
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
@@ -14,6 +8,7 @@
 #include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -34,35 +29,22 @@ Beam shearing_beam(Ends ends = free_ends) {
   return beam;
 }
 
-// Whole and half, few and many cells, all ends, strikes on and between the nodes of equal cells.
-std::vector<TimoshenkoMesh> meshes() {
-  std::vector<TimoshenkoMesh> all;
-  for (const EndSupport first : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
-    for (const EndSupport second : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
+// Whole and half, few and many cells or elements, all ends, strikes on and between the nodes of
+// equal ones. `odd`: a half model takes an odd number of them, or else an even one.
+template <class Mesh>
+std::vector<Mesh> meshes(const std::vector<std::size_t>& sizes,
+                         const std::vector<double>& positions, bool odd) {
+  constexpr EndSupport ends[] = {EndSupport::free, EndSupport::pinned, EndSupport::clamped};
+  std::vector<Mesh> all;
+  for (const EndSupport first : ends) {
+    for (const EndSupport second : ends) {
       const Beam beam = shearing_beam({first, second});
-      for (const std::size_t n : {7u, 8u, 31u}) {
-        for (const double position : {0.1, 0.5, 0.77}) {
-          all.emplace_back(beam, position, n, Extent::whole);
+      for (const std::size_t n : sizes) {
+        for (const double position : positions) {
+          all.emplace_back(beam, position, n, Mesh::Extent::whole);
         }
-        if (first == second && n % 2 == 1) all.emplace_back(beam, 0.5, n, Extent::half);
-      }
-    }
-  }
-  return all;
-}
-
-// The same shapes of spectral elements.
-std::vector<SpectralMesh> spectral_meshes() {
-  std::vector<SpectralMesh> all;
-  for (const EndSupport first : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
-    for (const EndSupport second : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
-      const Beam beam = shearing_beam({first, second});
-      for (const std::size_t n : {2u, 5u, 12u}) {
-        for (const double position : {0.27, 0.5, 0.71}) {
-          all.emplace_back(beam, position, n, SpectralMesh::Extent::whole);
-        }
-        if (first == second && n % 2 == 0)
-          all.emplace_back(beam, 0.5, n, SpectralMesh::Extent::half);
+        if (first == second && (n % 2 == 1) == odd)
+          all.emplace_back(beam, 0.5, n, Mesh::Extent::half);
       }
     }
   }
@@ -72,39 +54,12 @@ std::vector<SpectralMesh> spectral_meshes() {
 // Calls check(mesh) on all of both kinds.
 template <class Check>
 void on_every_mesh(Check check) {
-  for (const TimoshenkoMesh& mesh : meshes()) check(mesh);
-  for (const SpectralMesh& mesh : spectral_meshes()) check(mesh);
+  for (const auto& mesh : meshes<TimoshenkoMesh>({7, 8, 31}, {0.1, 0.5, 0.77}, true)) check(mesh);
+  for (const auto& mesh : meshes<SpectralMesh>({2, 5, 12}, {0.27, 0.5, 0.71}, false)) check(mesh);
 }
 
-double dot(std::span<const double> a, std::span<const double> b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-TEST(MeshesThatShear, BendingForcesAreTheExactTransposeOfCurvatures) {
-  on_every_mesh([](const BeamMesh& mesh) {
-    const std::vector<double> q = random_numbers(1, mesh.n_unknowns());
-    const std::vector<double> moments = random_numbers(2, mesh.n_sections());
-    std::vector<double> kappa(mesh.n_sections()), forces(mesh.n_unknowns(), 1.0);
-    mesh.curvatures(q, kappa);
-    mesh.bending_forces(moments, forces);
-    double work = 0.0, size = 0.0;
-    for (std::size_t i = 0; i < kappa.size(); ++i) {
-      work += mesh.section_weights()[i] * moments[i] * kappa[i];
-      size += std::abs(mesh.section_weights()[i] * moments[i] * kappa[i]);
-    }
-    EXPECT_NEAR(work, -dot(forces, q), 1e-13 * size) << mesh.description();
-  });
-}
-
-TEST(MeshesThatShear, StencilsAreTheRowsOfTheCurvatures) {
-  on_every_mesh([](const BeamMesh& mesh) {
-    const std::vector<double> q = random_numbers(3, mesh.n_unknowns());
-    std::vector<double> kappa(mesh.n_sections());
-    mesh.curvatures(q, kappa);
-    for (std::size_t i = 0; i < kappa.size(); ++i) {
-      EXPECT_NEAR(mesh.curvature(i, q), kappa[i], 1e-13 * (1.0 + std::abs(kappa[i])));
-    }
-  });
+TEST(MeshesThatShear, KeepTheContractOfMeshes) {
+  on_every_mesh([](const BeamMesh& mesh) { expect_mesh_contract(mesh); });
 }
 
 TEST(MeshesThatShear, ShearForcesAreThoseOfTheStiffnessMatrixAndItsEnergy) {
@@ -157,19 +112,24 @@ std::vector<double> frequencies(const Beam& beam, double position, std::size_t n
   return mesh.natural_modes(beam.bending_stiffness()).frequencies;
 }
 
-TEST(TimoshenkoMesh, HighestFrequencyIsABoundAndClose) {
+// The bound is above the highest frequency, and at most `times` it.
+template <class Mesh>
+void expect_bound(std::size_t n, double times) {
   for (const Ends& ends : {free_ends, pinned_ends, clamped_ends}) {
     const Beam beam = shearing_beam(ends);
     for (const double position : {0.5, 0.13}) {
-      for (const std::size_t n : {7u, 20u, 101u}) {
-        const TimoshenkoMesh mesh(beam, position, n, Extent::whole);
-        const double highest = frequencies(beam, position, n).back();
-        const double bound = mesh.highest_frequency(beam.bending_stiffness());
-        EXPECT_GE(bound, highest * (1.0 - 1e-12)) << mesh.description();
-        EXPECT_LE(bound, 1.1 * highest) << mesh.description();
-      }
+      const Mesh mesh(beam, position, n, Mesh::Extent::whole);
+      const double highest = mesh.natural_modes(beam.bending_stiffness()).frequencies.back();
+      const double bound = mesh.highest_frequency(beam.bending_stiffness());
+      EXPECT_GE(bound, highest * (1.0 - 1e-12)) << mesh.description();
+      EXPECT_LE(bound, times * highest) << mesh.description();
     }
   }
+}
+
+TEST(MeshesThatShear, HaveABoundOnTheirHighestFrequencyWhichIsClose) {
+  for (const std::size_t n : {7u, 20u, 101u}) expect_bound<TimoshenkoMesh>(n, 1.1);
+  expect_bound<SpectralMesh>(12, 1.2);
 }
 
 // Both roots W = omega^2 of (rho^2 I/(k G)) W^2 - (rho A + rho I b^2 (1 + E/(k G))) W + E I b^4
@@ -365,19 +325,6 @@ TEST(SpectralMesh, HasTheFrequenciesThatCellsTendToForAllEnds) {
     const double found = spectral_frequencies(beam, 0.37, 16)[mode];
     std::printf("relative difference %.1e\n", std::abs(found / limit - 1.0));
     EXPECT_NEAR(found / limit, 1.0, 2e-6);
-  }
-}
-
-TEST(SpectralMesh, HighestFrequencyIsABoundAndClose) {
-  for (const Ends& ends : {free_ends, pinned_ends, clamped_ends}) {
-    const Beam beam = shearing_beam(ends);
-    for (const double position : {0.5, 0.13}) {
-      const SpectralMesh mesh(beam, position, 12, SpectralMesh::Extent::whole);
-      const double highest = spectral_frequencies(beam, position, 12).back();
-      const double bound = mesh.highest_frequency(beam.bending_stiffness());
-      EXPECT_GE(bound, highest * (1.0 - 1e-12));
-      EXPECT_LE(bound, 1.2 * highest);
-    }
   }
 }
 

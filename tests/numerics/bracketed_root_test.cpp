@@ -1,9 +1,6 @@
 #include "numerics/bracketed_root.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

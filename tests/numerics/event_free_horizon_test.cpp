@@ -1,17 +1,9 @@
 // Free oscillators under limits: no event before the horizon, and a limit close by where it ends.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 #include <random>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "numerics/event_free_horizon.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

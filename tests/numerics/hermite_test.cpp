@@ -1,10 +1,7 @@
 #include "numerics/hermite.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

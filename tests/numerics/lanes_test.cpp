@@ -1,15 +1,9 @@
 // Operations on eight numbers at once against the same one by one.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
 #include "numerics/lanes.h"
 #include "numerics/sin_cos.h"
 #include "subimpact/numerics/banded_matrix.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,11 +1,7 @@
 #include "numerics/mass_solver.h"
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <vector>
-
 #include "banded_examples.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

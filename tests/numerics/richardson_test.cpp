@@ -1,6 +1,6 @@
 #include "numerics/richardson.h"
 
-#include <gtest/gtest.h>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,9 +1,6 @@
 #include "numerics/sin_cos.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

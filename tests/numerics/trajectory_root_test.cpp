@@ -1,10 +1,6 @@
 #include "numerics/bracketed_root.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,9 +1,6 @@
 #include "numerics/vector_sum.h"
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <vector>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,40 +1,20 @@
 #include "subimpact/report/figures.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <sstream>
-
+#include "case_with.h"
 #include "file_size_limit.h"
 #include "io/sealed_files.h"
 #include "report/figure_script.h"
 #include "report/files.h"
 #include "sample_result.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/io/case_file.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not there";
-}
-
-Case short_case(const std::vector<Override>& settings) {
-  std::vector<Override> all = {parse_override("time.end=3e-4"),
-                               parse_override("model.segments=51")};
-  all.insert(all.end(), settings.begin(), settings.end());
-  return read_case_file(SUBIMPACT_PAPER_CASE, all).value;
+Case short_case(const std::vector<std::string>& settings = {}) {
+  return paper_case_with({"time.end=3e-4", "model.segments=51"}, settings);
 }
 
 TEST(ThinOut, KeepsEveryPointWithinTheToleranceOfTheLineAndDropsWhatAddsNothing) {
@@ -184,9 +164,8 @@ TEST(ThinForPanel, ThinsALineByWhatThePanelShowsAndNotByWhatLiesOutside) {
 
 TEST(Figures, DrawElasticContactAlongItsLaw) {
   const double K = 1e10;
-  const Case input =
-      short_case({parse_override("contact.law=hertz"), parse_override("contact.stiffness=1e10"),
-                  parse_override("model.section=elastic"), parse_override("time.end=2e-3")});
+  const Case input = short_case(
+      {"contact.law=hertz", "contact.stiffness=1e10", "model.section=elastic", "time.end=2e-3"});
   const Result result = simulate(input);
   ASSERT_GT(result.sub_impacts.size(), 2u);
   const std::string script = indentation_figure(input, result).text();
@@ -202,7 +181,7 @@ TEST(Figures, DrawElasticContactAlongItsLaw) {
 }
 
 TEST(Figures, ShowTheBendingOfEverySectionAskedFor) {
-  const Case input = short_case({parse_override("output.sections=0.5,0.45,0.4,0.3,0.2,0.1,0.05")});
+  const Case input = short_case({"output.sections=0.5,0.45,0.4,0.3,0.2,0.1,0.05"});
   const std::string script = bending_figure(input, simulate(input)).text();
   EXPECT_EQ(table_in(script, "$sections").size(), 7u);
   EXPECT_TRUE(figures_left_out(input, simulate(input)).empty());
@@ -211,7 +190,7 @@ TEST(Figures, ShowTheBendingOfEverySectionAskedFor) {
 TEST(Figures, SayWhichSectionsTheyHaveNoRoomFor) {
   std::string sections = "output.sections=0.5";
   for (int i = 1; i < 30; ++i) sections += ",0.25";
-  const Case input = short_case({parse_override(sections)});
+  const Case input = short_case({sections});
   const Result result = simulate(input);
   expect_in(bending_figure(input, result).text(), "left out: sections 25 to 30 of output.sections");
   const std::vector<std::string> left_out = figures_left_out(input, result);
@@ -221,21 +200,20 @@ TEST(Figures, SayWhichSectionsTheyHaveNoRoomFor) {
 
 TEST(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
   const TemporaryDirectory directory;
-  const Case input = short_case({parse_override("output.sections=0.5")});
+  const Case input = short_case({"output.sections=0.5"});
   Result result = simulate(input);
   result.outcome.kind = OutcomeKind::inaccurate;
   result.outcome.first_failure = Interval{1e-4, 1.5e-4};
   for (const DrawnFigure& figure : draw_figures(directory.path, input, result).drawn) {
-    expect_in(content(directory.path / (figure.name + ".gp")),
+    expect_in(directory.read(figure.name + ".gp"),
               "inaccurate: results up to 100 us passed every check");
-    expect_in(content(directory.path / (figure.name + ".svg")),
-              "first failure between 100 and 150 us");
+    expect_in(directory.read(figure.name + ".svg"), "first failure between 100 and 150 us");
   }
 }
 
 TEST(Figures, SetUncertainSubImpactsApart) {
   const TemporaryDirectory directory;
-  const Case input = short_case({});
+  const Case input = short_case();
   const Result result = sample_result_with_errors(1);
   for (const FigureScript& figure : figure_scripts(input, result)) {
     expect_in(figure.text(), "2 of 3 sub-impacts are not certain");
@@ -244,11 +222,11 @@ TEST(Figures, SetUncertainSubImpactsApart) {
   EXPECT_EQ(certain_in(response), (std::vector<int>{1, 0, 0}));
   EXPECT_EQ(certain_in(timeline_figure(input, result).text()), (std::vector<int>{1, 0, 0}));
   draw_figure(directory.path, "response", response);
-  expect_in(content(directory.path / "response.svg"), "not certain");
+  expect_in(directory.read("response.svg"), "not certain");
 }
 
 TEST(Figures, MarkThatThereMayBeAnotherSubImpact) {
-  const Case input = short_case({});
+  const Case input = short_case();
   const Result result = sample_result_with_an_uncertain_flight(1);
   for (const FigureScript& figure : figure_scripts(input, result)) {
     expect_in(figure.text(), "there may be another sub-impact");
@@ -259,7 +237,7 @@ TEST(Figures, MarkThatThereMayBeAnotherSubImpact) {
 TEST(Figures, SetASubImpactApartThatIsUncertainAmongCertainOnes) {
   Result result = sample_result_with_errors(1);
   result.sub_impacts[2].certain = true;
-  const Case input = short_case({});
+  const Case input = short_case();
   const std::string response = response_figure(input, result).text();
   EXPECT_EQ(certain_in(response), (std::vector<int>{1, 0, 1}));
   expect_in(response, "n_uncertain = 1.000000\n");
@@ -270,7 +248,7 @@ TEST(Figures, SetASubImpactApartThatIsUncertainAmongCertainOnes) {
 
 TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
   const TemporaryDirectory directory;
-  const Case input = short_case({});
+  const Case input = short_case();
   Result result = sample_result_with_errors(3);
   const std::string without = timeline_figure(input, result).text();
   expect_in(without, "horizon = NaN");
@@ -281,18 +259,16 @@ TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
   expect_in(figure.text(), "horizon = 0.0003333333");
   expect_in(figure.caption(), "Purple bars: its standard deviation");
   draw_figure(directory.path, "timeline", figure.text());
-  const std::string svg = content(directory.path / "timeline.svg");
-  for (const char* piece : {"error of the start", "its scatter", "not predictable"}) {
-    expect_in(svg, piece);
-  }
+  const std::string svg = directory.read("timeline.svg");
+  expect_in(svg, "error of the start", "its scatter", "not predictable");
   draw_figure(directory.path, "plain", timeline_figure(input, sample_result()).text());
-  EXPECT_EQ(content(directory.path / "plain.svg").find("error of the start"), std::string::npos);
+  expect_not_in(directory.read("plain.svg"), "error of the start");
 }
 
 TEST(Figures, OfARunWithoutErrorBarsSetNoSubImpactApart) {
-  const Case input = short_case({});
+  const Case input = short_case();
   for (const FigureScript& figure : figure_scripts(input, sample_result())) {
-    EXPECT_EQ(figure.text().find("are not certain\""), std::string::npos) << figure.name();
+    expect_not_in(figure.text(), "are not certain\"");
   }
   const std::string response = response_figure(input, sample_result()).text();
   EXPECT_EQ(certain_in(response), (std::vector<int>{1, 1, 1}));
@@ -306,39 +282,37 @@ TEST(SpacingOfTics, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {
       std::string(embedded_file("figures/tables.gp")) +
           "set title sprintf('[%g %g %g %g %g]', tics(8.0, 8), tics(0.18, 4), tics(234, 6), "
           "tics(9, 10), tics(0.0, 5))\nplot x\n");
-  expect_in(content(directory.path / "tics.svg"), "[1 0.05 50 1 1]");
+  expect_in(directory.read("tics.svg"), "[1 0.05 50 1 1]");
 }
 
 TEST(Figures, AreDrawnAgainFromTheirScriptsAlone) {
   const TemporaryDirectory directory;
-  const Case input = short_case({parse_override("output.sections=0.5")});
+  const Case input = short_case({"output.sections=0.5"});
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
   const TemporaryDirectory other;
   for (const DrawnFigure& figure : figures.drawn) {
-    draw_figure(other.path, figure.name, content(directory.path / (figure.name + ".gp")));
-    EXPECT_GT(content(other.path / (figure.name + ".svg")).size(), 1000u) << figure.name;
+    draw_figure(other.path, figure.name, directory.read(figure.name + ".gp"));
+    EXPECT_GT(other.read(figure.name + ".svg").size(), 1000u) << figure.name;
   }
 }
 
 TEST(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
   const TemporaryDirectory directory;
-  const Case input = short_case({parse_override("output.sections=0.5,0.4,0.3")});
+  const Case input = short_case({"output.sections=0.5,0.4,0.3"});
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
   EXPECT_EQ(figures.drawn.size(), 8u);
   EXPECT_TRUE(figures.left_out.empty());
   for (const DrawnFigure& figure : figures.drawn) {
-    expect_in(content(directory.path / (figure.name + ".svg")), "</svg>");
-    EXPECT_EQ(content(directory.path / (figure.name + ".png")).substr(1, 3), "PNG") << figure.name;
-    EXPECT_EQ(content(directory.path / (figure.name + ".pdf")).substr(0, 5), "%PDF-");
-    EXPECT_GT(content(directory.path / (figure.name + ".gp")).size(), 500u);
+    expect_in(directory.read(figure.name + ".svg"), "</svg>");
+    EXPECT_EQ(directory.read(figure.name + ".png").substr(1, 3), "PNG") << figure.name;
+    EXPECT_EQ(directory.read(figure.name + ".pdf").substr(0, 5), "%PDF-");
+    EXPECT_GT(directory.read(figure.name + ".gp").size(), 500u);
     EXPECT_GT(figure.caption.size(), 40u);
   }
-  const std::string svg = content(directory.path / "first-sub-impact.svg");
-  for (const char* piece : {"first fibre yields", "yield stress, 150 MPa", "back stress, MPa"}) {
-    expect_in(svg, piece);
-  }
-  expect_in(content(directory.path / "indentation.svg"), "A: contact yields");
-  expect_in(content(directory.path / "energies.svg"), "sub-zones");
+  const std::string svg = directory.read("first-sub-impact.svg");
+  expect_in(svg, "first fibre yields", "yield stress, 150 MPa", "back stress, MPa");
+  expect_in(directory.read("indentation.svg"), "A: contact yields");
+  expect_in(directory.read("energies.svg"), "sub-zones");
 }
 
 TEST(Figures, AreDrawnWithAUsersScripts) {
@@ -348,12 +322,12 @@ TEST(Figures, AreDrawnWithAUsersScripts) {
   std::ofstream(mine / "style.gp", std::ios::app) << "set linetype 1 lc rgb '#123456'\n";
   EXPECT_TRUE(write_figure_scripts(mine).empty());  // what is there stays
   std::filesystem::remove(mine / "timeline.gp");    // that of the library is used
-  const Case input = short_case({});
+  const Case input = short_case();
   draw_figures(directory.path, input, simulate(input), mine);
-  const std::string svg = content(directory.path / "response.svg");
+  const std::string svg = directory.read("response.svg");
   EXPECT_TRUE(svg.find("#123456") != std::string::npos ||
               svg.find("rgb( 18,  52,  86)") != std::string::npos);
-  expect_in(content(directory.path / "timeline.svg"), "</svg>");
+  expect_in(directory.read("timeline.svg"), "</svg>");
 }
 
 // The message with which a directory of scripts is refused.
@@ -375,8 +349,8 @@ TEST(ADirectoryOfScripts, IsRefusedIfTheyHoldTheDataOfADrawnFigure) {
   for (const std::string& script : {finished, older, figure_script("response")}) {
     std::ofstream(mine.path / "response.gp") << script;
     const std::string message = refusal(mine.path);
-    expect_in(message, (mine.path / "response.gp").string() + ": is the finished script");
-    expect_in(message, "name a directory of scripts without data");
+    expect_in(message, (mine.path / "response.gp").string() + ": is the finished script",
+              "name a directory of scripts without data");
     EXPECT_THROW(write_figure_scripts(mine.path), OutputError);
     EXPECT_FALSE(std::filesystem::exists(mine.path / "style.gp"));
   }
@@ -440,9 +414,9 @@ TEST(DrawnFigures, ThatCannotBePutInPlaceAreReportedEach) {
 
 TEST(Timeline, HasTwoLabelledTicksAtLeastOnItsLogarithmicAxes) {
   const TemporaryDirectory directory;
-  const Case input = short_case({parse_override("time.end=1e-4")});  // one sub-impact
+  const Case input = short_case({"time.end=1e-4"});  // one sub-impact
   draw_figure(directory.path, "timeline", timeline_figure(input, simulate(input)).text());
-  const std::string svg = content(directory.path / "timeline.svg");
+  const std::string svg = directory.read("timeline.svg");
   int decades = 0;
   for (const char* label : {">1<", ">10<", ">100<", ">1000<", ">10000<"}) {
     for (std::size_t at = svg.find(label); at != std::string::npos; at = svg.find(label, at + 1)) {
@@ -454,7 +428,7 @@ TEST(Timeline, HasTwoLabelledTicksAtLeastOnItsLogarithmicAxes) {
 
 TEST(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {
   const TemporaryDirectory directory;
-  const Case input = short_case({parse_override("output.interval=0")});
+  const Case input = short_case({"output.interval=0"});
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
   ASSERT_EQ(figures.drawn.size(), 1u);
   EXPECT_EQ(figures.drawn[0].name, "timeline");
@@ -465,15 +439,15 @@ TEST(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {
 }
 
 TEST(Figures, AreDrawnForElasticRigidAndOpenRunsToo) {
-  const std::vector<std::vector<Override>> runs = {
-      {parse_override("beam.yield_stress=inf"), parse_override("output.sections=0.5")},
-      {parse_override("model.mesh=rigid"), parse_override("output.sections=0.5")},
-      {parse_override("time.end=1e-5")},
-      {parse_override("contact.law=linear"), parse_override("contact.stiffness=1e7")}};
+  const std::vector<std::vector<std::string>> runs = {
+      {"beam.yield_stress=inf", "output.sections=0.5"},
+      {"model.mesh=rigid", "output.sections=0.5"},
+      {"time.end=1e-5"},
+      {"contact.law=linear", "contact.stiffness=1e7"}};
   for (const auto& settings : runs) {
     const TemporaryDirectory directory;
     const Case input = short_case(settings);
-    EXPECT_NO_THROW(draw_figures(directory.path, input, simulate(input))) << settings[0].value;
+    EXPECT_NO_THROW(draw_figures(directory.path, input, simulate(input))) << settings[0];
   }
 }
 

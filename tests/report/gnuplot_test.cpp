@@ -1,13 +1,5 @@
 #include "report/gnuplot.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <string>
 #include <thread>
 
 #include "fake_gnuplot.h"
@@ -15,16 +7,12 @@
 #include "report/files.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
   const TemporaryDirectory directory;
@@ -33,10 +21,9 @@ TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
   draw_figure(place, "parabola",
               std::string(embedded_file("figures/style.gp")) + "plot x**2 title 'parabola'\n",
               {400, 300});
-  const std::string svg = content(place / "parabola.svg");
-  EXPECT_NE(svg.find("</svg>"), std::string::npos);
-  EXPECT_NE(svg.find("parabola"), std::string::npos);
-  const std::string png = content(place / "parabola.png");
+  const std::string svg = read_file(place / "parabola.svg");
+  expect_in(svg, "</svg>", "parabola");
+  const std::string png = read_file(place / "parabola.png");
   ASSERT_GT(png.size(), 24u);
   EXPECT_EQ(png.substr(1, 3), "PNG");
   const auto big_endian = [&](std::size_t at) {
@@ -48,25 +35,15 @@ TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
 
 TEST(AFigureGnuplotCannotDraw, IsReportedWithWhatGnuplotSaid) {
   const TemporaryDirectory directory;
-  try {
-    draw_figure(directory.path, "nonsense", "plot of nothing at all\n");
-    FAIL() << "no error";
-  } catch (const OutputError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("nonsense.svg"), std::string::npos) << message;
-    EXPECT_NE(message.find("line 1"), std::string::npos) << message;
-  }
+  expect_in(message_of<OutputError>(
+                [&] { draw_figure(directory.path, "nonsense", "plot of nothing at all\n"); }),
+            "nonsense.svg", "line 1");
 }
 
 // The message of a drawing that fails.
 std::string failure(const fs::path& directory, const std::string& script,
                     std::chrono::milliseconds most_time) {
-  try {
-    draw_figure(directory, "figure", script, {}, most_time);
-  } catch (const FigureError& error) {
-    return error.what();
-  }
-  return "no error";
+  return message_of<FigureError>([&] { draw_figure(directory, "figure", script, {}, most_time); });
 }
 
 // Within a second, because a process that is killed needs a moment to end.
@@ -83,8 +60,7 @@ TEST(AFigureThatTakesTooLong, IsGivenUpWithTheCauseAndWhatDrawsItIsEnded) {
                               "echo $$ > number; exec sleep 300 > /dev/null 2>&1\n"}) {
     const FakeGnuplot gnuplot(directory.path / "bin", waiting);
     const std::string message = failure(directory.path, "plot x\n", std::chrono::milliseconds(500));
-    EXPECT_NE(message.find("figure.svg: gnuplot was ended"), std::string::npos) << message;
-    EXPECT_NE(message.find("within 0.5 s"), std::string::npos) << message;
+    expect_in(message, "figure.svg: gnuplot was ended", "within 0.5 s");
     ASSERT_TRUE(fs::exists(directory.path / "number"));
     EXPECT_TRUE(ends(directory.path / "number")) << waiting;
     fs::remove(directory.path / "number");
@@ -106,9 +82,9 @@ TEST(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
   draw_figure(directory.path, "figure", script);
   for (const char* name : {"GNUTERM", "GNUPLOT_LIB", "GDFONTPATH"}) ::unsetenv(name);
   ::setenv("HOME", home.c_str(), 1);
-  const std::string svg = content(directory.path / "figure.svg");
-  EXPECT_NE(svg.find("obeyed: 0"), std::string::npos);
-  EXPECT_EQ(svg, content(directory.path / "plain.svg"));
+  const std::string svg = read_file(directory.path / "figure.svg");
+  expect_in(svg, "obeyed: 0");
+  EXPECT_EQ(svg, read_file(directory.path / "plain.svg"));
 }
 
 TEST(AFigureThatCannotBeWritten, LeavesNoneOfItsFiles) {
@@ -126,16 +102,15 @@ TEST(AFigureThatCannotBeWritten, LeavesNoneOfItsFiles) {
 
 TEST(AFigureGnuplotCannotDraw, IsReportedWithTheLastTwelveLinesGnuplotSaid) {
   const TemporaryDirectory directory;
-  const auto message_of = [&](const std::string& script) {
+  const auto said = [&](const std::string& script) {
     const FakeGnuplot gnuplot(directory.path / "bin", script);
     return failure(directory.path, "plot x\n", most_drawing_time);
   };
-  const std::string all = message_of("seq 201 212 >&2; exit 1\n");
-  EXPECT_NE(all.find("figure.gp: 201\n202\n"), std::string::npos) << all;
-  const std::string last = message_of("seq 1 212 >&2; exit 1\n");
-  EXPECT_NE(last.find("figure.gp: ...\n201\n202\n"), std::string::npos) << last;
-  EXPECT_NE(last.find("\n212\n"), std::string::npos) << last;
-  EXPECT_NE(message_of("exit 1\n").find("status 1 on figure.gp: "), std::string::npos);
+  const std::string all = said("seq 201 212 >&2; exit 1\n");
+  expect_in(all, "figure.gp: 201\n202\n");
+  const std::string last = said("seq 1 212 >&2; exit 1\n");
+  expect_in(last, "figure.gp: ...\n201\n202\n", "\n212\n");
+  expect_in(said("exit 1\n"), "status 1 on figure.gp: ");
 }
 
 TEST(AFigureThatFailsInOneFormat, IsInNone) {

@@ -1,109 +1,73 @@
 #include "subimpact/report/pages.h"
 
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <fstream>
-#include <vector>
-
+#include "case_with.h"
 #include "report/page.h"
 #include "sample_result.h"
-#include "subimpact/io/case_file.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not there";
-}
-
-FinishedRun small_run(const std::vector<Override>& settings = {}) {
-  std::vector<Override> all = {parse_override("time.end=9e-4"), parse_override("model.segments=51"),
-                               parse_override("output.sections=0.5"),
-                               parse_override("title=\"Beam <A> & \\\"B\\\"\"")};
-  all.insert(all.end(), settings.begin(), settings.end());
+FinishedRun small_run(const std::vector<std::string>& settings = {}) {
   FinishedRun run;
-  run.input = read_case_file(SUBIMPACT_PAPER_CASE, all).value;
+  run.input = paper_case_with(
+      {"time.end=9e-4", "model.segments=51", "output.sections=0.5", R"(title="Beam <A> & \"B\"")"},
+      settings);
   run.result = simulate(run.input);
   run.program_version = "1.2.3";
   run.libraries = {{"SUNDIALS", "6.4.1"}};
   return run;
 }
 
-std::string page_of(const FinishedRun& run, const std::string& dygraphs = {}) {
+// What Python's parser finds wrong with a page as XML, or an id used twice; empty if nothing is.
+std::string xml_problem(const std::string& page) {
   const TemporaryDirectory directory;
-  const DrawnFigures figures = draw_figures(directory.path, run.input, run.result);
-  return html_report(run, figures, directory.path, dygraphs);
+  directory.write("parse.py", R"(
+import sys, xml.etree.ElementTree
+try:
+    ids = [e.get("id") for e in xml.etree.ElementTree.parse("page").iter() if e.get("id")]
+    print([i for i in ids if ids.count(i) > 1] or "")
+except xml.etree.ElementTree.ParseError as error:
+    print(error)
+)");
+  directory.write("page", page);
+  const std::string go = "cd " + directory.path.string() + " && python3 parse.py > problem 2>&1";
+  EXPECT_EQ(std::system(go.c_str()), 0) << directory.read("problem");
+  const std::string problem = directory.read("problem");
+  return problem.substr(0, problem.find('\n'));
 }
 
-// The first thing wrong with a page as XML: a tag left open or closed twice, a bare & or <, an
-// attribute without quotes, an id used twice. Empty if nothing is.
-std::string xml_problem(const std::string& page) {
-  std::vector<std::string> open;
-  std::vector<std::string> ids;
-  std::size_t at = page.find('>') + 1;  // past the document type
-  while (at < page.size()) {
-    const char c = page[at];
-    if (c == '&') {
-      const std::size_t end = page.find(';', at);
-      if (end == std::string::npos || end - at > 6) return "bare & at " + page.substr(at, 30);
-      at = end;
-    }
-    if (c != '<') {
-      ++at;
-      continue;
-    }
-    if (page.compare(at, 9, "<![CDATA[") == 0) {
-      at = page.find("]]>", at) + 3;
-      continue;
-    }
-    if (page.compare(at, 4, "<!--") == 0) {
-      at = page.find("-->", at) + 3;
-      continue;
-    }
-    std::size_t end = at + 1;
-    char quote = 0;
-    for (; end < page.size() && (quote != 0 || page[end] != '>'); ++end) {
-      if (quote != 0) {
-        if (page[end] == quote) quote = 0;
-      } else if (page[end] == '"' || page[end] == '\'') {
-        if (page[page.find_last_not_of(' ', end - 1)] != '=')
-          return "a quote out of place in " + page.substr(at, 60);
-        quote = page[end];
-      } else if (page[end] == '<') {
-        return "< within " + page.substr(at, 60);
-      }
-    }
-    const std::string tag = page.substr(at + 1, end - at - 1);
-    const std::size_t name_end = tag.find_first_of(" \t\n/", tag[0] == '/' ? 1 : 0);
-    const std::string name = tag.substr(0, name_end);
-    const std::size_t id = tag.find(" id=");
-    if (id != std::string::npos) {
-      const std::string value = tag.substr(id + 5, tag.find(tag[id + 4], id + 5) - id - 5);
-      if (std::find(ids.begin(), ids.end(), value) != ids.end()) return "id twice: " + value;
-      ids.push_back(value);
-    }
-    if (name[0] == '/') {
-      if (open.empty() || "/" + open.back() != name) return "closed but not open: " + name;
-      open.pop_back();
-    } else if (tag.back() != '/') {
-      open.push_back(name);
-    }
-    at = end + 1;
-  }
-  return open.empty() ? "" : "left open: " + open.back();
+// Well-formed pages, with figures and without.
+std::string page_with_figures(const FinishedRun& run, const std::string& dygraphs = {}) {
+  const TemporaryDirectory directory;
+  const DrawnFigures figures = draw_figures(directory.path, run.input, run.result);
+  const std::string page = html_report(run, figures, directory.path, dygraphs);
+  EXPECT_EQ(xml_problem(page), "");
+  return page;
+}
+
+std::string page_of(const FinishedRun& run, const std::string& dygraphs = {}) {
+  const std::string page = html_report(run, {}, ".", dygraphs);
+  EXPECT_EQ(xml_problem(page), "");
+  return page;
+}
+
+std::string page_of(const Result& result) {
+  FinishedRun run = small_run();
+  run.result = result;
+  return page_of(run);
 }
 
 TEST(HtmlReport, ShowsAWishUnderTheTitle) {
   FinishedRun run = small_run();
-  EXPECT_EQ(html_report(run, {}, ".").find("Wish:"), std::string::npos);
+  expect_not_in(page_of(run), "Wish:");
   run.result.wish = WishOutcome{1e-6, false, 2e-6, 8.4e-4, "cells < 51", "model.segments"};
-  const std::string page = html_report(run, {}, ".");
-  expect_in(page, "Wish: event times within 1 µs: not met; 2 µs reached up to 840 µs");
-  expect_in(page, "cells &lt; 51; free model.segments.");
+  const std::string page = page_of(run);
+  expect_in(page, "Wish: event times within 1 µs: not met; 2 µs reached up to 840 µs",
+            "cells &lt; 51; free model.segments.");
   EXPECT_LT(page.find("Wish:"), page.find("<h2>"));
 }
 
@@ -117,35 +81,24 @@ TEST(XmlProblem, IsFoundWhereThereIsOne) {
 }
 
 TEST(HtmlReport, IsWellFormedAndNeedsNothingFromOutside) {
-  EXPECT_EQ(xml_problem(page_of(small_run())), "");
-  const std::string page = page_of(small_run(), "/nowhere");  // without the library of charts
-  EXPECT_EQ(xml_problem(page), "");
-  for (const char* outside : {"http:", "https:", "src=", "<link", "@import", "<img", "<iframe",
-                              "url(\"", "url('", "file:"}) {
-    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  for (const std::string& page :
+       {page_with_figures(small_run()), page_with_figures(small_run(), "/nowhere")}) {
+    expect_not_in(page, "http:", "https:", "src=", "<link", "@import", "<img", "<iframe", "url(\"",
+                  "url('", "file:");
+    // References within figures lead to ids of the same figure.
+    expect_in(page, "href='#response-gp", "id='response-gp");
   }
-  // References within figures lead to ids of the same figure.
-  expect_in(page, "href='#response-gp");
-  expect_in(page, "id='response-gp");
 }
 
 TEST(HtmlReport, HoldsCaseSummaryTableFiguresAndConservation) {
   const FinishedRun run = small_run();
-  const std::string page = page_of(run);
-  for (const char* piece :
-       {"Beam &lt;A&gt; &amp; &quot;B&quot;", "Summary", "Figures", "figure-response",
-        "figure-bending", "figure-shapes", "figure-envelope", "Figure 8.", "Sub-impacts",
-        "peak force", "Case", "[striker]", "velocity = 15.9  # m/s", "erk, table dop853",
-        "no error bars were computed", "conservation        energy to", "contact over",
-        "subimpact 1.2.3, SUNDIALS 6.4.1"}) {
-    expect_in(page, piece);
-  }
-  std::size_t n_rows = 0;
-  for (std::size_t at = page.find("<tr data-hit"); at != std::string::npos;
-       at = page.find("<tr data-hit", at + 1)) {
-    ++n_rows;
-  }
-  EXPECT_EQ(n_rows, run.result.sub_impacts.size());
+  const std::string page = page_with_figures(run);
+  expect_in(page, "Beam &lt;A&gt; &amp; &quot;B&quot;", "Summary", "Figures", "figure-response",
+            "figure-bending", "figure-shapes", "figure-envelope", "Figure 8.", "Sub-impacts",
+            "peak force", "Case", "[striker]", "velocity = 15.9  # m/s", "erk, table dop853",
+            "no error bars were computed", "conservation        energy to", "contact over",
+            "subimpact 1.2.3, SUNDIALS 6.4.1");
+  EXPECT_EQ(count_in(page, "<tr data-hit"), run.result.sub_impacts.size());
 }
 
 TEST(HtmlReport, ListsEveryNumberOfTheSummary) {
@@ -167,7 +120,7 @@ TEST(HtmlReport, ListsEveryNumberOfTheSummary) {
 }
 
 TEST(HtmlReport, ListsEnergiesThatAddUpToTheInitialOneWhereTheBeamIsDamped) {
-  const FinishedRun run = small_run({parse_override("beam.damping.mass=2000")});
+  const FinishedRun run = small_run({"beam.damping.mass=2000"});
   const std::string page = page_of(run);
   const std::string heading = "<span>energy</span>";
   const std::size_t at = page.find(heading);
@@ -187,57 +140,44 @@ TEST(HtmlReport, HoldsTheLibraryOfChartsOrStatesHowToGetIt) {
   std::ofstream(directory.path / "dygraph.min.js")
       << "a[b[0]]>1;'</script>';\n//# sourceMappingURL=dygraph.min.js.map\nlast()";
   std::ofstream(directory.path / "dygraph.css") << ".dygraph {}";
-  const std::string page = html_report(small_run(), {}, ".", directory.path);
-  EXPECT_EQ(xml_problem(page), "");
-  expect_in(page, "a[b[0]] >1;'<\\/script>';\n\nlast()");
-  expect_in(page, ".dygraph {}");
-  EXPECT_EQ(page.find("charts are missing"), std::string::npos);
-  expect_in(html_report(small_run(), {}, ".", "/nowhere"), "apt-get install libjs-dygraphs");
+  const std::string page = page_of(small_run(), directory.path);
+  expect_in(page, "a[b[0]] >1;'<\\/script>';\n\nlast()", ".dygraph {}");
+  expect_not_in(page, "charts are missing");
+  expect_in(page_of(small_run(), "/nowhere"), "apt-get install libjs-dygraphs");
 }
 
 TEST(HtmlReport, StatesFirstWhatIsCertainAndWhatIsNot) {
-  FinishedRun run = small_run();
-  const auto page_with = [&](const Result& result) {
-    run.result = result;
-    return html_report(run, {}, ".");
-  };
-  expect_in(html_report(run, {}, "."), "Not certain:</b> event times, count and order");
-  const std::string page = page_with(sample_result_with_errors(1));
-  expect_in(page, "Certain:</b> 1 of 3 sub-impacts, each start and end within 0.017 µs.</li>");
-  expect_in(page, "Not certain:</b> sub-impact 2: they part.</li>");
+  expect_in(page_of(small_run()), "Not certain:</b> event times, count and order");
+  const std::string page = page_of(sample_result_with_errors(1));
+  expect_in(page, "Certain:</b> 1 of 3 sub-impacts, each start and end within 0.017 µs.</li>",
+            "Not certain:</b> sub-impact 2: they part.</li>");
   EXPECT_LT(page.find("Certain:</b>"), page.find("class=\"tiles\""));
   Result over = sample_result_with_errors(3);
   over.contact_over = true;
-  const std::string certain = page_with(over);
-  expect_in(certain, "Certain:</b> the end of contact: proven");
-  expect_in(certain,
+  const std::string certain = page_of(over);
+  expect_in(certain, "Certain:</b> the end of contact: proven",
             "Certain:</b> all 3 sub-impacts, each start and end within 0.3 µs, and that there are "
             "no others.</li>");
-  EXPECT_EQ(certain.find("Not certain:</b>"), std::string::npos);
-  EXPECT_EQ(page_with(sample_result_with_errors(0)).find("0 of 3"), std::string::npos);
+  expect_not_in(certain, "Not certain:</b>");
+  expect_not_in(page_of(sample_result_with_errors(0)), "0 of 3");
 }
 
 TEST(HtmlReport, NamesTheFlightsThatMayHoldAnotherSubImpact) {
-  FinishedRun run = small_run();
-  run.result = sample_result_with_an_uncertain_flight(1);
-  const std::string page = html_report(run, {}, ".");
-  EXPECT_EQ(xml_problem(page), "");
+  const std::string page = page_of(sample_result_with_an_uncertain_flight(1));
   expect_in(page,
-            "Not certain:</b> after sub-impact 2: there is another one with the same, coarser.");
-  expect_in(page,
+            "Not certain:</b> after sub-impact 2: there is another one with the same, coarser.",
             "<p>After sub-impact 2 there may be another one: there is another one with the same, "
-            "coarser.</p>");
-  expect_in(page, "<b>3 in 2 zones, 3 certain, which may not be all</b>");
+            "coarser.</p>",
+            "<b>3 in 2 zones, 3 certain, which may not be all</b>");
 }
 
 TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
   FinishedRun run = small_run();
-  EXPECT_EQ(page_of(run).find("class=\"failed\""), std::string::npos);
+  expect_not_in(page_of(run), "class=\"failed\"");
   run.result.outcome.kind = OutcomeKind::unstable;
   run.result.outcome.first_failure = Interval{1e-4, 2e-4};
   run.result.warnings = {"beam.length is 711 m & long"};
   const std::string page = page_of(run);
-  EXPECT_EQ(xml_problem(page), "");
   const auto banner = page.find(
       "<p class=\"failed\">unstable: results up to 100 µs passed every check; first failure "
       "between "
@@ -248,9 +188,7 @@ TEST(HtmlReport, BeginsWithABannerOfFailedChecksAndWarnings) {
 }
 
 TEST(HtmlReport, CountsOneAsOne) {
-  FinishedRun run = small_run({parse_override("time.end=1e-5")});
-  const std::string page = page_of(run);
-  expect_in(page, "<b>1 in 1 zone");
+  expect_in(page_of(small_run({"time.end=1e-5"})), "<b>1 in 1 zone");
 }
 
 TEST(HtmlReport, ListsErrorBarsByTheirSource) {
@@ -268,60 +206,43 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
                     {"mesh", "43 cells", 1, "they <part>", 3e-7}};
   run.result.error_estimate = estimate;
   const std::string page = page_of(run);
-  EXPECT_EQ(xml_problem(page), "");
-  for (const char* piece : {"all times to 0.002 µs up to 900 µs (runs beside: rtol = 1e-7)",
-                            "as above (runs beside: 43 cells)",
-                            "times of the certain ones to 0.3 µs; sub-impact 2: they &lt;part&gt;",
-                            "Not certain:</b> sub-impact 2: they &lt;part&gt;."}) {
-    expect_in(page, piece);
-  }
+  expect_in(page, "all times to 0.002 µs up to 900 µs (runs beside: rtol = 1e-7)",
+            "as above (runs beside: 43 cells)",
+            "times of the certain ones to 0.3 µs; sub-impact 2: they &lt;part&gt;",
+            "Not certain:</b> sub-impact 2: they &lt;part&gt;.");
 }
 
 TEST(HtmlReport, StatesNoErrorOfTimesWhereNoSubImpactIsCertain) {
-  FinishedRun run = small_run();
-  run.result = sample_result_with_errors(0);
-  const std::string page = html_report(run, {}, ".");
-  expect_in(page, "no sub-impact is certain; sub-impact 1: they part");
-  expect_in(page, "as above (runs beside: the same, coarser)");
-  EXPECT_EQ(page.find("their times to"), std::string::npos);
+  const std::string page = page_of(sample_result_with_errors(0));
+  expect_in(page, "no sub-impact is certain; sub-impact 1: they part",
+            "as above (runs beside: the same, coarser)");
+  expect_not_in(page, "their times to");
 }
 
 TEST(HtmlReport, CountsAndMarksUncertainSubImpacts) {
-  FinishedRun run = small_run();
-  run.result = sample_result_with_errors(1);
-  const std::string page = html_report(run, {}, ".");
-  EXPECT_EQ(xml_problem(page), "");
-  expect_in(page, "<b>3 in 2 zones, 1 certain</b>");
-  expect_in(page, "333.333 ± 0.017");
-  EXPECT_NE(page.find("<tr data-hit=\"0\" title=\"\">"), std::string::npos);
+  const std::string page = page_of(sample_result_with_errors(1));
+  expect_in(page, "<b>3 in 2 zones, 1 certain</b><small>times of the certain ones to 0.017 µs",
+            "333.333 ± 0.017", "<tr data-hit=\"0\" title=\"\">");
   const auto second = page.find("<tr data-hit=\"1\" class=\"uncertain\" title=\"they part\">");
   const auto third = page.find("<tr data-hit=\"2\" class=\"uncertain\" title=\"they part\">");
   ASSERT_NE(second, std::string::npos);
   ASSERT_NE(third, std::string::npos);
   EXPECT_LT(page.find("<td>333.333 ±"), second);
   EXPECT_LT(second, third);
-  EXPECT_EQ(page.substr(second, page.find("</table>", second) - second).find("±"),
-            std::string::npos);
-  expect_in(page, "<b>3 in 2 zones, 1 certain</b><small>times of the certain ones to 0.017 µs");
-  expect_in(page, "3 in 2 zones, 1 certain");
+  expect_not_in(page.substr(second, page.find("</table>", second) - second), "±");
 }
 
 TEST(HtmlReport, WithoutErrorBarsMarksNoSubImpact) {
-  FinishedRun run = small_run();
-  run.result = sample_result();
-  const std::string page = html_report(run, {}, ".");
-  EXPECT_EQ(page.find("class=\"uncertain\""), std::string::npos);
-  expect_in(page, "<span>sub-impacts</span><b>3 in 2 zones</b>");
-  expect_in(page, "errors are not known");
+  const std::string page = page_of(sample_result());
+  expect_not_in(page, "class=\"uncertain\"");
+  expect_in(page, "<span>sub-impacts</span><b>3 in 2 zones</b>", "errors are not known");
 }
 
 TEST(HtmlReport, OfARunThatFailedSaysSo) {
   FinishedRun run = small_run();
   run.result.outcome = {OutcomeKind::solver_failed, 5e-4, "the step became too small", {}};
   const std::string page = page_of(run);
-  expect_in(page, "solver-failed");
-  expect_in(page, "the step became too small");
-  EXPECT_EQ(xml_problem(page), "");
+  expect_in(page, "solver-failed", "the step became too small");
 }
 
 TEST(HtmlReport, ShowsNoDigitBelowTheErrorOfWhatARunEndsWith) {
@@ -329,21 +250,20 @@ TEST(HtmlReport, ShowsNoDigitBelowTheErrorOfWhatARunEndsWith) {
   run.result = sample_result_with_errors(3);
   run.result.striker_velocity = 5.76912;
   const std::string known = page_of(run);
-  expect_in(known, "striker 5.7691 ± 0.0007 m/s");
-  expect_in(known, "<span>largest force</span><b>8796.3 ± 0.5 N</b>");
+  expect_in(known, "striker 5.7691 ± 0.0007 m/s",
+            "<span>largest force</span><b>8796.3 ± 0.5 N</b>");
   run.result.error_estimate->totals.at(2).total.error.reset();
   const std::string unknown = page_of(run);
   expect_in(unknown, "striker 5.77 m/s, beam");
   const std::string above_stored_digits = unknown.substr(0, unknown.find("<details>"));
-  EXPECT_EQ(above_stored_digits.find("5.769"), std::string::npos);
+  expect_not_in(above_stored_digits, "5.769");
 }
 
 TEST(HtmlReport, StatesWhatTheTheoryLeavesOut) {
   FinishedRun run = small_run();
   run.result.neglected_shear = {200e-6, 210e-6};
   expect_in(page_of(run),
-            "left out            shear, which on a coarse mesh moves the end of the first contact "
-            "from 200 to\n");
+            "shear, which on a coarse mesh moves the end of the first contact from 200 to\n");
 }
 
 TEST(HtmlReport, ShowsTheScatterOfTimesAndTheHorizon) {
@@ -352,25 +272,19 @@ TEST(HtmlReport, ShowsTheScatterOfTimesAndTheHorizon) {
   run.result.sub_impacts[1].start_scatter = 2.5e-6;
   run.result.predictability = Predictability{1, "contacts merge", 1e-3 / 3.0, 2e-6, {}, {}};
   const std::string page = page_of(run);
-  expect_in(page, "500 ± 3");
-  expect_in(page, "from here on not predictable: contacts merge");
-  expect_in(page, "\"horizon\":0.000333");
-  expect_in(page, "\"start_scatter\":2.5e-06");
+  expect_in(page, "500 ± 3", "from here on not predictable: contacts merge", "\"horizon\":0.000333",
+            "\"start_scatter\":2.5e-06");
 }
 
 TEST(ComparisonReport, ListsTheKeysThatDifferAndMatchesSubImpacts) {
-  const std::vector<FinishedRun> runs = {
-      small_run(), small_run({parse_override("solver.method=central-difference")})};
+  const std::vector<FinishedRun> runs = {small_run(),
+                                         small_run({"solver.method=central-difference"})};
   const std::string page = comparison_report(runs, {"a<b", "second"}, "/nowhere");
-  EXPECT_EQ(xml_problem(page), "");
-  for (const char* piece : {"a&lt;b", "<tr><td>solver.method</td>", "Sub-impacts of B beside those",
-                            "correspond one to one", "Beam &lt;A&gt;", "libjs-dygraphs"}) {
-    expect_in(page, piece);
-  }
-  EXPECT_EQ(page.find("<td>striker.mass"), std::string::npos);
+  expect_in(page, "a&lt;b", "<tr><td>solver.method</td>", "Sub-impacts of B beside those",
+            "correspond one to one", "Beam &lt;A&gt;", "libjs-dygraphs");
+  expect_not_in(page, "<td>striker.mass");
   const std::string same = comparison_report({runs[0], runs[0]}, {"one", "two"}, "/nowhere");
-  expect_in(same, "None: the cases are the same.");
-  expect_in(same, "+0.0000");
+  expect_in(same, "None: the cases are the same.", "+0.0000");
 }
 
 }  // namespace

@@ -1,16 +1,12 @@
 #include "report/page.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
-
 #include <nlohmann/json.hpp>
 
+#include "case_with.h"
 #include "io/run_tables.h"
 #include "sample_result.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/io/case_file.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -57,11 +53,8 @@ std::vector<double> i24_of(const Json& column) {
   return numbers;
 }
 
-Case short_case(const std::vector<Override>& settings = {}) {
-  std::vector<Override> all = {parse_override("time.end=3e-4"),
-                               parse_override("model.segments=51")};
-  all.insert(all.end(), settings.begin(), settings.end());
-  return read_case_file(SUBIMPACT_PAPER_CASE, all).value;
+Case short_case(const std::vector<std::string>& settings = {}) {
+  return paper_case_with({"time.end=3e-4", "model.segments=51"}, settings);
 }
 
 TEST(PageData, HoldsTheHistoryToTheDigitsOfFloats) {
@@ -79,7 +72,7 @@ TEST(PageData, HoldsTheHistoryToTheDigitsOfFloats) {
 }
 
 TEST(PageData, HoldsEveryColumnOfTheHistoryWithItsMeaning) {
-  const Case input = short_case({parse_override("beam.ends=[\"pinned\", \"free\"]")});
+  const Case input = short_case({"beam.ends=[\"pinned\", \"free\"]"});
   const Result result = simulate(input);
   const Json json = Json::parse(page_data(input, result).json);
   for (const auto& column : run_table<HistoryRow>().columns) {
@@ -138,7 +131,7 @@ TEST(PageData, OfALongHistoryKeepsPeaksOfOneRowAndStatesWhatItLeavesOut) {
   EXPECT_LT(forces.size(), 25'000u);
   EXPECT_EQ(*std::max_element(forces.begin(), forces.end()), 5e3);
   EXPECT_NEAR(*std::min_element(deflections.begin(), deflections.end()), -1e-3, 1e-9);
-  EXPECT_NE(data.history_note.find("Of 300000 rows"), std::string::npos) << data.history_note;
+  expect_in(data.history_note, "Of 300000 rows");
 }
 
 TEST(PageData, OfFineShapesKeepsThoseAtEventsAndTheStruckPoint) {
@@ -165,7 +158,7 @@ TEST(PageData, OfFineShapesKeepsThoseAtEventsAndTheStruckPoint) {
   EXPECT_TRUE(std::any_of(positions.begin(), positions.end(), [&](double x) {
     return std::abs(x - 0.3 * input.scene.beam.length) < 1e-9;
   }));
-  EXPECT_NE(data.shapes_note.find("of 600 shapes"), std::string::npos) << data.shapes_note;
+  expect_in(data.shapes_note, "of 600 shapes");
 }
 
 TEST(PageData, EndsNoScriptElement) {

@@ -1,8 +1,6 @@
 #include "report/page.h"
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,27 +1,12 @@
 #include "subimpact/report/studies.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <iterator>
 
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void expect_in(const std::filesystem::path& path, const std::vector<std::string>& pieces) {
-  const std::string text = content(path);
-  for (const std::string& piece : pieces) {
-    EXPECT_NE(text.find(piece), std::string::npos) << piece << " is not in " << path;
-  }
-}
 
 TEST(StabilityFigures, NameMethodsAndAxesOfTheirTables) {
   const TemporaryDirectory directory;
@@ -33,22 +18,22 @@ TEST(StabilityFigures, NameMethodsAndAxesOfTheirTables) {
     }
   }
   write(directory.path, part_of(steps));
-  expect_in(directory.path / "critical_steps.svg",
-            {"central-difference", "erk:dop853", "Euler-Bernoulli", "largest stable step"});
+  expect_in(directory.read("critical_steps.svg"), "central-difference", "erk:dop853",
+            "Euler-Bernoulli", "largest stable step");
   const std::vector<StiffContact> contact = {{1e7, 3e-7, 2e-7, 2e-7}, {1e8, 3e-7, 1e-7, 1e-7}};
   write(directory.path, part_of(contact));
-  expect_in(directory.path / "stiff_contact.svg", {"beam alone", "measured"});
+  expect_in(directory.read("stiff_contact.svg"), "beam alone", "measured");
   write(directory.path, part_of({{"dirk:esdirk547", 1.0, 0.9, 0.9}, {"dirk:trbdf2", 2.0, 0.8, 0.8}},
                                 {{1, 0.1, 0.99}, {1, 1.0, 0.7}, {5, 0.1, 1.0}, {5, 1.0, 1.1}}));
-  expect_in(directory.path / "damping.svg", {">esdirk547<", ">trbdf2<", "order 5"});
+  expect_in(directory.read("damping.svg"), ">esdirk547<", ">trbdf2<", "order 5");
   const std::vector<MissedPairs> pairs = {{1e-6, 21, 21, 20, 2e-6}, {1e-5, 21, 21, 3, 2e-6}};
   write(directory.path, part_of(pairs));
-  expect_in(directory.path / "missed_pairs.svg", {"strikes (of 21) wholly found", "ends of steps"});
+  expect_in(directory.read("missed_pairs.svg"), "strikes (of 21) wholly found", "ends of steps");
   LayerStudy layers;
   layers.points = {{10, {}}, {20, {}}};
   for (LayerPoint& p : layers.points) p.errors.maximum = p.errors.median = 1e-6 / p.layers;
   write(directory.path, part_of(layers));
-  expect_in(directory.path / "layers.svg", {"layers − exact (µs)", "lost or invented"});
+  expect_in(directory.read("layers.svg"), "layers − exact (µs)", "lost or invented");
 }
 
 TEST(TheFigureOfCriticalSteps, ShowsWhateverNumbersOfCellsThereAre) {
@@ -61,8 +46,8 @@ TEST(TheFigureOfCriticalSteps, ShowsWhateverNumbersOfCellsThereAre) {
       }
     }
     write(directory.path, part_of(steps));
-    expect_in(directory.path / "critical_steps.svg",
-              {fmt::format(">{}<", segments), fmt::format(">{}<", 2 * segments - 1)});
+    expect_in(directory.read("critical_steps.svg"), fmt::format(">{}<", segments),
+              fmt::format(">{}<", 2 * segments - 1));
   }
 }
 
@@ -74,8 +59,8 @@ TEST(AMapOfOutcomes, HasARowPerMethodAndAColumnPerSetting) {
       {"fixed step", "central-difference, forced", 64.0, Verdict::unstable, {}, 0.0, ""},
       {"tolerance", "bdf, order up to 2", 1e-8, Verdict::wrong_count, {}, 0.0, "two, lost"}};
   write(directory.path, part_of(map));
-  expect_in(directory.path / "outcomes.svg",
-            {"central-difference, forced", "bdf, order up to 2", ">64<", "1e-08", "wrong count"});
+  expect_in(directory.read("outcomes.svg"), "central-difference, forced", "bdf, order up to 2",
+            ">64<", "1e-08", "wrong count");
 }
 
 }  // namespace

@@ -1,32 +1,18 @@
 #include "subimpact/report/pages.h"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <limits>
-#include <random>
-
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "io/run_tables.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not there";
-}
-
-int count(const std::string& text, const std::string& piece) {
-  int n = 0;
-  for (std::size_t at = text.find(piece); at != text.npos; at = text.find(piece, at + 1)) ++n;
-  return n;
-}
 
 SweptRuns three_runs() {
   SweptRuns runs;
@@ -42,11 +28,10 @@ SweptRuns three_runs() {
 
 TEST(SweepReport, StatesFirstWhatIsCertainAndWhatIsNot) {
   const std::string page = sweep_report(three_runs(), "here");
-  expect_in(page, "count and order of the sub-impacts in 1 of 3 runs.");
-  expect_in(page, "the counts of 1 run, which the map marks with a cross");
-  expect_in(page, "1 run with the outcome &quot;&lt;/script&gt;&quot;");
-  expect_in(page, "<b>7 to 9</b><span>sub-impacts per run</span>");
-  expect_in(page, "3 different, 0.1 to 0.3 kg");
+  expect_in(page, "count and order of the sub-impacts in 1 of 3 runs.",
+            "the counts of 1 run, which the map marks with a cross",
+            "1 run with the outcome &quot;&lt;/script&gt;&quot;",
+            "<b>7 to 9</b><span>sub-impacts per run</span>", "3 different, 0.1 to 0.3 kg");
 }
 
 TEST(SweepReport, OfRunsWithoutErrorBarsStatesThatNoCountIsCertain) {
@@ -59,11 +44,11 @@ TEST(SweepReport, NeedsNothingFromOutsideAndShowsNamesAsText) {
   const std::string page = sweep_report(three_runs(), "a\"<script>`b`\n'c'");
   expect_in(page, "<h1>Sweep: a&quot;&lt;script&gt;`b`\n'c'</h1>");
   // The page's own scripts and its data, none that a name brings in or ends.
-  const int n_scripts = count(page, "<script>/*<![CDATA[*/") + count(page, "id=\"data\"");
-  EXPECT_EQ(count(page, "<script"), n_scripts);
-  EXPECT_EQ(count(page, "</script"), n_scripts);
-  EXPECT_EQ(page.find("src=\""), std::string::npos);
-  EXPECT_EQ(page.find("href=\""), std::string::npos);
+  const std::size_t n_scripts =
+      count_in(page, "<script>/*<![CDATA[*/") + count_in(page, "id=\"data\"");
+  EXPECT_EQ(count_in(page, "<script"), n_scripts);
+  EXPECT_EQ(count_in(page, "</script"), n_scripts);
+  expect_not_in(page, "src=\"", "href=\"");
 }
 
 TEST(SweepReport, LeavesOutSubImpactsOfHugeSweepsAndStatesIt) {
@@ -72,8 +57,8 @@ TEST(SweepReport, LeavesOutSubImpactsOfHugeSweepsAndStatesIt) {
   runs.sub_impacts[1].resize(2);
   runs.sub_impacts[2].resize(1);
   const std::string page = sweep_report(runs, "here");
-  expect_in(page, "the sub-impacts of 1 run are left out; sub_impacts.csv has them");
-  expect_in(page, "\"counts\":[79999,-1,1]");
+  expect_in(page, "the sub-impacts of 1 run are left out; sub_impacts.csv has them",
+            "\"counts\":[79999,-1,1]");
   EXPECT_LT(page.size(), 6e6);
 }
 
@@ -146,7 +131,7 @@ TEST(SweepReport, OfDamagedTablesIsAMessageOrAWholePage) {
       EXPECT_EQ(json.at("numbers").size(), json.at("sub_impacts").at("counts").size());
       ++accepted;
     } catch (const ResultsError& error) {
-      EXPECT_NE(std::string(error.what()).find(".csv"), std::string::npos) << error.what();
+      expect_in(std::string(error.what()), ".csv");
       ++refused;
     }
   }

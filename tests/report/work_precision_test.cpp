@@ -1,14 +1,10 @@
 #include "subimpact/report/studies.h"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <iterator>
-
 #include "print.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -39,11 +35,6 @@ std::vector<WorkPrecision> studies() {
                   point("nystrom", 1e-3, 1e-7, 0.01, Verdict::wrong_count),
                   point("nystrom", 1e-4, 2e-9, 0.01)};
   return {study, study};
-}
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
@@ -109,25 +100,20 @@ TEST(CasesOfDifferentScenes, HaveDifferentIdsButSettingsDoNotMatter) {
 TEST(AWorkPrecisionChart, HasAPanelAStudyAndNamesMethodsAxesAndFailures) {
   const TemporaryDirectory directory;
   draw_work_precision(directory.path, studies());
-  const std::string svg = content(directory.path / "work_precision.svg");
-  for (const char* piece : {"elastic section", "erk:dop853", "nystrom", "wall time (ms)",
-                            "largest error of an event time (µs)", "failed", "lost or invented"}) {
-    EXPECT_NE(svg.find(piece), std::string::npos) << piece;
-  }
-  EXPECT_GT(content(directory.path / "work_precision.png").size(), 10000u);
-  EXPECT_GT(content(directory.path / "work_precision_evaluations.svg").size(), 1000u);
+  const std::string svg = directory.read("work_precision.svg");
+  expect_in(svg, "elastic section", "erk:dop853", "nystrom", "wall time (ms)",
+            "largest error of an event time (µs)", "failed", "lost or invented");
+  EXPECT_GT(directory.read("work_precision.png").size(), 10000u);
+  EXPECT_GT(directory.read("work_precision_evaluations.svg").size(), 1000u);
 }
 
 TEST(AWorkPrecisionTable, SaysWhatEachPointCostsAndWhyItIsWrong) {
   const std::string text = work_precision_table(studies().front());
-  for (const char* piece : {"this beside that", "erk:dop853", "rtol 1e-06", "wrong count",
-                            "nystrom at rtol 1e-02: at 3 us it grows, without bound", "50 ms"}) {
-    EXPECT_NE(text.find(piece), std::string::npos) << piece << " is not in:\n" << text;
-  }
+  expect_in(text, "this beside that", "erk:dop853", "rtol 1e-06", "wrong count",
+            "nystrom at rtol 1e-02: at 3 us it grows, without bound", "50 ms");
   const std::string recommendations =
       recommendation_text(recommendations_from(studies().front().points));
-  EXPECT_NE(recommendations.find("0.01 us   nystrom at rtol 1e-04: 10 ms"), std::string::npos)
-      << recommendations;
+  expect_in(recommendations, "0.01 us   nystrom at rtol 1e-04: 10 ms");
 }
 
 }  // namespace

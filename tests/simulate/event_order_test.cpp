@@ -1,10 +1,7 @@
 // Event times are as accurate as the method, when they are located by the method itself.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "lumped.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

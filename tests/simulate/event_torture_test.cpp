@@ -1,11 +1,10 @@
 // Events with known answers, by the hundred thousand: none missed, none invented, none twice.
 
-#include <gtest/gtest.h>
-
 #include <random>
 
 #include "lumped.h"
 #include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -2,12 +2,9 @@
 
 #include "simulate/quadratures.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "lumped.h"
 #include "simulate/audit.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,12 +1,7 @@
 // Near misses whose times and margins are known in closed form.
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "lumped.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,9 +1,6 @@
 #include "subimpact/simulate/records.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-#include <utility>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

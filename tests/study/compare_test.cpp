@@ -1,8 +1,7 @@
 #include "subimpact/study/compare.h"
 
-#include <gtest/gtest.h>
-
 #include "elastic_case.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -31,8 +30,7 @@ TEST(AMethodThatMissesASubImpact, IsToldFromWhereOn) {
   EXPECT_EQ(comparison.reference.sub_impacts.size(), 26u);
   EXPECT_NE(run.result.sub_impacts.size(), 26u);
   EXPECT_LT(run.n_corresponding, 26u);
-  EXPECT_NE(run.remark.find("instead of 26"), std::string::npos) << run.remark;
-  EXPECT_NE(run.remark.find(" us"), std::string::npos) << run.remark;
+  expect_in(run.remark, "instead of 26", " us");
 }
 
 TEST(ATreatmentOfEvents, IsNamedAfterAPlusSign) {
@@ -78,8 +76,7 @@ TEST(AComparison, WithAReferenceThatFailedIsNotMade) {
     compare(input, {"erk"});
     ADD_FAILURE() << "was made";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("the reference of the comparison"), std::string::npos)
-        << error.what();
+    expect_in(std::string(error.what()), "the reference of the comparison");
   }
 }
 

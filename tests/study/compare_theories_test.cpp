@@ -1,11 +1,8 @@
 #include "subimpact/study/compare.h"
 
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "paper_scene.h"
 #include "subimpact/case/case_keys.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -2,13 +2,10 @@
 
 #include "subimpact/study/judgement.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "paper_scene.h"
+#include "coverage.h"
+#include "paper_run.h"
 #include "subimpact/study/match.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -18,13 +15,8 @@ Result judged_in_time(const Case& input) {
 }
 
 Case scene(SectionKind section, double end_time) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.section = section;
-  input.end_time = end_time;
-  input.solver.method = Method::nystrom;
+  Case input = paper_run(section, end_time, 501, Method::nystrom);
   input.solver.rtol = 1e-7;
-  input.output.interval = 0.0;
   return input;
 }
 
@@ -57,49 +49,16 @@ std::vector<Case> ten_scenes() {
 }
 
 TEST(StatedErrors, CoverTheTrueOnesWithoutBeingVain) {
-  int n_events = 0;
-  int n_covered = 0;
-  std::vector<double> ratios;
-  int number = 0;
+  Coverage coverage;
   for (const Case& input : ten_scenes()) {
-    const Result result = judged_in_time(input);
     Case accurate = input;
     accurate.solver = {};
     const bool elastic = input.model.section == SectionKind::elastic;
     accurate.solver.method = elastic ? Method::exponential : Method::nystrom;
     accurate.solver.rtol = elastic ? 1e-12 : 1e-11;
-    const Result exact = simulate(accurate);
-    int covered = 0;
-    int events = 0;
-    const auto judge = [&](double stated, double error) {
-      ++events;
-      covered += error <= stated;
-      if (error > 0.0) ratios.push_back(stated / error);
-    };
-    const Counterparts exact_ones = counterparts(result.sub_impacts, exact.sub_impacts);
-    for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
-      const SubImpact& here = result.sub_impacts[i];
-      if (!*here.certain) continue;
-      ASSERT_TRUE(exact_ones.of[i]) << i;
-      const SubImpact& there = *exact_ones.of[i];
-      if (i > 0) judge(here.start_error.value(), std::abs(here.start - there.start));
-      if (here.end && there.end) judge(here.end_error.value(), std::abs(*here.end - *there.end));
-    }
-    printf("scene %d: %zu sub-impacts, %zu certain; %d of %d times covered; largest %.1e us\n",
-           ++number, result.sub_impacts.size(), *result.n_certain(), covered, events,
-           1e6 * result.error_estimate->largest_error);
-    n_events += events;
-    n_covered += covered;
+    coverage.judge(judged_in_time(input), simulate(accurate));
   }
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
-                   ratios.end());
-  const double median = ratios[ratios.size() / 2];
-  printf("%d of %d event times covered (%.1f %%), median stated/true %.1f\n", n_covered, n_events,
-         100.0 * n_covered / n_events, median);
-  EXPECT_GE(n_events, 300);
-  EXPECT_GE(n_covered, 0.95 * n_events);
-  EXPECT_LT(median, 20.0);
-  EXPECT_GT(median, 1.0);
+  coverage.expect(300, 20.0);
 }
 
 TEST(CasesBesideInTime, DifferInStepOrToleranceAlone) {

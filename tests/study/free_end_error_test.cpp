@@ -1,31 +1,21 @@
 // The first-order part of the error of cells with free ends.
 
-#include <gtest/gtest.h>
-
-#include "study/mesh_resolution.h"
-#include "subimpact/study/judgement.h"
-
-#include <cmath>
-
 #include "model/cell_modes.h"
 #include "model/flexural_frequencies.h"
-#include "paper_scene.h"
+#include "paper_run.h"
+#include "study/mesh_resolution.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/other_mesh.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 // A thick beam, whose second-order error is small from some 1000 cells on.
 Case thick_case(int segments) {
-  Case input;
-  input.scene = paper_scene();
+  Case input = paper_run(SectionKind::elastic, 0.52e-3, segments, Method::central_difference);
   input.scene.beam.thickness = 0.03;
   input.scene.striker.mass = 1.0;
-  input.model.section = SectionKind::elastic;
-  input.model.segments = segments;
-  input.end_time = 0.52e-3;
-  input.solver.method = Method::central_difference;
-  input.output.interval = 0.0;
   return input;
 }
 

@@ -2,12 +2,9 @@
 
 #include "subimpact/study/judgement.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "paper_scene.h"
 #include "subimpact/study/match.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,6 +1,6 @@
 #include "subimpact/study/match.h"
 
-#include <gtest/gtest.h>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,14 +1,10 @@
 #include "study/mesh_resolution.h"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <utility>
-
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement.h"
 #include "subimpact/study/other_mesh.h"
 #include "subimpact/study/within.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -124,7 +120,7 @@ TEST(AStrikeThatNoCoarserMeshTakes, IsNotCertainThoughRunsAtOtherTolerancesAgree
   const Result result = simulate_judged(input, cases_beside(input), 2);
   EXPECT_EQ(result.n_certain(), std::size_t{0});
   const std::string& reason = result.error_estimate->reason;
-  EXPECT_NE(reason.find("of the mesh"), std::string::npos) << reason;
+  expect_in(reason, "of the mesh");
 }
 
 TEST(SubImpacts, AreNotAllCertainWhereTheRunComparedWithHasMore) {

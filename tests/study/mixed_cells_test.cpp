@@ -1,23 +1,17 @@
 // Error bars of runs on mixed cells.
 
-#include <gtest/gtest.h>
-
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement.h"
 #include "subimpact/study/run_as_asked.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 Case mixed_case() {
-  Case input;
-  input.scene = paper_scene();
+  Case input = paper_run(SectionKind::exact, 0.4e-3, 400, Method::central_difference);
   input.model.mesh = MeshKind::mixed;
-  input.model.segments = 400;
-  input.end_time = 0.4e-3;
-  input.solver.method = Method::central_difference;
-  input.output.interval = 0.0;
   return input;
 }
 

@@ -1,29 +1,16 @@
 // Near misses of whole runs, and what they leave undecided.
 
-#include <gtest/gtest.h>
-
+#include "paper_run.h"
 #include "subimpact/study/judgement.h"
-
-#include <algorithm>
-#include <cmath>
-
-#include "paper_scene.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 Case paper_case(Method method, int segments) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.section = SectionKind::exact;
-  input.model.segments = segments;
-  input.end_time = 0.3e-3;
-  input.solver.method = method;
-  input.solver.rtol = 1e-8;
-  input.output.interval = 0.0;
-  return input;
+  return paper_run(SectionKind::exact, 0.3e-3, segments, method);
 }
 
 // The near miss of this kind closest to a time (s).

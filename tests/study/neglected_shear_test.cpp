@@ -1,9 +1,8 @@
 #include "subimpact/study/run_as_asked.h"
 
-#include <gtest/gtest.h>
-
 #include "elastic_case.h"
 #include "subimpact/case/simulate.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,11 +1,7 @@
 #include "subimpact/study/plan.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "elastic_case.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,11 +1,8 @@
 #include "subimpact/study/predictability.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "elastic_case.h"
 #include "subimpact/study/population.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,8 +1,6 @@
 #include "study/stencil.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "testing.h"
 
 namespace subimpact {
 namespace {

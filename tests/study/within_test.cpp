@@ -2,35 +2,15 @@
 
 #include "subimpact/study/within.h"
 
-#include <gtest/gtest.h>
-
-#include "subimpact/study/judgement.h"
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "same_results.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
-
-Case paper_case(double end_time) {
-  Case input;
-  input.scene = paper_scene();
-  input.end_time = end_time;
-  input.output.interval = 0.0;
-  return input;
-}
-
-Case elastic_case(double end_time) {
-  Case input = paper_case(end_time);
-  input.model.section = SectionKind::elastic;
-  return input;
-}
 
 // The largest difference of starts and ends; infinite if counts differ.
 double largest_difference(const std::vector<SubImpact>& a, const std::vector<SubImpact>& b) {
@@ -63,10 +43,10 @@ TEST(OpenChoices, ASizeFixesItsMeshAndAToleranceItsMethod) {
 }
 
 TEST(AChoice, IsModesWhereTheBeamIsElasticAndCentralDifferencesWhereItYields) {
-  const ChosenModel elastic = choose_model(elastic_case(1e-3), {}, false);
+  const ChosenModel elastic = choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false);
   EXPECT_EQ(elastic.input.model.mesh, MeshKind::hermite);
   EXPECT_EQ(elastic.input.solver.method, Method::exponential);
-  const ChosenModel yielding = choose_model(paper_case(1e-3), {}, true);
+  const ChosenModel yielding = choose_model(paper_run(SectionKind::exact, 1e-3), {}, true);
   EXPECT_EQ(yielding.input.model.mesh, MeshKind::cells);
   EXPECT_EQ(yielding.input.solver.method, Method::central_difference);
 }
@@ -75,12 +55,12 @@ TEST(AChoice, SaysThatContactIsIntegratedWhereSectionsMightYield) {
   const auto names_nystrom = [](const ChosenModel& chosen) {
     return chosen.reason.find("nystrom") != std::string::npos;
   };
-  EXPECT_TRUE(names_nystrom(choose_model(paper_case(1e-3), {}, false)));
-  EXPECT_FALSE(names_nystrom(choose_model(elastic_case(1e-3), {}, false)));
+  EXPECT_TRUE(names_nystrom(choose_model(paper_run(SectionKind::exact, 1e-3), {}, false)));
+  EXPECT_FALSE(names_nystrom(choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false)));
 }
 
 TEST(AChoice, LeavesWhatTheCaseFixes) {
-  Case input = elastic_case(1e-3);
+  Case input = paper_run(SectionKind::elastic, 1e-3);
   input.solver.method = Method::erk;
   input.model.mesh = MeshKind::cells;
   OpenChoices open;
@@ -92,14 +72,14 @@ TEST(AChoice, LeavesWhatTheCaseFixes) {
 
 // The limit of fine meshes, from ten times as many elements as the wish needs.
 TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
-  Case finest = elastic_case(2e-3);
+  Case finest = paper_run(SectionKind::elastic, 2e-3);
   finest.model.mesh = MeshKind::hermite;
   finest.model.elements = 1600;
   finest.solver.method = Method::exponential;
   finest.solver.rtol = 1e-11;
   const Result limit = simulate(finest);
   for (const double wish : {1e-5, 1e-6, 1e-7}) {
-    Case input = elastic_case(2e-3);
+    Case input = paper_run(SectionKind::elastic, 2e-3);
     input.accuracy.event_times = wish;
     const WithinRun run = simulate_within(input, {});
     ASSERT_TRUE(run.result.wish);
@@ -113,7 +93,7 @@ TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
 // The first separation of the paper's beam that yields: 201.476 +- 0.006 us, from 1600 graded
 // elements and 8007 cells.
 TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
-  Case input = paper_case(0.3e-3);
+  Case input = paper_run(SectionKind::exact, 0.3e-3);
   input.accuracy.event_times = 0.3e-6;
   const WithinRun run = simulate_within(input, {});
   EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
@@ -123,7 +103,7 @@ TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
 }
 
 TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
-  Case input = elastic_case(1e-3);
+  Case input = paper_run(SectionKind::elastic, 1e-3);
   input.accuracy.event_times = 1e-6;
   WithinOptions two;
   two.jobs = 2;
@@ -134,14 +114,14 @@ TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
 }
 
 TEST(AWish, LeavesACaseThatRepeatsTheRunBitForBit) {
-  Case input = paper_case(0.25e-3);
+  Case input = paper_run(SectionKind::exact, 0.25e-3);
   input.accuracy.event_times = 2e-6;
   const WithinRun run = simulate_within(input, {});
   expect_same(simulate(run.input), run.result);
 }
 
 TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
-  Case input = elastic_case(1e-3);
+  Case input = paper_run(SectionKind::elastic, 1e-3);
   input.model.segments = 101;
   input.accuracy.event_times = 1e-9;
   OpenChoices open;
@@ -155,7 +135,7 @@ TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
 }
 
 TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
-  Case input = elastic_case(0.4e-3);
+  Case input = paper_run(SectionKind::elastic, 0.4e-3);
   input.solver.method = Method::central_difference;
   input.solver.step = 1e-7;
   input.accuracy.event_times = 1e-9;
@@ -168,7 +148,7 @@ TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
 }
 
 TEST(AWish, StopsAtTheLimitOfWork) {
-  Case input = paper_case(1e-3);
+  Case input = paper_run(SectionKind::exact, 1e-3);
   input.accuracy.event_times = 1e-10;
   input.accuracy.work_limit = 3e6;
   double work = 0.0;
@@ -181,7 +161,7 @@ TEST(AWish, StopsAtTheLimitOfWork) {
 }
 
 TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
-  Case input = paper_case(0.3e-3);
+  Case input = paper_run(SectionKind::exact, 0.3e-3);
   input.scene.beam.yield_stress = 3e9;
   input.accuracy.event_times = 1e-6;
   const WithinRun run = simulate_within(input, {});
@@ -191,7 +171,7 @@ TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
 }
 
 TEST(CasesBeside, AreCoarserInMeshAndTime) {
-  Case input = paper_case(1e-3);
+  Case input = paper_run(SectionKind::exact, 1e-3);
   input.model.segments = 401;
   input.solver.method = Method::central_difference;
   const std::vector<CaseBeside> cases = cases_beside(input);
@@ -209,7 +189,7 @@ TEST(CasesBeside, AreCoarserInMeshAndTime) {
 }
 
 TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {
-  Case input = paper_case(1e-3);
+  Case input = paper_run(SectionKind::exact, 1e-3);
   input.model.mesh = MeshKind::rigid;
   const std::vector<CaseBeside> cases = cases_beside(input);
   ASSERT_EQ(cases.size(), 1u);
@@ -217,7 +197,7 @@ TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {
 }
 
 TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {
-  Case input = paper_case(0.5e-3);
+  Case input = paper_run(SectionKind::exact, 0.5e-3);
   input.accuracy.event_times = 1e-9;
   WithinOptions options;
   int n_meshes = 0;

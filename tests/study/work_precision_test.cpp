@@ -1,24 +1,11 @@
 #include "subimpact/study/work_precision.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "print.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
-
-Case paper_case(SectionKind section, double end_time) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.section = section;
-  input.end_time = end_time;
-  return input;
-}
 
 std::vector<SubImpact> sub_impacts(const std::vector<std::pair<double, double>>& times) {
   std::vector<SubImpact> list;
@@ -56,7 +43,7 @@ TEST(ARunThatLosesASubImpact, IsOffByAtLeastThatOnesDuration) {
 }
 
 TEST(TheReference, KnowsTheElasticEventsToABillionthOfAMicrosecond) {
-  const Reference reference = compute_reference(paper_case(SectionKind::elastic, 2e-3), 1e-10);
+  const Reference reference = compute_reference(paper_run(SectionKind::elastic, 2e-3), 1e-10);
   EXPECT_EQ(reference.sub_impacts.size(), 14u);
   EXPECT_LT(1e6 * reference.error, 1e-8);
   EXPECT_EQ(reference.horizon, 2e-3);
@@ -64,14 +51,14 @@ TEST(TheReference, KnowsTheElasticEventsToABillionthOfAMicrosecond) {
 
 TEST(TheHorizon, LiesInTheLastSeparationThatIsCertain) {
   // In contact at the case's end, which therefore cannot be compared up to there.
-  const Reference open = compute_reference(paper_case(SectionKind::elastic, 230e-6), 1e-10);
+  const Reference open = compute_reference(paper_run(SectionKind::elastic, 230e-6), 1e-10);
   ASSERT_EQ(open.sub_impacts.size(), 1u);
   EXPECT_GT(open.horizon, *open.sub_impacts.back().end);
   EXPECT_LT(open.horizon, 225.5e-6);
   EXPECT_EQ(open.result.outcome.time, open.horizon);
   // Nothing is certain to a tenth of the rounding of its time but what comes first.
-  EXPECT_THROW(compute_reference(paper_case(SectionKind::elastic, 1e-3), 1e-25), InvalidCase);
-  EXPECT_THROW(compute_reference(paper_case(SectionKind::elastic, 1e-4), 1e-10), InvalidCase);
+  EXPECT_THROW(compute_reference(paper_run(SectionKind::elastic, 1e-3), 1e-25), InvalidCase);
+  EXPECT_THROW(compute_reference(paper_run(SectionKind::elastic, 1e-4), 1e-10), InvalidCase);
 }
 
 WorkPrecisionOptions quick(std::vector<std::string> methods) {
@@ -91,7 +78,7 @@ std::vector<WorkPrecisionPoint> points_of(const WorkPrecision& study, const std:
 
 TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
   const WorkPrecision study =
-      work_precision(paper_case(SectionKind::elastic, 0.3e-3),
+      work_precision(paper_run(SectionKind::elastic, 0.3e-3),
                      quick({"central-difference", "exponential", "erk:dormand-prince"}));
   const auto central = points_of(study, "central-difference");
   ASSERT_GE(central.size(), 5u);
@@ -105,7 +92,7 @@ TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
 
   const auto erk = points_of(study, "erk:dormand-prince");
   EXPECT_EQ(erk.front().verdict, Verdict::unstable);  // rtol 1e-2
-  EXPECT_NE(erk.front().message.find("grows without bound"), std::string::npos);
+  expect_in(erk.front().message, "grows without bound");
   EXPECT_EQ(erk.back().verdict, Verdict::right);
   EXPECT_LT(1e6 * erk.back().errors.maximum, 1e-6);
 
@@ -120,14 +107,14 @@ TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
 TEST(AWorkPrecisionStudy, LeavesOutWhatWouldTakeTooLongAndSaysSo) {
   WorkPrecisionOptions options = quick({"nystrom"});
   options.point_seconds = 1e-9;
-  const WorkPrecision study = work_precision(paper_case(SectionKind::exact, 0.3e-3), options);
+  const WorkPrecision study = work_precision(paper_run(SectionKind::exact, 0.3e-3), options);
   ASSERT_EQ(study.points.size(), 2u);  // the first is run to see how long it takes
   EXPECT_EQ(study.points.back().verdict, Verdict::not_run);
-  EXPECT_NE(study.points.back().message.find("would take"), std::string::npos);
+  expect_in(study.points.back().message, "would take");
 }
 
 TEST(AWorkPrecisionStudy, RunsNothingAgainThatIsKnown) {
-  const Case input = paper_case(SectionKind::elastic, 0.3e-3);
+  const Case input = paper_run(SectionKind::elastic, 0.3e-3);
   const WorkPrecision first = work_precision(input, quick({"central-difference"}));
   WorkPrecisionOptions options = quick({"central-difference"});
   std::set<std::string> run;
@@ -153,7 +140,7 @@ TEST(AnInterruptedStudy, KeepsThePointsItHas) {
   int finished = 0;
   options.finished = [&](const WorkPrecisionPoint&) { ++finished; };
   options.progress = [&](double) { return finished < 3; };
-  const WorkPrecision study = work_precision(paper_case(SectionKind::elastic, 0.6e-3), options);
+  const WorkPrecision study = work_precision(paper_run(SectionKind::elastic, 0.6e-3), options);
   EXPECT_TRUE(study.interrupted);
   EXPECT_EQ(study.points.size(), 3u);
 }
@@ -197,7 +184,7 @@ TEST(AMethodThatCannotRunTheCase, IsRefusedBeforeAnythingRuns) {
   bool announced = false;
   WorkPrecisionOptions options = quick({"central-difference", "leapfrog"});
   options.announce = [&](const std::string&) { announced = true; };
-  EXPECT_THROW(work_precision(paper_case(SectionKind::elastic, 1e-3), options), InvalidCase);
+  EXPECT_THROW(work_precision(paper_run(SectionKind::elastic, 1e-3), options), InvalidCase);
   EXPECT_FALSE(announced);
 }
 

@@ -42,4 +42,9 @@ inline Eigen::VectorXd squared_frequencies(const BeamMesh& mesh, double bending_
   return solver.eigenvalues();
 }
 
+/// The highest natural frequency.
+inline double highest_of(const BeamMesh& mesh, double bending_stiffness) {
+  return std::sqrt(squared_frequencies(mesh, bending_stiffness).tail<1>()(0));
+}
+
 }  // namespace subimpact

@@ -1,12 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <string>
-#include <utility>
-#include <vector>
+#include "testing.h"
 
 namespace subimpact {
 

@@ -4,14 +4,11 @@
 /// parameters is named after what they print. To be included by every test that compares or
 /// iterates over enumerations, so that all files of a test program print them alike.
 
-#include <gtest/gtest.h>
-
 #include <cctype>
-#include <ostream>
-#include <string>
 #include <type_traits>
 
 #include "subimpact/model/scene.h"
+#include "testing.h"
 
 #if __has_include("case/case_choices.h")
 #include "case/case_choices.h"

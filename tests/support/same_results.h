@@ -1,8 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "subimpact/simulate/result.h"
+#include "testing.h"
 
 namespace subimpact {
 

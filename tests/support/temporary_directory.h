@@ -2,12 +2,15 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <system_error>
 
+#include "read_file.h"
+
 namespace subimpact {
 
-/// A directory of the test's own, removed at its end.
+/// A directory of the test's own, removed at its end. Names are relative to it.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
@@ -20,6 +23,14 @@ class TemporaryDirectory {
   }
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  /// Writes a file and returns its path.
+  std::string write(const std::string& name, const std::string& content) const {
+    std::ofstream(path / name) << content;
+    return path / name;
+  }
+  std::string read(const std::string& name) const { return read_file(path / name); }
+  bool has(const std::string& name) const { return std::filesystem::exists(path / name); }
 
   std::filesystem::path path;
 };

@@ -3,11 +3,6 @@
 
 #include "system/beam_field.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-
 #include "dense.h"
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"

@@ -1,14 +1,11 @@
 // Event functions of the contact, and where they cross zero within a step.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
+#include "system/contact_events.h"
 #include "beam_under_test.h"
 #include "model/contact_laws.h"
 #include "print.h"
-#include "system/contact_events.h"
 #include "system/section_correction.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

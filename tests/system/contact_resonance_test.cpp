@@ -2,13 +2,10 @@
 
 #include "system/contact_resonance.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "beam_under_test.h"
 #include "dense.h"
 #include "model/contact_laws.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,12 +1,8 @@
 // The tangent stiffness against differences of the force: in every branch of the contact, in both
 // ways of evaluating it, over sections at rest, flowing and reversed.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "beam_under_test.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

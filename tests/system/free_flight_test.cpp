@@ -1,17 +1,9 @@
 // A struck beam in free flight: oscillators about the shape that past flow has left.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <utility>
-#include <vector>
-
+#include "system/free_flight.h"
 #include "beam_under_test.h"
 #include "system/accounts.h"
-#include "system/free_flight.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,11 +1,7 @@
 // The struck beam as implicit methods see it: forces in parts, mass and tangent stiffness.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "beam_under_test.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

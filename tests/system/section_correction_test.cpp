@@ -3,16 +3,11 @@
 
 #include "system/section_correction.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-
 #include "lumped_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "struck_beam_of.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

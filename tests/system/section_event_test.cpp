@@ -3,13 +3,9 @@
 
 #include "system/section_events.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "order_table.h"
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

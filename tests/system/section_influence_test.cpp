@@ -2,16 +2,12 @@
 
 #include "system/section_events.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
 #include "model/timoshenko_mesh.h"
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

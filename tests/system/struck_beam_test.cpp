@@ -2,13 +2,9 @@
 
 #include "system/struck_beam.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "beam_under_test.h"
 #include "system/accounts.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

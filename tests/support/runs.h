@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "refusal.h"
+#include "subimpact/case/simulate.h"
+#include "testing.h"
+
+namespace subimpact {
+
+/// A run of which the test expects that it reaches its end time.
+inline Result completed(const Case& input) {
+  Result result = simulate(input);
+  EXPECT_TRUE(result.outcome.completed()) << result.outcome.message;
+  return result;
+}
+
+inline double start_us(const SubImpact& s) { return 1e6 * s.start; }
+inline double end_us(const SubImpact& s) { return 1e6 * s.end.value_or(-1.0); }
+
+/// As many sub-impacts, starting at the same times within a tolerance in us.
+inline void expect_same_starts(const Result& a, const Result& b, double tolerance_us) {
+  ASSERT_EQ(a.sub_impacts.size(), b.sub_impacts.size());
+  for (std::size_t i = 0; i < a.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(start_us(a.sub_impacts[i]), start_us(b.sub_impacts[i]), tolerance_us) << i;
+  }
+}
+
+/// The same of their ends, where both have one.
+inline void expect_same_ends(const Result& a, const Result& b, double tolerance_us) {
+  ASSERT_EQ(a.sub_impacts.size(), b.sub_impacts.size());
+  for (std::size_t i = 0; i < a.sub_impacts.size(); ++i) {
+    if (!a.sub_impacts[i].end || !b.sub_impacts[i].end) continue;
+    EXPECT_NEAR(end_us(a.sub_impacts[i]), end_us(b.sub_impacts[i]), tolerance_us) << i;
+  }
+}
+
+inline Refusal refusal_of(const Case& input) {
+  return refusal_of([&] { resolve(input); });
+}
+
+}  // namespace subimpact
