@@ -1,5 +1,4 @@
-#include "subimpact/io/case_file.h"
-
+#include "case_with.h"
 #include "print.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
@@ -40,14 +39,14 @@ std::vector<std::string> texts_of(const Case& input) {
 }
 
 TEST(CaseFileText, IsReadBackAsTheSameCase) {
-  const std::vector<std::vector<Override>> settings = {
+  const std::vector<std::vector<std::string>> all = {
       {},
-      {parse_override("beam.yield_stress=inf"), parse_override("output.sections=0.5,0.25")},
-      {parse_override("model.mesh=hermite"), parse_override("model.elements=40"),
-       parse_override("beam.damping.ratio=0.01"), parse_override("model.section=elastic")},
-      {parse_override("contact.law=hertz"), parse_override("contact.stiffness=1.1e9")}};
-  for (const auto& overrides : settings) {
-    Case input = read_case_file(SUBIMPACT_PAPER_CASE, overrides).value;
+      {"beam.yield_stress=inf", "output.sections=0.5,0.25"},
+      {"model.mesh=hermite", "model.elements=40", "beam.damping.ratio=0.01",
+       "model.section=elastic"},
+      {"contact.law=hertz", "contact.stiffness=1.1e9"}};
+  for (const auto& settings : all) {
+    Case input = paper_case_with(settings);
     input.title = "\"quoted\" \\ <b> 'x' `y`\nsecond line \x01\x7f \xc3\xbc = [a]";
     const std::string text = case_file_text(input);
     EXPECT_EQ(texts_of(read_case_text(text, "copy").value), texts_of(input)) << text;
@@ -62,91 +61,56 @@ TEST(CaseFile, KeysLeftOutKeepTheirDefaults) {
   EXPECT_FALSE(read.solver.step.has_value());
 }
 
-TEST(CaseFile, WholeNumbersAreNumbers) {
-  EXPECT_EQ(read_case_text(small_case_text(), "small.toml").value.scene.beam.density, 2600.0);
+// The small case with settings.
+LoadedCase with(const std::vector<std::string>& settings,
+                const std::string& text = small_case_text()) {
+  return read_case_text(text, "small.toml", overrides(settings));
 }
 
-TEST(CaseFile, AnOverrideGoesBeforeTheFile) {
+TEST(CaseFile, TakesSettingsBeforeItsOwnLinesAndTheLastOfTwo) {
   const Case read =
-      read_case_text(small_case_text(), "small.toml",
-                     {parse_override("beam.length=0.5"), parse_override("model.segments = 101")})
+      with({"beam.length=0.5", "model.segments = 101", "time.end=1", "time.end=2", "title=a=b"})
           .value;
   EXPECT_EQ(read.scene.beam.length, 0.5);
+  EXPECT_EQ(read.scene.beam.density, 2600.0) << "a whole number in the file";
   EXPECT_EQ(read.model.segments, 101);
-}
-
-TEST(CaseFile, TheLastOfTwoOverridesHolds) {
-  const Case read = read_case_text(small_case_text(), "small.toml",
-                                   {parse_override("time.end=1"), parse_override("time.end=2")})
-                        .value;
   EXPECT_EQ(read.end_time, 2.0);
+  EXPECT_EQ(read.title, "a=b");
+  const std::string without_mass = small_case_with("mass = 0.201\n", "");
+  EXPECT_EQ(with({"striker.mass=0.3"}, without_mass).value.scene.striker.mass, 0.3);
+  for (const char* setting : {"model.section=elastic", "model.section=\"elastic\""}) {
+    EXPECT_EQ(with({setting}).value.model.section, SectionKind::elastic) << setting;
+  }
+  for (const char* setting : {"beam.ends=free,pinned", "beam.ends=[\"free\", \"pinned\"]"}) {
+    EXPECT_EQ(with({setting}).value.scene.beam.ends[1], EndSupport::pinned) << setting;
+  }
 }
 
-TEST(CaseFile, AnOverrideCanTakeAKeyBackToItsDefault) {
-  const LoadedCase loaded =
-      read_case_text(small_case_text(), "small.toml",
-                     {parse_override("solver.step=1e-7"), parse_override("model.segments=101"),
-                      parse_override("solver.step=default")});
+TEST(CaseFile, ASettingCanTakeAKeyBackToItsDefault) {
+  const LoadedCase loaded = with({"solver.step=1e-7", "model.segments=101", "solver.step=default"});
   EXPECT_FALSE(loaded.value.solver.step);
   EXPECT_FALSE(loaded.given.in_settings.contains("solver.step"));
   EXPECT_TRUE(loaded.given.in_settings.contains("model.segments"));
-}
-
-TEST(CaseFile, AnOverrideCanSupplyARequiredKey) {
-  const Case read = read_case_text(small_case_with("mass = 0.201\n", ""), "small.toml",
-                                   {parse_override("striker.mass=0.3")})
-                        .value;
-  EXPECT_EQ(read.scene.striker.mass, 0.3);
-}
-
-TEST(CaseFile, AnOverridesTextNeedsNoQuotes) {
-  for (const char* setting : {"model.section=elastic", "model.section=\"elastic\""}) {
-    const Case read =
-        read_case_text(small_case_text(), "small.toml", {parse_override(setting)}).value;
-    EXPECT_EQ(read.model.section, SectionKind::elastic) << setting;
-  }
-}
-
-TEST(CaseFile, AnOverrideTakesAPairWithOrWithoutBrackets) {
-  for (const char* setting : {"beam.ends=free,free", "beam.ends=[\"free\", \"free\"]"}) {
-    EXPECT_NO_THROW(read_case_text(small_case_text(), "small.toml", {parse_override(setting)}))
-        << setting;
-  }
-}
-
-TEST(CaseFile, AnOverridesTextMayHoldAnEqualsSign) {
-  const Case read =
-      read_case_text(small_case_text(), "small.toml", {parse_override("title=a=b")}).value;
-  EXPECT_EQ(read.title, "a=b");
 }
 
 TEST(CaseFile, ATableWithinATableIsWrittenAsOneOrAsDottedKeysOrInline) {
   for (const char* damping : {"[beam.damping]\nratio = 0.01\nmass = 20\n[striker]\n",
                               "damping.ratio = 0.01\ndamping.mass = 20\n[striker]\n",
                               "damping = { ratio = 0.01, mass = 20 }\n[striker]\n"}) {
-    const Case read = read_case_text(small_case_with("[striker]\n", damping), "small.toml",
-                                     {parse_override("beam.damping.stiffness=1e-7")})
-                          .value;
+    const Case read =
+        with({"beam.damping.stiffness=1e-7"}, small_case_with("[striker]\n", damping)).value;
     EXPECT_EQ(read.scene.beam.damping.ratio, 0.01);
     EXPECT_EQ(read.scene.beam.damping.mass, 20.0);
     EXPECT_EQ(read.scene.beam.damping.stiffness, 1e-7);
   }
-}
-
-TEST(CaseFile, AWrongKeyOfATableWithinATableIsNamedWithThoseThatAreAllowed) {
-  try {
-    read_case_text(small_case_with("[striker]\n", "[beam.damping]\nratoi = 0.01\n[striker]\n"),
-                   "small.toml");
-    FAIL();
-  } catch (const std::exception& error) {
-    const std::string words = error.what();
-    expect_in(words, "unknown key \"beam.damping.ratoi\"", "did you mean \"beam.damping.ratio\"");
-  }
+  const std::string wrong =
+      small_case_with("[striker]\n", "[beam.damping]\nratoi = 0.01\n[striker]\n");
+  expect_in(message_of<CaseFileError>([&] { with({}, wrong); }),
+            "unknown key \"beam.damping.ratoi\"", "did you mean \"beam.damping.ratio\"");
 }
 
 TEST(CaseFile, AnErrorFoundLaterIsGivenThePlaceOfItsKey) {
-  const LoadedCase loaded =
-      read_case_text(small_case_text(), "small.toml", {parse_override("model.segments=501")});
+  const LoadedCase loaded = with({"model.segments=501"});
   EXPECT_EQ(loaded.message(InvalidCase("beam.length", "is odd")),
             "small.toml:2:1: beam.length is odd");
   EXPECT_EQ(loaded.message(InvalidCase("model.segments", "is odd")),
