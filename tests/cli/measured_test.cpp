@@ -1,10 +1,4 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <regex>
 
 #include "process.h"
@@ -12,17 +6,10 @@
 namespace subimpact {
 namespace {
 
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
-}
-
 // A run in the folder "here", and its force as a recorder would have it: 0.25 us apart, 1 % too
 // large, its clock 1234.5 us behind; in kN and us.
 void make_run_and_measurement(const TemporaryDirectory& directory) {
-  const Finished finished = run_program({"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set",
-                                         "time.end=4e-4", "--set", "model.segments=51"},
-                                        directory.path);
-  ASSERT_EQ(finished.status, 0) << finished.errors;
+  run_in(directory, paper("run", {"time.end=4e-4", "model.segments=51"}, {"--out", "here"}));
   std::ifstream history(directory.path / "here/history.csv");
   std::string line, text = "time [us];force [kN]\r\n";
   std::getline(history, line);
@@ -43,10 +30,8 @@ void make_run_and_measurement(const TemporaryDirectory& directory) {
 TEST(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
   const TemporaryDirectory directory;
   make_run_and_measurement(directory);
-  const Finished finished =
-      run_program({"report", "here", "--measured", "force.csv"}, directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  EXPECT_EQ(finished.errors.find("warning"), std::string::npos) << finished.errors;
+  const Finished finished = run_in(directory, {"report", "here", "--measured", "force.csv"});
+  expect_not_in(finished.errors, "warning");
   std::smatch found;
   ASSERT_TRUE(std::regex_search(finished.output, found, std::regex("shift +([0-9.]+)")));
   EXPECT_NEAR(std::stod(found[1]), 1234.5, 0.025);
@@ -56,27 +41,20 @@ TEST(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
   ASSERT_TRUE(
       std::regex_search(finished.output, found, std::regex("impulse .* measured: ([-+0-9.]+) %")));
   EXPECT_NEAR(std::stod(found[1]), -0.99, 0.06);
-  EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures/measured.svg"));
-  const std::string page = read_file(directory.path / "here/report.html");
-  expect_in(page, "Beside the measurement");
-  expect_in(page, "figure-measured");
-  expect_in(page, "\"overlay\":[{");
-  const Finished without = run_program({"report", "here"}, directory.path);
-  EXPECT_EQ(without.status, 0) << without.errors;
-  EXPECT_EQ(read_file(directory.path / "here/report.html").find("Beside the measurement"),
-            std::string::npos);
+  EXPECT_TRUE(directory.has("here/figures/measured.svg"));
+  const std::string page = directory.read("here/report.html");
+  expect_in(page, "Beside the measurement", "figure-measured", "\"overlay\":[{");
+  run_in(directory, {"report", "here"});
+  expect_not_in(directory.read("here/report.html"), "Beside the measurement");
 }
 
 TEST(ReportWithMeasurement, TakesAGivenShiftAndCutoff) {
   const TemporaryDirectory directory;
   make_run_and_measurement(directory);
-  const Finished finished = run_program(
-      {"report", "here", "--measured", "force.csv", "--shift", "1.2345ms", "--low-pass", "20kHz"},
-      directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.output, "1234.5 us");
-  expect_in(finished.output, "20 kHz");
-  expect_in(finished.output, "as given");
+  expect_in(run_in(directory, {"report", "here", "--measured", "force.csv", "--shift", "1.2345ms",
+                               "--low-pass", "20kHz"})
+                .output,
+            "1234.5 us", "20 kHz", "as given");
 }
 
 TEST(ReportWithMeasurement, RefusesWithWhatIsAllowed) {
@@ -84,8 +62,7 @@ TEST(ReportWithMeasurement, RefusesWithWhatIsAllowed) {
   make_run_and_measurement(directory);
   const auto refusal = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"report", "here"});
-    const Finished finished = run_program(options, directory.path);
-    EXPECT_EQ(finished.status, 2) << finished.output;
+    const Finished finished = run_in(directory, options, 2);
     return finished.errors;
   };
   directory.write("without.csv", "time,force\n0,1\n");
@@ -104,10 +81,8 @@ TEST(ReportWithMeasurement, WarnsOfAForceThatIsNotThatOfTheCase) {
   std::string hum = "time_ms,force_N\n";
   for (int i = 0; i < 1000; ++i) hum += fmt::format("{},{}\n", 1e-3 * i, std::sin(0.1 * i));
   directory.write("hum.csv", hum);
-  const Finished finished =
-      run_program({"report", "here", "--measured", "hum.csv"}, directory.path);
-  EXPECT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.errors, "warning: the two forces have a correlation of");
+  expect_in(run_in(directory, {"report", "here", "--measured", "hum.csv"}).errors,
+            "warning: the two forces have a correlation of");
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "subimpact/io/read_results.h"
 #include "subimpact/simulate/error.h"
 #include "temporary_directory.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -23,10 +20,6 @@ std::string refusal(const std::string& text) {
     return error.what();
   }
   return "nothing was refused";
-}
-
-void expect_in(const std::string& text, const std::string& piece) {
-  EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in: " << text;
 }
 
 TEST(ReadSignal, TakesUnitsFromTheHeading) {
