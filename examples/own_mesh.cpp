@@ -1,57 +1,31 @@
-// A user-defined mesh: a chain of rigid bars between point masses, with a hinge and a rotational
-// spring at every mass (Hencky 1920). The end of the first sub-impact on this mesh is compared with
-// that on the built-in cells.
+// A user-defined mesh from its matrices: a chain of rigid bars between point masses, with a hinge
+// and a rotational spring at every mass (Hencky 1920). The end of the first sub-impact on this mesh
+// is compared with that on the built-in cells.
 
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include "subimpact/case/simulate.h"
+#include "subimpact/model/matrix_mesh.h"
 
-class BarChain final : public subimpact::BeamMesh {
- public:
-  BarChain(const subimpact::Beam& beam, std::size_t bars)  // even, so that a mass is struck
-      : BeamMesh(bars + 1, 0, false),
-        h_(beam.length / bars),
-        mass_per_length_(beam.mass() / beam.length) {
-    for (std::size_t i = 0; i <= bars; ++i) {
-      const double mass = mass_per_length_ * h_ * (i == 0 || i == bars ? 0.5 : 1.0);
-      mass_.at(i, i) = mass;
-      momentum_functional_.push_back(mass);
-      if (i == 0 || i == bars) continue;  // the ends are free: no spring
-      positions_.push_back(h_ * static_cast<double>(i));
-      weights_.push_back(h_);
-    }
-    translation_.assign(bars + 1, 1.0);
-    beam_mass_ = beam.mass();
-    struck_point_.terms = {{bars / 2, 1.0}};
-    first_end_.terms = {{0, 1.0}};
-    struck_section_ = bars / 2 - 1;
-    row_ = {1.0 / (h_ * h_), -2.0 / (h_ * h_), 1.0 / (h_ * h_)};
+// `bars`: even, so that a mass is struck.
+std::shared_ptr<const subimpact::BeamMesh> bar_chain(const subimpact::Beam& beam,
+                                                     std::size_t bars) {
+  const double h = beam.length / static_cast<double>(bars);
+  subimpact::MeshMatrices chain{.mass = {bars + 1, 0}};
+  for (std::size_t i = 0; i <= bars; ++i) {
+    const bool is_end = i == 0 || i == bars;
+    chain.mass.at(i, i) = beam.mass() / static_cast<double>(bars) * (is_end ? 0.5 : 1.0);
+    if (is_end) continue;  // free: no spring
+    chain.curvature.push_back({i - 1, {1.0 / (h * h), -2.0 / (h * h), 1.0 / (h * h)}});
+    chain.weights.push_back(h);
+    chain.positions.push_back(h * static_cast<double>(i));
   }
-
-  void curvatures(std::span<const double> w, std::span<double> kappa) const override {
-    for (std::size_t i = 0; i < kappa.size(); ++i) {
-      kappa[i] = row_[0] * w[i] + row_[1] * w[i + 1] + row_[2] * w[i + 2];
-    }
-  }
-  void bending_forces(std::span<const double> moments, std::span<double> forces) const override {
-    for (double& force : forces) force = 0.0;
-    for (std::size_t i = 0; i < moments.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) forces[i + k] -= h_ * row_[k] * moments[i];
-    }
-  }
-  SectionStencil section_stencil(std::size_t section) const override { return {section, row_}; }
-  double highest_frequency(double bending_stiffness) const override {
-    return 4.0 / (h_ * h_) * std::sqrt(bending_stiffness / mass_per_length_);
-  }
-  std::string description() const override { return "a chain of rigid bars"; }
-
- private:
-  double h_, mass_per_length_;   // m, kg/m
-  std::array<double, 3> row_{};  // of B, 1/m2
-};
+  chain.struck_point.terms = {{bars / 2, 1.0}};
+  chain.translation.assign(bars + 1, 1.0);
+  chain.description = "a chain of rigid bars";
+  return mesh_of(std::move(chain));
+}
 
 int main() {
   subimpact::Case strike;
@@ -65,7 +39,7 @@ int main() {
   strike.scene.striker = {.mass = 0.201, .nose_radius = 0.01, .velocity = 15.9, .position = 0.5};
   strike.end_time = 3e-4;
   const subimpact::Result cells = simulate(strike);
-  strike.parts.mesh = std::make_shared<BarChain>(strike.scene.beam, 500);
+  strike.parts.mesh = bar_chain(strike.scene.beam, 500);
   const subimpact::Result bars = simulate(strike);
   for (const auto* result : {&cells, &bars}) {
     std::printf("%s: %s\n", result->used.mesh.c_str(), result->brief_report().c_str());

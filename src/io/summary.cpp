@@ -40,24 +40,6 @@ Json json_of_run(const Case& input, const Result& result, const std::string& ver
 
 }  // namespace
 
-std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
-  std::vector<ZoneSummary> zones;
-  for (const SubImpact& s : sub_impacts) {
-    if (zones.empty() || zones.back().zone != s.zone) {
-      zones.push_back({});
-      zones.back().zone = s.zone;
-      zones.back().start = s.start;
-    }
-    ZoneSummary& zone = zones.back();
-    ++zone.n_sub_impacts;
-    zone.n_subzones = std::max(zone.n_subzones, s.subzone);
-    zone.end = s.end;
-    zone.impulse += s.impulse;
-    zone.peak_force = std::max(zone.peak_force, s.peak_force);
-  }
-  return zones;
-}
-
 std::string summary_json(const Case& input, const Result& result) {
   // A title may hold bytes that are no UTF-8; they are replaced rather than the file lost.
   const Json json = json_of_run(input, result, project_version(), library_versions());

@@ -71,7 +71,8 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, const Even
 }
 
 // Steps to the end, or to where the run is stopped.
-void run_to_end(EventLoop& loop, RunParts& parts, const Progress& progress, Result& result) {
+void run_to_end(EventLoop& loop, RunParts& parts, const Progress& progress,
+                const Observer* observer, Result& result) {
   loop.start();
   std::optional<NoMoreContact> no_more_contact;
   const auto is_over = [&] {
@@ -89,7 +90,9 @@ void run_to_end(EventLoop& loop, RunParts& parts, const Progress& progress, Resu
       result.outcome.message = "no further contact is possible";
       return;
     }
-    if (n % progress_interval == 0 && progress && !progress(loop.time())) {
+    const bool is_stopped = (observer != nullptr && !observer->goes_on()) ||
+                            (n % progress_interval == 0 && progress && !progress(loop.time()));
+    if (is_stopped) {
       result.outcome = {OutcomeKind::stopped, loop.time(), "stopped on request", {}};
       return;
     }
@@ -183,7 +186,7 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
 
   try {
     result.outcome.message = "completed";
-    run_to_end(loop, parts, progress, result);
+    run_to_end(loop, parts, progress, observer, result);
   } catch (const RunStopped& stop) {
     fail(result.outcome, stop);
   } catch (const IntegrationFailure& failure) {

@@ -22,6 +22,14 @@ bool RunView::in_contact() const { return beam_.contact().is_closed(); }
 double RunView::indentation() const { return beam_.indentation(state_); }
 double RunView::residual_indentation() const { return beam_.contact().residual_indentation(); }
 double RunView::contact_force() const { return beam_.contact_force(state_); }
+double RunView::curvature(double x) const {
+  const BeamMesh& mesh = beam_.mesh();
+  return mesh.curvature(mesh.nearest_section(x), beam_.beam_positions(state_));
+}
+std::optional<double> RunView::displacement(double x) const {
+  const std::optional<SparseFunctional> here = beam_.mesh().displacement_at(x);
+  return here ? std::optional((*here)(beam_.beam_positions(state_))) : std::nullopt;
+}
 Energies RunView::energies() const { return Accounts(beam_).energies(state_); }
 
 double Result::impulse() const {
@@ -67,6 +75,24 @@ void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double s
     here.subzone = subzone;
     previous = &here;
   }
+}
+
+std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts) {
+  std::vector<ZoneSummary> zones;
+  for (const SubImpact& s : sub_impacts) {
+    if (zones.empty() || zones.back().zone != s.zone) {
+      zones.push_back({});
+      zones.back().zone = s.zone;
+      zones.back().start = s.start;
+    }
+    ZoneSummary& zone = zones.back();
+    ++zone.n_sub_impacts;
+    zone.n_subzones = std::max(zone.n_subzones, s.subzone);
+    zone.end = s.end;
+    zone.impulse += s.impulse;
+    zone.peak_force = std::max(zone.peak_force, s.peak_force);
+  }
+  return zones;
 }
 
 }  // namespace subimpact

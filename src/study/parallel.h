@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "subimpact/case/simulate.h"
+
 namespace subimpact {
 
 /// Calls task(0) to task(n - 1), `jobs` at a time (0: as many as the machine has cores), in no
@@ -36,6 +38,30 @@ inline void in_parallel(std::size_t n, const std::function<void(std::size_t)>& t
   work();
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
+}
+
+/// Runs cases, `jobs` at a time. `progress` ends all; `finished`, one call at a time, counts those
+/// that were not stopped.
+inline std::vector<Result> simulate_all(const std::vector<Case>& cases, unsigned jobs,
+                                        const Progress& progress = {},
+                                        const std::function<void()>& finished = {}) {
+  std::vector<Result> results(cases.size());
+  std::mutex mutex;
+  std::atomic<bool> stop = false;
+  const auto goes_on = [&](double time) {
+    if (progress && !progress(time)) stop = true;
+    return !stop;
+  };
+  in_parallel(
+      cases.size(),
+      [&](std::size_t i) {
+        results[i] = simulate(cases[i], goes_on);
+        if (results[i].outcome.kind == OutcomeKind::stopped) return;
+        const std::lock_guard lock(mutex);
+        if (finished) finished();
+      },
+      jobs);
+  return results;
 }
 
 }  // namespace subimpact

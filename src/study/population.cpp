@@ -10,6 +10,7 @@
 #include <set>
 
 #include "numerics/random.h"
+#include "study/parallel.h"
 
 namespace subimpact {
 namespace {
@@ -179,6 +180,18 @@ void check(const Population& population, const Case& base) {
     check_scatter(key, deviation, first_value(population.axes, key, base));
   }
   population.size();
+}
+
+std::vector<Result> sweep(const Case& base, const Population& population, unsigned jobs) {
+  check(population, base);
+  std::vector<Case> cases(population.size(), base);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].output.keep_no_rows();
+    for (const auto& [key, value] : population.settings(base, i)) {
+      assign(cases[i], known_key(key), value);
+    }
+  }
+  return simulate_all(cases, std::max(jobs, 1u));
 }
 
 }  // namespace subimpact

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
-#include <mutex>
 
 #include "case/meshes.h"
 #include "case/shifted_case.h"
@@ -56,30 +54,6 @@ CheckRun check_run_of(const Case& base) {
     check.input.solver.rtol *= looser;
   }
   return check;
-}
-
-/// Makes runs, `jobs` at a time; counts them in `n_done`, of `n_all`; `stopped`: by the progress.
-std::vector<Result> simulate_all(const std::vector<Case>& cases, const SensitivityOptions& options,
-                                 std::size_t& n_done, std::size_t n_all, bool& stopped) {
-  std::vector<Result> results(cases.size());
-  std::mutex mutex;
-  std::atomic<bool> stop = stopped;
-  const auto goes_on = [&](double time) {
-    if (options.progress && !options.progress(time)) stop = true;
-    return !stop;
-  };
-  in_parallel(
-      cases.size(),
-      [&](std::size_t i) {
-        results[i] = simulate(cases[i], goes_on);
-        if (results[i].outcome.kind == OutcomeKind::stopped) return;
-        const std::lock_guard lock(mutex);
-        ++n_done;
-        if (options.finished) options.finished(n_done, n_all);
-      },
-      options.jobs);
-  stopped = stop;
-  return results;
 }
 
 std::vector<const CaseKey*> keys_of(const Case& input, const std::vector<std::string>& names) {
@@ -368,7 +342,13 @@ Sensitivity sensitivity(const Case& input, const SensitivityOptions& options) {
 
   std::size_t n_done = 0;
   const auto run = [&](const std::vector<Case>& some) {
-    return simulate_all(some, options, n_done, cases.size() + 2, study.interrupted);
+    std::vector<Result> results = simulate_all(some, options.jobs, options.progress, [&] {
+      ++n_done;
+      if (options.finished) options.finished(n_done, cases.size() + 2);
+    });
+    study.interrupted |= std::ranges::any_of(
+        results, [](const Result& result) { return result.outcome.kind == OutcomeKind::stopped; });
+    return results;
   };
   const CheckRun check_run = check_run_of(study.input);
   std::vector<Result> first = run({study.input, check_run.input});

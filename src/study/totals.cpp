@@ -57,36 +57,25 @@ struct Quantity {
 };
 
 using Run = const Result&;
+// clang-format off
 const Quantity quantities[] = {
-    {"sub_impacts", [](Run run, double) { return static_cast<double>(run.sub_impacts.size()); },
-     of_count},
-    {"zones",
-     [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; },
-     of_count},
+    {"sub_impacts", [](Run run, double) { return static_cast<double>(run.sub_impacts.size()); }, of_count},
+    {"zones", [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; }, of_count},
     {"striker_velocity_m_per_s", [](Run run, double) { return run.striker_velocity; }},
-    {"beam_mean_velocity_m_per_s", [](Run run, double) { return run.beam_mean_velocity; },
-     safety_of_beam_velocity},
+    {"beam_mean_velocity_m_per_s", [](Run run, double) { return run.beam_mean_velocity; }, safety_of_beam_velocity},
     {"restitution", [](Run run, double v0) { return run.restitution(v0); }},
     {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
     {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
     {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},
-    {"max_displacement_m", [](Run run, double) { return largest(run, &EnvelopeRow::displacement); },
-     usual_safety, From::shapes},
-    {"max_moment_Nm", [](Run run, double) { return largest(run, &EnvelopeRow::moment); },
-     usual_safety, From::shapes},
-    {"max_strain", [](Run run, double) { return largest(run, &EnvelopeRow::strain); }, usual_safety,
-     From::shapes, largest_error_of_strain},
-    {"permanent_set_m",
-     [](Run run, double) { return largest(run.envelope, &EnvelopeRow::permanent_set); },
-     usual_safety, From::shapes},
-    {"hinge_rotation_rad",
-     [](Run run, double) { return largest(run.plastic_zones, &PlasticZone::rotation); },
-     usual_safety, From::shapes},
-    {"striker_energy_share",
-     [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
-    {"dissipated_J", [](Run run, double) { return dissipated(run.final_energies); },
-     safety_of_dissipated},
+    {"max_displacement_m", [](Run run, double) { return largest(run, &EnvelopeRow::displacement); }, usual_safety, From::shapes},
+    {"max_moment_Nm", [](Run run, double) { return largest(run, &EnvelopeRow::moment); }, usual_safety, From::shapes},
+    {"max_strain", [](Run run, double) { return largest(run, &EnvelopeRow::strain); }, usual_safety, From::shapes, largest_error_of_strain},
+    {"permanent_set_m", [](Run run, double) { return largest(run.envelope, &EnvelopeRow::permanent_set); }, usual_safety, From::shapes},
+    {"hinge_rotation_rad", [](Run run, double) { return largest(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
+    {"striker_energy_share", [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
+    {"dissipated_J", [](Run run, double) { return dissipated(run.final_energies); }, safety_of_dissipated},
 };
+// clang-format on
 
 // Sums the errors of the parts, each the largest over its runs. `value`: of a run; none where the
 // run has no such thing.
@@ -108,29 +97,18 @@ Total total_of(const Result& run, std::span<const RunBeside> beside, double safe
   return total;
 }
 
-struct Zone {
-  double start = 0.0, end = 0.0, impulse = 0.0, n = 0.0;
-};
-
-std::vector<Zone> zones_of(const Result& run) {
-  std::vector<Zone> zones;
-  for (const SubImpact& s : run.sub_impacts) {
-    if (static_cast<std::size_t>(s.zone) > zones.size()) zones.push_back({s.start});
-    Zone& zone = zones.back();
-    zone.end = s.end.value_or(run.outcome.time);
-    zone.impulse += s.impulse;
-    zone.n += 1.0;
-  }
-  return zones;
+double end_of(const ZoneSummary& zone, const Result& run) {
+  return zone.end.value_or(run.outcome.time);
 }
 
-// The zone of a run that overlaps another one most; none if none does.
-std::optional<Zone> counterpart(const Result& run, const Zone& here) {
-  std::optional<Zone> best;
-  const auto overlap = [&](const Zone& there) {
-    return std::min(there.end, here.end) - std::max(there.start, here.start);
+// The zone of another run that overlaps one of a run most; none if none does.
+std::optional<ZoneSummary> counterpart(const ZoneSummary& here, const Result& run,
+                                       const Result& other) {
+  std::optional<ZoneSummary> best;
+  const auto overlap = [&](const ZoneSummary& there) {
+    return std::min(end_of(there, other), end_of(here, run)) - std::max(there.start, here.start);
   };
-  for (const Zone& there : zones_of(run)) {
+  for (const ZoneSummary& there : summarise_zones(other.sub_impacts)) {
     if (overlap(there) > (best ? overlap(*best) : 0.0)) best = there;
   }
   return best;
@@ -155,16 +133,18 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     }
     estimate.totals.push_back({quantity.name, total});
   }
-  for (const Zone& zone : zones_of(run)) {
-    const auto total = [&](double Zone::*member, double safety = usual_safety) {
+  for (const ZoneSummary& zone : summarise_zones(run.sub_impacts)) {
+    const auto total = [&](auto value, double safety = usual_safety) {
       return total_of(run, beside, safety, [&](const Result& of) -> std::optional<double> {
-        if (&of == &run) return zone.*member;
-        const std::optional<Zone> there = counterpart(of, zone);
-        return there ? std::optional((*there).*member) : std::nullopt;
+        if (&of == &run) return value(zone, of);
+        const std::optional<ZoneSummary> there = counterpart(zone, run, of);
+        return there ? std::optional<double>(value(*there, of)) : std::nullopt;
       });
     };
-    estimate.zones.push_back(
-        {total(&Zone::start), total(&Zone::end), total(&Zone::impulse), total(&Zone::n, of_count)});
+    using Zone = const ZoneSummary&;
+    estimate.zones.push_back({total([](Zone z, Run) { return z.start; }), total(end_of),
+                              total([](Zone z, Run) { return z.impulse; }),
+                              total([](Zone z, Run) { return 1.0 * z.n_sub_impacts; }, of_count)});
   }
 }
 

@@ -269,7 +269,7 @@ TEST(Run, TakesTheDiskThatIsForetold) {
   const auto taken = static_cast<double>(std::filesystem::file_size(here / "history.csv") +
                                          std::filesystem::file_size(here / "sections.csv") +
                                          std::filesystem::file_size(here / "shapes.csv"));
-  const double foreseen = foreseen_bytes(read_results(here).input);
+  const double foreseen = expected_bytes(read_results(here).input);
   EXPECT_GT(foreseen, 0.8 * taken);
   EXPECT_LT(foreseen, 1.3 * taken);
 }
@@ -319,9 +319,9 @@ FinishedRun open_run(const TemporaryDirectory& directory, const Words& more,
 TEST(RunWithin, MeetsAWishAndLeavesTheChoiceInItsFiles) {
   const TemporaryDirectory directory;
   const FinishedRun run = open_run(directory, {"--within", "1us"});
-  ASSERT_TRUE(run.result.wish);
-  EXPECT_TRUE(run.result.wish->met);
-  EXPECT_EQ(run.result.wish->wished, 1e-6);
+  ASSERT_TRUE(run.result.tolerance);
+  EXPECT_TRUE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->asked, 1e-6);
   ASSERT_GE(run.result.sub_impacts.size(), 2u);
   EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 1e-6);
   EXPECT_EQ(run.input.solver.method, Method::central_difference);
@@ -336,7 +336,7 @@ TEST(RunWithin, MeetsAWishAndLeavesTheChoiceInItsFiles) {
 TEST(RunWithin, ThatTheCaseItselfWishesForNeedsNoOption) {
   const TemporaryDirectory directory;
   const FinishedRun run = open_run(directory, {}, "accuracy = { event_times = 2e-6 }\n");
-  EXPECT_EQ(run.result.wish->wished, 2e-6);
+  EXPECT_EQ(run.result.tolerance->asked, 2e-6);
 }
 
 TEST(RunWithin, AFixedMeshThatCannotMeetTheWishEndsWithStatus0AndTheReason) {
@@ -372,7 +372,7 @@ TEST(Run, OfACaseThatFixesNothingHasErrorBarsAndItsOwnMesh) {
   const TemporaryDirectory directory;
   const FinishedRun run = open_run(directory, {});
   ASSERT_TRUE(run.result.error_estimate);
-  EXPECT_FALSE(run.result.wish);
+  EXPECT_FALSE(run.result.tolerance);
   const SubImpact& first = run.result.sub_impacts.front();
   EXPECT_NEAR(*first.end, 201.476e-6, *first.end_error);
   EXPECT_LT(*first.end_error, 1e-6);

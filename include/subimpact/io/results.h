@@ -27,9 +27,9 @@ void write_results(const std::filesystem::path& directory, const Case& input, co
 
 /// Bytes that the files of a run take, roughly: those of its rows, with `n_shape_points` points in
 /// a shape (ResolvedSettings), or as many as output.shape_points allows.
-double foreseen_bytes(const Case& input, std::optional<std::size_t> n_shape_points = {});
+double expected_bytes(const Case& input, std::optional<std::size_t> n_shape_points = {});
 /// Shapes of a run, without those of events.
-double foreseen_shapes(const Case& input);
+double expected_shapes(const Case& input);
 
 /// The same for a run that is still to come: the directory is locked and known to be writable
 /// before the run, and rows go to their files as they are made.
@@ -39,7 +39,7 @@ double foreseen_shapes(const Case& input);
 ///     files.finish(input, result);
 class ResultWriter final : public RowSink {
  public:
-  /// Throws OutputError, also if the disk has less room than foreseen_bytes(input).
+  /// Throws OutputError, also if the disk has less room than expected_bytes(input).
   ResultWriter(const std::filesystem::path& directory, const Case& input);
   ~ResultWriter() override;
 
@@ -82,17 +82,6 @@ std::string matches_csv(const Comparison& comparison);
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);
-
-struct ZoneSummary {
-  int zone = 0;
-  int n_sub_impacts = 0;
-  int n_subzones = 0;
-  double start = 0.0;         ///< s
-  std::optional<double> end;  ///< s; none: still in contact
-  double impulse = 0.0;       ///< N s
-  double peak_force = 0.0;    ///< N
-};
-std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts);
 
 std::string project_version();
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
+#include <optional>
 #include <vector>
 
 #include "subimpact/system/energies.h"
@@ -33,6 +36,11 @@ class RunView {
   double indentation() const;           ///< lambda, m: striker less struck point; negative: a gap
   double residual_indentation() const;  ///< lambda_r, m
   double contact_force() const;         ///< F, N, on the beam in the direction of the strike
+  /// Curvature, 1/m, of the section nearest to x (m, within the part modelled). The strain of the
+  /// outer fibre behind is -curvature h/2.
+  double curvature(double x) const;
+  /// Displacement of the axis at x, m; nothing on a mesh that does not give it.
+  std::optional<double> displacement(double x) const;
   /// U_m to D_c, J. Costs about as much as one evaluation of the equations of motion.
   Energies energies() const;
 
@@ -56,7 +64,7 @@ class RunView {
 /// the run has accepted; nothing that is shown is taken back, unless the run ends as `inaccurate`
 /// or `unstable`, when the states are valid up to Outcome::first_failure. A run without an observer
 /// costs nothing for this interface. An exception that leaves an observer ends the run and leaves
-/// simulate(); to end a run with results, let the progress function return false.
+/// simulate(); to end a run with results, let goes_on() or the progress function return false.
 class Observer {
  public:
   virtual ~Observer() = default;
@@ -73,6 +81,32 @@ class Observer {
 
   /// A section that flowed reversed within the step that ends next.
   virtual void on_reversal(const Transition& /*reversal*/) {}
+  /// Asked after every step; false ends the run with the outcome `stopped`.
+  virtual bool goes_on() const { return true; }
+};
+
+/// Several observers of one run, called in their order; each may end the run.
+class Observers final : public Observer {
+ public:
+  Observers(std::initializer_list<Observer*> all) : all_(all) {}
+  void on_step(const RunView& end) override {
+    for (Observer* one : all_) one->on_step(end);
+  }
+  void before_event(const Transition& event, const RunView& at) override {
+    for (Observer* one : all_) one->before_event(event, at);
+  }
+  void after_event(const Transition& event, const RunView& at) override {
+    for (Observer* one : all_) one->after_event(event, at);
+  }
+  void on_reversal(const Transition& reversal) override {
+    for (Observer* one : all_) one->on_reversal(reversal);
+  }
+  bool goes_on() const override {
+    return std::ranges::all_of(all_, [](const Observer* one) { return one->goes_on(); });
+  }
+
+ private:
+  std::vector<Observer*> all_;
 };
 
 }  // namespace subimpact

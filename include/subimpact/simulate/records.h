@@ -67,4 +67,16 @@ struct NearMiss {
 /// it belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills both numbers.
 void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
 
+/// A zone in numbers; its end is that of its last sub-impact.
+struct ZoneSummary {
+  int zone = 0;
+  int n_sub_impacts = 0;
+  int n_subzones = 0;
+  double start = 0.0;         ///< s
+  std::optional<double> end;  ///< s; none: still in contact
+  double impulse = 0.0;       ///< N s
+  double peak_force = 0.0;    ///< N
+};
+std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts);
+
 }  // namespace subimpact

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "subimpact/case/case_keys.h"
+#include "subimpact/simulate/result.h"
 
 namespace subimpact {
 
@@ -40,6 +41,10 @@ struct Population {
 /// What scatters by the case file itself: deviations above 0 of its [scatter], of numbers that are
 /// finite and not 0 on an axis or else in the base case.
 std::map<std::string, double> scatter_of(const Case& base, const std::vector<PopulationAxis>& axes);
+
+/// The result of every case of a population, in their order, `jobs` runs at a time; none keeps
+/// rows. Throws InvalidCase.
+std::vector<Result> sweep(const Case& base, const Population& population, unsigned jobs = 1);
 
 /// Throws InvalidCase for a key that is unknown, on two axes, without values or with values that it
 /// does not allow, and for scatter of what is no finite number of the base case.

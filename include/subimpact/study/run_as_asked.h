@@ -40,8 +40,10 @@ inline constexpr double usual_poisson = 0.3;
 std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& result);
 
 /// Runs a case as `subimpact run` does, with error estimates and what neglected shear would change,
-/// unless error bars are off. Throws InvalidCase.
-WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request);
+/// unless error bars are off; simulate(Case) is one run on the mesh that the case has. `given`: the
+/// keys that the caller has chosen; mesh and method are the program's where they are none of these.
+/// Throws InvalidCase.
+WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
 /// The first of the runs that run_as_asked() makes of a case, by default.
 struct FirstRun : ChosenModel {  ///< without a reason where the case fixes mesh or method
