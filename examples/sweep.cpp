@@ -1,4 +1,5 @@
-// A sweep: the largest force over the velocity of the strike and two noses, runs beside one another.
+// A sweep: the largest force over the velocity of the strike and two noses, runs beside one
+// another.
 
 #include <cstdio>
 

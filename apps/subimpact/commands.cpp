@@ -74,7 +74,7 @@ void CaseOptions::add_to(CLI::App& command) {
 
 void CaseOptions::add_within_to(CLI::App& command) {
   add_time_option(command, "--within", within,
-                  "Wished bound on the error of every event time, with its unit: 1us. The program "
+                  "Bound on the error of every event time, with its unit: 1us. The program "
                   "chooses what the case leaves open of mesh, method and tolerance. Instead of "
                   "accuracy.event_times");
 }

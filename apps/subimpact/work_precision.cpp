@@ -47,7 +47,7 @@ WorkPrecision study(const WorkPrecisionCommand& command, const LabelledCase& ent
   options.methods = command.methods;
   options.point_seconds = command.point_seconds;
   options.known = [&](const Setting& setting) { return log.known(id, setting); };
-  options.finished = [&](const WorkPrecisionPoint& point) { log.append(id, entry.label, point); };
+  options.finished = [&](const Trial& point) { log.append(id, entry.label, point); };
   options.announce = [&](const std::string& what) {
     session.status.show(entry.label + ": " + what);
   };

@@ -31,7 +31,7 @@ def run(
     error_bars  None: the errors of event times are estimated from a run half as fine, for a quarter
                 of the time; "off": no estimates; "time", "all": from other runs, one for each
                 source of error, which takes longer
-    within      wished bound on the error of every event time, s; the program chooses what the
+    within      bound on the error of every event time, s; the program chooses what the
                 case leaves open of mesh, method and tolerance. Sets accuracy.event_times
     jobs        threads for the runs of error estimates; results do not depend on it
     progress    called up to twenty times per second with the simulated time, s; False ends the run

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/units.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
@@ -160,7 +160,7 @@ std::string case_identity(const Case& input, const GivenKeys& given, const std::
   text +=
       fmt::format("open: {} {} {} {}\n{}", open.mesh, open.size, open.method, open.tolerance, how);
   std::istringstream stream(text);
-  return seal_of(stream).sha256.substr(0, n_digits);
+  return fingerprint_of(stream).sha256.substr(0, n_digits);
 }
 
 std::string case_schema() {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "case/case_choices.h"
 #include "case/counted.h"
@@ -17,38 +16,37 @@ namespace {
 
 constexpr std::size_t narrowest_name = 22;
 
-std::string setting_of(const ComparedRun& run) {
-  if (run.result.used.step) return fmt::format("step {:.4g} us", *run.result.used.step * us);
-  return fmt::format("rtol {:.1e}", run.input.solver.rtol);
-}
-
 template <auto count>
-constexpr auto work = member<&ComparedRun::result, &Result::work, count>;
+constexpr auto work = member<&ComparedRun::work, count>;
+template <auto number>
+constexpr auto errors = member<&ComparedRun::errors, number>;
 
 StudyColumns<ComparedRun> columns_of(const Comparison& comparison) {
   std::size_t width = narrowest_name;
-  for (const ComparedRun& run : comparison.runs) width = std::max(width, run.name.size());
+  for (const ComparedRun& run : comparison.runs) width = std::max(width, run.setting.method.size());
   const auto time = [](const char* heading) { return Print{heading, ">10", ".2e", us}; };
   const auto share = [](const char* heading) { return Print{heading, ">9", ".1e"}; };
-  const auto n_sub_impacts = [](const ComparedRun& run) { return run.result.sub_impacts.size(); };
-  const auto wall_time = [](const ComparedRun& run) {
-    return duration_text(run.result.work.wall_seconds);
+  const auto setting = [](const ComparedRun& run) {
+    return run.setting.fixed_step ? run.setting.text()
+                                  : fmt::format("rtol {:.1e}", run.setting.value);
   };
+  const auto wall_time = [](const ComparedRun& run) { return duration_text(run.seconds); };
   const auto rtol = [](const ComparedRun& run) {
-    return run.result.used.step ? std::nullopt : std::optional(run.input.solver.rtol);
+    return run.setting.fixed_step ? std::nullopt : std::optional(run.setting.value);
   };
   return {
-      {"method", &ComparedRun::name, {"method", fmt::format("<{}", width)}},
-      {"", setting_of, {"setting", "<14"}},
+      {"method",
+       member<&ComparedRun::setting, &Setting::method>,
+       {"method", fmt::format("<{}", width)}},
+      {"", setting, {"setting", "<14"}},
       {"outcome", [](const ComparedRun& run) { return run.result.outcome.kind; }},
-      {"sub_impacts", n_sub_impacts, {"sub-\nimp.", ">6"}},
-      {"reference_sub_impacts",
-       [&](const ComparedRun&) { return comparison.reference.sub_impacts.size(); }},
-      {"corresponding", &ComparedRun::n_corresponding, {"corre-\nspond", ">6"}},
-      {"max_start_difference_s", &ComparedRun::max_start_difference, time("start\nmax, us")},
-      {"max_end_difference_s", &ComparedRun::max_end_difference, time("end\nmax, us")},
-      {"max_peak_difference_relative", &ComparedRun::max_peak_difference, share("peak\nmax, rel.")},
-      {"max_impulse_difference_relative", &ComparedRun::max_impulse_difference,
+      {"sub_impacts", errors<&EventErrors::n_found>, {"sub-\nimp.", ">6"}},
+      {"reference_sub_impacts", errors<&EventErrors::n_reference>},
+      {"corresponding", errors<&EventErrors::n_corresponding>, {"corre-\nspond", ">6"}},
+      {"max_start_difference_s", errors<&EventErrors::starts>, time("start\nmax, us")},
+      {"max_end_difference_s", errors<&EventErrors::ends>, time("end\nmax, us")},
+      {"max_peak_difference_relative", errors<&EventErrors::peak_force>, share("peak\nmax, rel.")},
+      {"max_impulse_difference_relative", errors<&EventErrors::impulse>,
        share("impulse\nmax, rel.")},
       {"steps", work<&Work::steps>},
       {"rejected_steps", work<&Work::rejected_steps>},
@@ -85,20 +83,14 @@ void add_rows(const ModelRun& run, const ModelRun& first, std::string& text) {
 }
 
 std::string sentence(const ModelRun& run, const ModelRun& first) {
-  const std::size_t n = n_leading_matches(run.pairs);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const SubImpact& here = run.result.sub_impacts[i];
-    const SubImpact& there = first.result.sub_impacts[i];
-    largest = std::max(largest, std::abs(here.start - there.start));
-    if (here.end && there.end) largest = std::max(largest, std::abs(*here.end - *there.end));
-  }
+  const EventErrors errors = event_errors(run.result.sub_impacts, first.result.sub_impacts);
+  const std::size_t n = errors.n_corresponding;
   std::string text = fmt::format("{}: {}, {} by {}", run.name,
                                  counted(run.result.sub_impacts.size(), "sub-impact"),
                                  first.result.sub_impacts.size(), first.name);
   if (n > 0) {
-    text +=
-        fmt::format("; the first {} correspond, with times up to {:.2f} us apart", n, us * largest);
+    text += fmt::format("; the first {} correspond, with times up to {:.2f} us apart", n,
+                        us * std::max(errors.starts, errors.ends));
   }
   return text;
 }
@@ -106,11 +98,11 @@ std::string sentence(const ModelRun& run, const ModelRun& first) {
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
-  const Result& reference = comparison.reference;
+  const Result& reference = comparison.reference.result;
   std::string text = printed_table(columns_of(comparison), comparison.runs);
   text += fmt::format("\nreference: {} at rtol {:.0e}, {}, times to {:.1e} us",
-                      to_string(comparison.reference_input.solver.method),
-                      comparison.reference_input.solver.rtol,
+                      to_string(comparison.reference.input.solver.method),
+                      comparison.reference.input.solver.rtol,
                       counted(reference.sub_impacts.size(), "sub-impact"),
                       reference.error_estimate->largest_error * us);
   if (reference.error_estimate->first_unresolved) {
@@ -119,7 +111,7 @@ std::string comparison_table(const Comparison& comparison) {
   }
   text += '\n';
   for (const ComparedRun& run : comparison.runs) {
-    text += fmt::format("{}: {}\n", run.name, run.remark);
+    text += fmt::format("{}: {}\n", run.setting.method, run.message);
   }
   return text;
 }
@@ -142,7 +134,7 @@ std::string matches_csv(const Comparison& comparison) {
       return m.pair.*index ? std::optional(*(m.pair.*index) + 1) : std::nullopt;
     };
   };
-  Columns<Match> columns = {{"method", [](const Match& m) { return m.run->name; }},
+  Columns<Match> columns = {{"method", [](const Match& m) { return m.run->setting.method; }},
                             {"reference_index", number(&MatchedPair::first)},
                             {"index", number(&MatchedPair::second)}};
   const auto add = [&](const std::string& name, const std::string& unit, auto SubImpact::*member) {

@@ -151,9 +151,9 @@ std::string files_text(const Case& input, const ResolvedSettings& used) {
                   : "no history rows";
   const std::string shapes =
       has_shapes ? fmt::format("{} shapes of {} points and one per event",
-                               count_text(foreseen_shapes(input)), used.n_shape_points)
+                               count_text(expected_shapes(input)), used.n_shape_points)
                  : "no shapes";
-  return fmt::format("about {:.2g} MB: {}, {}", MB * foreseen_bytes(input, used.n_shape_points),
+  return fmt::format("about {:.2g} MB: {}, {}", MB * expected_bytes(input, used.n_shape_points),
                      history, shapes);
 }
 
@@ -222,7 +222,7 @@ std::string description(const Case& input, const ResolvedSettings& used,
                                "energy",
                                used.energy_tolerance));
   line("end", duration_text(input.end_time));
-  head("Expected cost (rough: yielding and repeated contact cannot be foreseen)");
+  head("Expected cost (rough: yielding and repeated contact cannot be predicted)");
   if (cost) {
     line("steps", count_text(cost->steps));
     line("right-hand sides",

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
@@ -66,13 +66,13 @@ fs::path name_to_keep(const fs::path& file) {
   return kept;
 }
 
-// Whether the file is as one of these seals has it.
-bool is_sealed(const fs::path& file, const std::string& name,
-               const std::map<std::string, Seal>& seals) {
-  const auto found = seals.find(name);
-  if (found == seals.end()) return false;
+// Whether the file is as one of these fingerprints has it.
+bool is_as_listed(const fs::path& file, const std::string& name,
+                  const std::map<std::string, Fingerprint>& fingerprints) {
+  const auto found = fingerprints.find(name);
+  if (found == fingerprints.end()) return false;
   std::error_code error;
-  return fs::file_size(file, error) == found->second.bytes && seal_of(file) == found->second;
+  return fs::file_size(file, error) == found->second.bytes && fingerprint_of(file) == found->second;
 }
 
 std::string command_of(const std::string& kind) {
@@ -250,7 +250,7 @@ void OutputDirectory::begin_staging() {
 
 void OutputDirectory::commit() {
   try {
-    seal();
+    write_manifest();
   } catch (const std::system_error& failure) {
     throw OutputError(
         fmt::format("{}: the results cannot be put in place ({}); free the disk or choose another "
@@ -262,7 +262,7 @@ void OutputDirectory::commit() {
     notes_.push_back(fmt::format("{}; the results are in {} instead", relocation_, path_.string()));
   }
   is_committed_ = true;
-  const fs::path sealed = std::exchange(staging_, fs::path());
+  const fs::path committed = std::exchange(staging_, fs::path());
   try {
     synchronise(path_, O_DIRECTORY);
     settle();
@@ -271,11 +271,11 @@ void OutputDirectory::commit() {
     notes_.push_back(fmt::format(
         "{}: some files are still in {} ({}); the next command that writes into this directory "
         "will move them",
-        path_.string(), sealed.filename().string(), failure.what()));
+        path_.string(), committed.filename().string(), failure.what()));
   }
 }
 
-void OutputDirectory::seal() {
+void OutputDirectory::write_manifest() {
   const std::optional<Manifest> present = manifest_for_writing(path_);
   Manifest next{kind_, identity_, commit_, {}, {}};
   if (present) next.replaced = present->files;
@@ -283,7 +283,7 @@ void OutputDirectory::seal() {
   for (const std::string& name : files_in(staging_)) {
     const fs::path file = staging_ / name;
     synchronise(file);
-    next.files[name] = seal_of(file).value();
+    next.files[name] = fingerprint_of(file).value();
   }
   const fs::path manifest = staging_ / manifest_name;
   write_file(manifest, to_json(next));
@@ -298,7 +298,7 @@ void OutputDirectory::settle() {
     const fs::path waiting = staging_of(path_, manifest->commit);
     if (fs::exists(fs::symlink_status(waiting))) {
       for (const std::string& name : files_in(waiting)) put_in_place(name, *manifest);
-      for (const auto& [name, seal] : manifest->replaced) {
+      for (const auto& [name, fingerprint] : manifest->replaced) {
         if (!manifest->files.contains(name)) remove_replaced(name, *manifest);
       }
     }
@@ -313,7 +313,7 @@ void OutputDirectory::settle() {
 
 void OutputDirectory::remove_replaced(const std::string& name, const Manifest& manifest) {
   const fs::path file = path_ / name;
-  if (is_sealed(file, name, manifest.replaced)) {
+  if (is_as_listed(file, name, manifest.replaced)) {
     fs::remove(file);
   } else if (fs::exists(fs::symlink_status(file))) {
     notes_.push_back(
@@ -324,7 +324,7 @@ void OutputDirectory::remove_replaced(const std::string& name, const Manifest& m
 void OutputDirectory::put_in_place(const std::string& name, const Manifest& manifest) {
   const fs::path file = path_ / name;
   const bool is_there = fs::exists(fs::symlink_status(file));
-  if (is_there && !is_sealed(file, name, manifest.replaced)) {
+  if (is_there && !is_as_listed(file, name, manifest.replaced)) {
     const fs::path kept = name_to_keep(file);
     fs::rename(file, kept);
     notes_.push_back(fmt::format("{}: was changed, or is not of this program; kept as {}",

@@ -10,10 +10,10 @@
 #include <optional>
 
 #include "io/csv_reader.h"
+#include "io/listed_files.h"
 #include "io/row_thinning.h"
 #include "io/run_record.h"
 #include "io/run_tables.h"
-#include "io/sealed_files.h"
 
 namespace subimpact {
 namespace {
@@ -36,7 +36,7 @@ std::vector<Row> read_table(const RunTable<Row>& table, const FinishedRun& run, 
   return rows.take();
 }
 
-FinishedRun read_once(const fs::path& directory, const SealedFiles& files) {
+FinishedRun read_once(const fs::path& directory, const ListedFiles& files) {
   FinishedRun run;
   read_summary(directory / "summary.json", files.text("summary.json"), run);
   if (!files.manifest() || files.manifest()->kind != "run") {
@@ -92,7 +92,7 @@ std::optional<std::vector<double>> as_numbers(const std::vector<std::string>& ce
   return numbers;
 }
 
-SweptRuns read_runs(const SealedFiles& files, const fs::path& path) {
+SweptRuns read_runs(const ListedFiles& files, const fs::path& path) {
   std::ifstream file = files.open(path.filename());
   CsvReader csv(file, path.string(), remedy);
   const std::size_t n = csv.heading().size();
@@ -130,7 +130,7 @@ SweptRuns read_runs(const SealedFiles& files, const fs::path& path) {
   return runs;
 }
 
-void read_sub_impacts(const SealedFiles& files, const fs::path& path, SweptRuns& runs) {
+void read_sub_impacts(const ListedFiles& files, const fs::path& path, SweptRuns& runs) {
   std::map<long, std::size_t> places;
   for (const long number : runs.numbers) places.emplace(number, places.size());
   runs.sub_impacts.resize(runs.numbers.size());
@@ -163,8 +163,8 @@ FinishedRun read_results(const fs::path& directory) {
                     "`subimpact run` (--out)",
                     directory.string()));
   }
-  return read_sealed(directory,
-                     [&](const SealedFiles& files) { return read_once(directory, files); });
+  return read_listed(directory,
+                     [&](const ListedFiles& files) { return read_once(directory, files); });
 }
 
 const SweptRuns::Column* SweptRuns::find(std::string_view name) const {
@@ -179,10 +179,10 @@ bool holds_sweep(const fs::path& directory) {
 }
 
 SweptRuns read_sweep(const fs::path& directory) {
-  return read_sealed(directory, [&](const SealedFiles& files) {
+  return read_listed(directory, [&](const ListedFiles& files) {
     SweptRuns runs = read_runs(files, directory / runs_name);
     read_sub_impacts(files, directory / sub_impacts_name, runs);
-    if (files.are_sealed()) runs.identity = files.manifest()->identity;
+    if (files.are_listed()) runs.identity = files.manifest()->identity;
     return runs;
   });
 }

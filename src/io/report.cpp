@@ -110,30 +110,32 @@ std::string certain_words(const Result& result) {
                      *n == result.sub_impacts.size() ? ", which may not be all" : "");
 }
 
-std::string wish_words(const WishOutcome& wish, const Result& result) {
+std::string tolerance_words(const ToleranceOutcome& tolerance, const Result& result) {
   const std::vector<SubImpact>& all = result.sub_impacts;
-  const auto n_before = std::count_if(
-      all.begin(), all.end(), [&](const SubImpact& s) { return result.end_of(s) <= wish.horizon; });
-  const bool to_the_end = wish.horizon >= result.outcome.time;
-  const std::string range = to_the_end
-                                ? "to the end"
-                                : fmt::format("up to {}, {} of {}", duration_text(wish.horizon),
-                                              n_before, counted(all.size(), "sub-impact"));
-  const bool is_known = std::isfinite(wish.reached);
-  std::string text = fmt::format("event times within {}: ", duration_text(wish.wished));
-  if (wish.met) {
+  const auto n_before = std::count_if(all.begin(), all.end(), [&](const SubImpact& s) {
+    return result.end_of(s) <= tolerance.horizon;
+  });
+  const bool to_the_end = tolerance.horizon >= result.outcome.time;
+  const std::string range =
+      to_the_end ? "to the end"
+                 : fmt::format("up to {}, {} of {}", duration_text(tolerance.horizon), n_before,
+                               counted(all.size(), "sub-impact"));
+  const bool is_known = std::isfinite(tolerance.reached);
+  std::string text = fmt::format("event times within {}: ", duration_text(tolerance.asked));
+  if (tolerance.met) {
     text += "met " + range;
     if (is_known) {
       text += has_first_touch_alone(result)
                   ? std::string(" (there is no event time but the first touch)")
-                  : fmt::format(" ({} reached)", error_text(wish.reached));
+                  : fmt::format(" ({} reached)", error_text(tolerance.reached));
     }
   } else {
-    text += is_known ? fmt::format("not met; {} reached {}", error_text(wish.reached), range)
+    text += is_known ? fmt::format("not met; {} reached {}", error_text(tolerance.reached), range)
                      : std::string("not met; the error reached is not known");
   }
-  if (!wish.reason.empty()) text += (wish.met && !to_the_end ? "; beyond: " : "; ") + wish.reason;
-  if (!wish.key.empty()) text += "; free " + wish.key;
+  if (!tolerance.reason.empty())
+    text += (tolerance.met && !to_the_end ? "; beyond: " : "; ") + tolerance.reason;
+  if (!tolerance.key.empty()) text += "; free " + tolerance.key;
   return text;
 }
 

@@ -68,12 +68,12 @@ const Record<NearMiss> near_miss_record = {
     {"time_s", "instant of the smallest margin", &NearMiss::time, Form::from_zero},
     {"margin_m", "distance between the indentation and the residual one", &NearMiss::margin, Form::above_zero}};
 
-const Record<WishOutcome> wish_record = {
-    {"event_times_s", "error of event times that was asked for", &WishOutcome::wished, Form::finite},
-    {"reached_error_s", "largest error of a certain event time; null: not known", &WishOutcome::reached},
-    {"horizon_s", "up to which event times are certain and within that error", &WishOutcome::horizon, Form::finite},
-    {"reason", "why the horizon comes before the end", &WishOutcome::reason, Form::empty_is_null},
-    {"key_to_free", "key of the case that stands in the way", &WishOutcome::key, Form::empty_is_null}};
+const Record<ToleranceOutcome> tolerance_record = {
+    {"event_times_s", "error of event times that was asked for", &ToleranceOutcome::asked, Form::finite},
+    {"reached_error_s", "largest error of a certain event time; null: not known", &ToleranceOutcome::reached},
+    {"horizon_s", "up to which event times are certain and within that error", &ToleranceOutcome::horizon, Form::finite},
+    {"reason", "why the horizon comes before the end", &ToleranceOutcome::reason, Form::empty_is_null},
+    {"key_to_free", "key of the case that stands in the way", &ToleranceOutcome::key, Form::empty_is_null}};
 
 const Record<ErrorEstimate::Part> error_part_record = {
     {"name", "time, mesh or layers", &ErrorEstimate::Part::name},
@@ -257,13 +257,13 @@ Json count_transitions(const DescribedRun& run) {
   return json;
 }
 
-std::optional<bool> wish_met(const DescribedRun& run) {
-  const std::optional<WishOutcome>& wish = run.result->wish;
-  return wish ? std::optional(wish->met) : std::nullopt;
+std::optional<bool> tolerance_met(const DescribedRun& run) {
+  const std::optional<ToleranceOutcome>& tolerance = run.result->tolerance;
+  return tolerance ? std::optional(tolerance->met) : std::nullopt;
 }
 
-void read_wish_met(const Json& met, DescribedRun& run) {
-  if (!met.is_null()) run.result->wish.emplace().met = met.get<bool>();
+void read_tolerance_met(const Json& met, DescribedRun& run) {
+  if (!met.is_null()) run.result->tolerance.emplace().met = met.get<bool>();
 }
 
 // Names lead to objects of a value and an error; without error bars there are none.
@@ -355,8 +355,8 @@ Record<DescribedRun> make_run_record() {
       {"outcome.time_s", "time reached", outcome(&Outcome::time), Form::from_zero},
       {"outcome.message", "cause and what to do, of a run that did not complete", outcome(&Outcome::message)},
       {"outcome.first_failure_s", "last time at which every check passed, first at which one failed", outcome(&Outcome::first_failure), Form::finite},
-      {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &wish_met, &read_wish_met},
-      {"wish", "what became of accuracy.event_times", result(&Result::wish), wish_record},
+      {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &tolerance_met, &read_tolerance_met},
+      {"wish", "what became of accuracy.event_times", result(&Result::tolerance), tolerance_record},
       {"choice", "why mesh and method are what they are", result(&Result::choice)},
       {"neglected_shear", "end of the first contact without and with shear", result(&Result::neglected_shear), shear_record},
       {"warnings", "reasons to doubt results that passed all checks", result(&Result::warnings)},

@@ -329,7 +329,7 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
     text += labelled(label, words);
   };
   if (const std::string caveat = outcome_caveat(result); !caveat.empty()) line("outcome", caveat);
-  if (result.wish) line("wish", wish_words(*result.wish, result));
+  if (result.tolerance) line("tolerance", tolerance_words(*result.tolerance, result));
   for (const Answer& answer : answers(input, result)) {
     text += labelled(answer.name, answer.value + (answer.note.empty() ? "" : ": " + answer.note));
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "case/counted.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "io/study_columns.h"
 #include "io/uncertain.h"
 #include "numerics/units.h"

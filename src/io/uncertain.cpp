@@ -53,20 +53,18 @@ Number in(const SubImpact& s) {
   return scaled(s.*member, factor);
 }
 
+// clang-format off
 constexpr Quantity quantities[] = {
     {"start", "us", 13, 4, 6, true, in<&SubImpact::start, us>, in<&SubImpact::start_error, us>},
     {"end", "us", 13, 4, 6, true, in<&SubImpact::end, us>, in<&SubImpact::end_error, us>},
     {"duration", "us", 11, 4, 6, false, duration, duration_error},
-    {"peak force", "N", 11, 2, 2, false, in<&SubImpact::peak_force>,
-     in<&SubImpact::peak_force_error>},
+    {"peak force", "N", 11, 2, 2, false, in<&SubImpact::peak_force>, in<&SubImpact::peak_force_error>},
     {"impulse", "N s", 11, 6, 6, false, in<&SubImpact::impulse>, in<&SubImpact::impulse_error>},
-    {"indentation", "max, mm", 12, 7, 7, false, in<&SubImpact::max_indentation, mm>,
-     in<&SubImpact::max_indentation_error, mm>},
-    {"residual", "mm", 12, 7, 7, false, in<&SubImpact::residual_indentation, mm>,
-     in<&SubImpact::residual_indentation_error, mm>},
-    {"striker", "m/s", 11, 6, 6, false, in<&SubImpact::striker_velocity>,
-     in<&SubImpact::striker_velocity_error>},
+    {"indentation", "max, mm", 12, 7, 7, false, in<&SubImpact::max_indentation, mm>, in<&SubImpact::max_indentation_error, mm>},
+    {"residual", "mm", 12, 7, 7, false, in<&SubImpact::residual_indentation, mm>, in<&SubImpact::residual_indentation_error, mm>},
+    {"striker", "m/s", 11, 6, 6, false, in<&SubImpact::striker_velocity>, in<&SubImpact::striker_velocity_error>},
 };
+// clang-format on
 
 struct Cell {
   std::string value, error;

@@ -5,8 +5,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "io/listed_files.h"
 #include "io/run_tables.h"
-#include "io/sealed_files.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 
@@ -112,26 +112,26 @@ void remove_old_figures(const fs::path& directory) {
 void check_space(const OutputDirectory& directory, const Case& input) {
   std::error_code error;
   const auto available = static_cast<double>(fs::space(directory.path(), error).available);
-  const double foreseen = foreseen_bytes(input);
-  if (error || foreseen <= available) return;
+  const double expected = expected_bytes(input);
+  if (error || expected <= available) return;
   throw OutputError(
       fmt::format("{}: the rows of this run take some {:.2g} GB, and the disk has {:.2g} GB free; "
                   "use a longer output.interval, or choose another directory with --out",
-                  directory.path().string(), 1e-9 * foreseen, 1e-9 * available));
+                  directory.path().string(), 1e-9 * expected, 1e-9 * available));
 }
 
 }  // namespace
 
-double foreseen_shapes(const Case& input) {
+double expected_shapes(const Case& input) {
   const double interval = input.output.shape_interval(input.end_time);
   return interval > 0.0 ? input.end_time / interval : 0.0;
 }
 
-double foreseen_bytes(const Case& input, std::optional<std::size_t> n_shape_points) {
+double expected_bytes(const Case& input, std::optional<std::size_t> n_shape_points) {
   const auto most_points = static_cast<std::size_t>(input.output.shape_points);
   const double bytes_per_shape =
       bytes_per_shape_row * static_cast<double>(n_shape_points.value_or(most_points));
-  const double of_shapes = foreseen_shapes(input) * bytes_per_shape;
+  const double of_shapes = expected_shapes(input) * bytes_per_shape;
   if (!input.output.has_history()) return of_shapes;
   const double bytes_per_row =
       bytes_per_history_row +

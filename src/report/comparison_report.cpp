@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "case/counted.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
-#include "subimpact/study/match.h"
+#include "subimpact/study/event_errors.h"
 
 namespace subimpact {
 namespace {
@@ -94,11 +93,7 @@ Json pair_row(const MatchedPair& pair, const Result& first, const Result& second
 std::string pair_words(const std::vector<MatchedPair>& pairs, const Result& first,
                        const Result& second, std::size_t run) {
   const std::size_t n = n_leading_matches(pairs);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    largest = std::max(largest, std::abs(second.sub_impacts[*pairs[i].second].start -
-                                         first.sub_impacts[*pairs[i].first].start));
-  }
+  const double largest = event_errors(second.sub_impacts, first.sub_impacts).starts;
   std::string text =
       n == 1 ? std::string("The first sub-impacts correspond")
              : fmt::format("The first {} correspond one to one", counted(n, "sub-impact"));

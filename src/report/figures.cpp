@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "case/counted.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "report/figure_script.h"
 #include "report/files.h"
 #include "subimpact/io/report.h"

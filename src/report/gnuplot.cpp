@@ -17,7 +17,7 @@
 #include <system_error>
 #include <vector>
 
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "report/files.h"
 #include "subimpact/io/results.h"
 

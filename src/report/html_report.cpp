@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "case/counted.h"
+#include "io/listed_files.h"
 #include "io/run_record.h"
-#include "io/sealed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
@@ -130,8 +130,9 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"shapes_note", data.shapes_note},
       {"versions", versions},
       {"headlines", headlines(result)},
-      {"wish", if_any(result.wish, [&](const auto& wish) { return wish_words(wish, result); })},
-      {"wish_class", result.wish && result.wish->met ? "met" : "warning"},
+      {"tolerance",
+       if_any(result.tolerance, [&](const auto& t) { return tolerance_words(t, result); })},
+      {"tolerance_class", result.tolerance && result.tolerance->met ? "met" : "warning"},
       {"scatter_table",
        if_any(result.predictability, [&](const auto&) { return scatter_table(result); })},
       {"caveat", in_print(outcome_caveat(result))},

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/listed_files.h"
 #include "io/printable.h"
-#include "io/sealed_files.h"
 #include "report/files.h"
 #include "subimpact/io/read_results.h"
 

@@ -4,7 +4,7 @@
 
 #include "case/case_choices.h"
 #include "case/meshes.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
@@ -34,7 +34,7 @@ bool is_of_other_mesh(const CaseKey& key, const Case& input) {
 
 // The options that make of the case that was asked about the run that is advised.
 std::string settings_text(const Case& asked, const PlanPoint& advised) {
-  std::string text = "--method " + advised.method;
+  std::string text = "--method " + advised.setting.method;
   for (const CaseKey& key : case_keys()) {
     const std::string table = key.table();
     if (table == "output" || table == "accuracy" || key.name == "solver.method") continue;
@@ -57,7 +57,8 @@ std::string settings_text(const Case& asked, const PlanPoint& advised) {
 // "nystrom/graded-elements"
 std::string sequence_of(const PlanPoint& point) {
   const ModelOptions& model = point.input.model;
-  return fmt::format("{}/{}{}", point.method, model.strike_refinement != 1.0 ? "graded-" : "",
+  return fmt::format("{}/{}{}", point.setting.method,
+                     model.strike_refinement != 1.0 ? "graded-" : "",
                      descriptor_of(model.mesh).refinement->parts);
 }
 
@@ -69,7 +70,7 @@ std::string judgement_on(const PlanPoint& point) {
 StudyColumns<PlanPoint> columns_of(const Plan& plan) {
   return {{"sequence", sequence_of},
           {"mesh", &PlanPoint::mesh, {"mesh", ">44"}},
-          {"method", &PlanPoint::method, {"method", "<20"}},
+          {"method", member<&PlanPoint::setting, &Setting::method>, {"method", "<20"}},
           {"verdict", [](const PlanPoint& p) { return p.verdict; }, {"verdict", "<12"}},
           {"error_s",
            member<&PlanPoint::errors, &EventErrors::maximum>,
@@ -77,7 +78,7 @@ StudyColumns<PlanPoint> columns_of(const Plan& plan) {
           {"within", [](const PlanPoint& p) { return p.within ? 1 : 0; }},
           {"admitted", [](const PlanPoint& p) { return p.admitted ? 1 : 0; }},
           {"cheapest", [&](const PlanPoint&, std::size_t i) { return plan.cheapest == i ? 1 : 0; }},
-          {"counted_work", &PlanPoint::work, {"work", ">9", ".1e"}},
+          {"counted_work", &PlanPoint::counted, {"work", ">9", ".1e"}},
           {"wall_s", &PlanPoint::seconds},
           {"", [](const PlanPoint& p) { return duration_text(p.seconds); }, {"wall time", ">11"}},
           {"", judgement_on, {"", "<"}}};
@@ -104,7 +105,7 @@ StudyColumns<SubImpact> reference_columns() {
 std::string plan_reference_table(const Plan& plan) {
   return fmt::format("reference: {}, {}\n{}", plan.reference.result.used.mesh,
                      name_of(plan.reference.input.solver.method),
-                     printed_table(reference_columns(), plan.sub_impacts));
+                     printed_table(reference_columns(), plan.reference.sub_impacts));
 }
 
 std::string plan_table(const Plan& plan) {
@@ -114,24 +115,24 @@ std::string plan_table(const Plan& plan) {
     text += fmt::format(
         "\ncheapest within {:g} us in all: {}, {}: {}, error {:.1e} us beside a "
         "reference known to {:.1e} us; with this case, run\n  {}\n",
-        plan.wanted * us, best.mesh, best.method, duration_text(best.seconds),
-        best.errors.maximum * us, plan.reference_error * us, settings_text(plan.asked, best));
+        plan.wanted * us, best.mesh, best.setting.method, duration_text(best.seconds),
+        best.errors.maximum * us, plan.reference.error * us, settings_text(plan.asked, best));
   } else {
     text += fmt::format("\nno mesh that was tried is within {:g} us together with all finer ones\n",
                         plan.wanted * us);
   }
-  return text +
-         fmt::format("judged up to {:.3f} us ({})\n", plan.horizon * us, plan.horizon_reason);
+  return text + fmt::format("judged up to {:.3f} us ({})\n", plan.reference.horizon * us,
+                            plan.reference.horizon_reason);
 }
 
 void write_plan(const std::filesystem::path& directory, const Plan& plan) {
   write_file(directory / "reference.csv",
-             csv_text(columns_in_file(reference_columns()), plan.sub_impacts));
+             csv_text(columns_in_file(reference_columns()), plan.reference.sub_impacts));
   write_file(directory / "plan.csv", csv_text(columns_in_file(columns_of(plan)), plan.points));
   if (plan.points.empty()) return;
   draw_figure(directory, "plan",
               figure_script("plan", fmt::format("wanted_us = {}\nreference_us = {}\n",
-                                                us * plan.wanted, us * plan.reference_error)),
+                                                us * plan.wanted, us * plan.reference.error)),
               {960, 560});
 }
 

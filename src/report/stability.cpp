@@ -5,7 +5,7 @@
 
 #include "case/case_choices.h"
 #include "case/counted.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"

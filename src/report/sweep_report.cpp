@@ -8,7 +8,7 @@
 #include <set>
 
 #include "case/counted.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
 
@@ -29,8 +29,8 @@ constexpr Shown shown_results[] = {
     {"n_certain", "sub-impacts certain", "", 1.0},
     {"all_certain", "all certain (1: yes)", "", 1.0},
     {"time_s", "time reached", "ms", 1e3},
-    {"wish_met", "wish met (1: yes)", "", 1.0},
-    {"horizon_s", "horizon of the wish", "µs", 1e6},
+    {"wish_met", "tolerance met (1: yes)", "", 1.0},
+    {"horizon_s", "horizon of the tolerance", "µs", 1e6},
     {"first_separation_s", "end of the first contact", "µs", 1e6},
     {"first_separation_error_s", "error of the end of the first contact", "µs", 1e6},
     {"first_section_yield_s", "first yield of a section", "µs", 1e6},

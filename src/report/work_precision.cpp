@@ -1,17 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <fstream>
 #include <limits>
 
 #include "case/counted.h"
 #include "io/csv_reader.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
-#include "subimpact/case/case_keys.h"
+#include "subimpact/io/case_file.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
@@ -34,17 +33,17 @@ struct LoggedPoint {
   std::string id, label;  // of the case
   std::string kind;       // of the setting
   std::optional<double> unmatched_start, unmatched_duration;
-  WorkPrecisionPoint point;
+  Trial point;
 };
 
 template <auto... members>
 constexpr auto of_point = member<&LoggedPoint::point, members...>;
 template <auto found>
-constexpr auto errors = of_point<&WorkPrecisionPoint::errors, found>;
+constexpr auto errors = of_point<&Trial::errors, found>;
 template <auto count>
-constexpr auto work = of_point<&WorkPrecisionPoint::work, count>;
+constexpr auto work = of_point<&Trial::work, count>;
 template <auto part>
-constexpr auto of_setting = of_point<&WorkPrecisionPoint::setting, part>;
+constexpr auto of_setting = of_point<&Trial::setting, part>;
 
 bool has_run(const LoggedPoint& row) {
   return row.point.verdict != Verdict::not_run && row.point.verdict != Verdict::refused;
@@ -70,7 +69,7 @@ const StudyColumns<LoggedPoint>& point_columns() {
       {"kind", &LoggedPoint::kind},
       {"setting", of_setting<&Setting::value>},
       {"", setting, {"setting", "<14"}},
-      {"verdict", of_point<&WorkPrecisionPoint::verdict>, {"verdict", "<12"}},
+      {"verdict", of_point<&Trial::verdict>, {"verdict", "<12"}},
       {"reference_sub_impacts", errors<&EventErrors::n_reference>},
       {"sub_impacts", errors<&EventErrors::n_found>},
       {"corresponding", errors<&EventErrors::n_corresponding>},
@@ -85,9 +84,9 @@ const StudyColumns<LoggedPoint>& point_columns() {
       {"striker_velocity_error", errors<&EventErrors::striker_velocity>, share("striker,\nrel."),
        has_errors},
       {"beam_velocity_error", errors<&EventErrors::beam_velocity>},
-      {"wall_s", of_point<&WorkPrecisionPoint::seconds>},
+      {"wall_s", of_point<&Trial::seconds>},
       {"", wall_time, {"wall\ntime", ">10"}, has_run},
-      {"repeats", of_point<&WorkPrecisionPoint::repeats>},
+      {"repeats", of_point<&Trial::repeats>},
       {"setup_s", work<&Work::setup_seconds>},
       {"steps", work<&Work::steps>},
       {"rejected_steps", work<&Work::rejected_steps>},
@@ -95,13 +94,12 @@ const StudyColumns<LoggedPoint>& point_columns() {
       {"mass_solves", work<&Work::mass_solves>, {"mass\nsolves", ">10"}, has_run},
       {"jacobians", work<&Work::jacobians>},
       {"factorisations", work<&Work::factorisations>, {"factori-\nsations", ">8"}, has_run},
-      {"message", of_point<&WorkPrecisionPoint::message>},
+      {"message", of_point<&Trial::message>},
   };
   return columns;
 }
 
-LoggedPoint row_of(const std::string& id, const std::string& label,
-                   const WorkPrecisionPoint& point) {
+LoggedPoint row_of(const std::string& id, const std::string& label, const Trial& point) {
   LoggedPoint row{id, label, point.setting.fixed_step ? "step" : "rtol", {}, {}, point};
   if (point.errors.unmatched) {
     row.unmatched_start = point.errors.unmatched->start;
@@ -122,7 +120,7 @@ std::string key_of(const std::string& id, const Setting& setting) {
   return fmt::format("{} {} {} {:.17g}", id, setting.method, setting.fixed_step, setting.value);
 }
 
-std::string setting_text(const WorkPrecisionPoint& point) {
+std::string setting_text(const Trial& point) {
   return fmt::format("{} at {}: {}, largest error {:.1e} us", point.setting.method,
                      point.setting.text(), duration_text(point.seconds), point.errors.maximum * us);
 }
@@ -134,19 +132,19 @@ std::string mark_of(Verdict verdict) {
 }
 
 // An error below a tenth of the reference's cannot be distinguished from none and is shown as that.
-double shown_error(const WorkPrecisionPoint& point, const WorkPrecision& study) {
+double shown_error(const Trial& point, const WorkPrecision& study) {
   if (mark_of(point.verdict) == "failed") return std::numeric_limits<double>::quiet_NaN();
   return us * std::max(point.errors.overall(), 0.1 * study.reference.error);
 }
 
 void draw(const std::filesystem::path& directory, const std::string& name,
           const std::vector<WorkPrecision>& studies, const char* cost_label,
-          double (*cost)(const WorkPrecisionPoint&)) {
+          double (*cost)(const Trial&)) {
   std::string labels;
   std::string points = "panel,method,mark,error_us,cost\n";
   for (std::size_t p = 0; p < studies.size(); ++p) {
     labels += fmt::format("'{}' ", studies[p].label);
-    for (const WorkPrecisionPoint& point : studies[p].points) {
+    for (const Trial& point : studies[p].points) {
       const std::string mark = mark_of(point.verdict);
       if (mark.empty() || !(cost(point) > 0.0)) continue;
       points += fmt::format("{},{},{},{:.17g},{:.17g}\n", p + 1, point.setting.method, mark,
@@ -165,22 +163,13 @@ void draw(const std::filesystem::path& directory, const std::string& name,
 }  // namespace
 
 std::string case_id(const Case& input) {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  const auto add = [&](const std::string& text) {
-    for (const char c : text) {
-      hash ^= static_cast<unsigned char>(c);
-      hash *= 1099511628211u;
-    }
-  };
-  add(project_version());
-  for (const CaseKey& key : case_keys()) {
-    const bool set_by_study = key.name == "solver.method" || key.name == "solver.table" ||
-                              key.name == "solver.rtol" || key.name == "solver.step";
-    if (set_by_study || key.name == "title" || key.table() == "output") continue;
-    const auto value = key.get(input);
-    add(key.name + "=" + (value ? to_text(*value) : std::string()) + ";");
-  }
-  return fmt::format("{:016x}", hash);
+  Case same = input;
+  same.solver.method = {};
+  same.solver.table.reset();
+  same.solver.rtol = {};
+  same.solver.step.reset();
+  same.output = {};
+  return case_identity(same, {});
 }
 
 std::string work_precision_table(const WorkPrecision& study) {
@@ -195,7 +184,7 @@ std::string work_precision_table(const WorkPrecision& study) {
   }
   text += '\n' + printed_heading(point_columns());
   std::string method, messages;
-  for (const WorkPrecisionPoint& point : study.points) {
+  for (const Trial& point : study.points) {
     if (!method.empty() && point.setting.method != method) text += '\n';
     method = point.setting.method;
     text += printed_row(point_columns(), row_of({}, {}, point));
@@ -220,7 +209,7 @@ std::string recommendation_text(const std::vector<Recommendation>& recommendatio
 
 PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& cases)
     : directory_(directory), text_(csv_heading(columns_in_file(point_columns()))) {
-  const SealedFiles files(directory.path());
+  const ListedFiles files(directory.path());
   if (!files.manifest() || !files.manifest()->files.contains(file_name)) return;
   const std::string path = (directory.path() / file_name).string();
   std::ifstream file = files.open(file_name);
@@ -241,15 +230,13 @@ PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& c
   });
 }
 
-std::optional<WorkPrecisionPoint> PointLog::known(const std::string& case_id,
-                                                  const Setting& setting) const {
+std::optional<Trial> PointLog::known(const std::string& case_id, const Setting& setting) const {
   const auto found = known_.find(key_of(case_id, setting));
   if (found == known_.end()) return std::nullopt;
   return found->second;
 }
 
-void PointLog::append(const std::string& case_id, const std::string& label,
-                      const WorkPrecisionPoint& point) {
+void PointLog::append(const std::string& case_id, const std::string& label, const Trial& point) {
   append_row(text_, columns_in_file(point_columns()), row_of(case_id, label, point));
   write_file(directory_.staging() / file_name, text_);
   directory_.commit();
@@ -258,11 +245,9 @@ void PointLog::append(const std::string& case_id, const std::string& label,
 void draw_work_precision(const std::filesystem::path& directory,
                          const std::vector<WorkPrecision>& studies) {
   draw(directory, "work_precision", studies, "wall time (ms)",
-       [](const WorkPrecisionPoint& point) { return 1e3 * point.seconds; });
+       [](const Trial& point) { return 1e3 * point.seconds; });
   draw(directory, "work_precision_evaluations", studies, "evaluations of the right-hand side",
-       [](const WorkPrecisionPoint& point) {
-         return static_cast<double>(point.work.right_hand_sides);
-       });
+       [](const Trial& point) { return static_cast<double>(point.work.right_hand_sides); });
 }
 
 }  // namespace subimpact

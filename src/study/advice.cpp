@@ -73,14 +73,15 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
   const bool is_confirmed = !estimate || !estimate->finer_meshes ||
                             estimate->finer_meshes->n_same == result.sub_impacts.size();
   if (estimate && (!result.all_certain() || !is_confirmed)) {
-    const bool is_stopped_by_work = result.wish && result.wish->key == "accuracy.work_limit";
+    const bool is_stopped_by_work =
+        result.tolerance && result.tolerance->key == "accuracy.work_limit";
     if (result.choice.empty()) {
       all.push_back(chosen_mesh(given, result));
       if (all.back().options.empty()) all.pop_back();
-    } else if (!result.wish) {
+    } else if (!result.tolerance) {
       all.push_back(smaller_errors(input, result));
     } else if (is_stopped_by_work) {
-      all.push_back({{{"--within", fmt::format("{:.3g}us", 1e6 * result.wish->wished)},
+      all.push_back({{{"--within", fmt::format("{:.3g}us", 1e6 * result.tolerance->asked)},
                       {"--set", fmt::format("accuracy.work_limit={:.3g}",
                                             times_more_accurate * input.accuracy.work_limit)}},
                      times_more_accurate * result.work.all_seconds,

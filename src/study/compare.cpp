@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
-#include "case/counted.h"
 #include "case/problem.h"
 #include "study/method_choice.h"
 #include "subimpact/case/case_keys.h"
@@ -26,47 +23,6 @@ void require_completed(const Result& reference) {
       reference_tolerance, to_string(outcome.kind), 1e6 * outcome.time, outcome.message));
 }
 
-// Of a number that may be 0 in both runs.
-double relative_difference(double here, double there, double unit) {
-  return here == there ? 0.0 : std::abs(here - there) / unit;
-}
-
-std::string remark_on(const ComparedRun& run, const Result& reference) {
-  const std::size_t here = run.result.sub_impacts.size();
-  const std::size_t there = reference.sub_impacts.size();
-  if (!run.result.outcome.completed()) return run.result.outcome.message;
-  if (run.n_corresponding == there && here == there) return "every sub-impact corresponds";
-  std::string text = fmt::format("{} instead of {}; {}", counted(here, "sub-impact"), there,
-                                 leading_words(run.n_corresponding));
-  const auto unmatched = first_unmatched(run.pairs, reference.sub_impacts, run.result.sub_impacts);
-  if (unmatched) text += "; " + unmatched->description;
-  return text;
-}
-
-void set_beside(ComparedRun& run, const Result& reference) {
-  const auto& there = reference.sub_impacts;
-  const auto& here = run.result.sub_impacts;
-  run.pairs = match_sub_impacts(there, here);
-  run.n_corresponding = n_leading_matches(run.pairs);
-  double largest_impulse = 0.0;
-  for (const SubImpact& s : there) largest_impulse = std::max(largest_impulse, s.impulse);
-  for (std::size_t i = 0; i < run.n_corresponding; ++i) {
-    run.max_start_difference =
-        std::max(run.max_start_difference, std::abs(here[i].start - there[i].start));
-    if (here[i].end && there[i].end) {
-      run.max_end_difference =
-          std::max(run.max_end_difference, std::abs(*here[i].end - *there[i].end));
-    }
-    run.max_peak_difference =
-        std::max(run.max_peak_difference,
-                 relative_difference(here[i].peak_force, there[i].peak_force, there[i].peak_force));
-    run.max_impulse_difference =
-        std::max(run.max_impulse_difference,
-                 relative_difference(here[i].impulse, there[i].impulse, largest_impulse));
-  }
-  run.remark = remark_on(run, reference);
-}
-
 }  // namespace
 
 Comparison compare(const Case& input, const std::vector<std::string>& methods,
@@ -75,30 +31,32 @@ Comparison compare(const Case& input, const std::vector<std::string>& methods,
   // Refused before anything is run.
   std::vector<ComparedRun> runs;
   for (const std::string& name : methods) {
-    ComparedRun run;
-    run.name = name;
+    ComparedRun& run = runs.emplace_back();
     run.input = with_method(input, name);
-    resolve(run.input);
-    runs.push_back(std::move(run));
+    const std::optional<double> step = resolve(run.input).settings().step;
+    run.setting = {name, step.has_value(), step.value_or(run.input.solver.rtol)};
   }
   Comparison comparison;
-  comparison.reference_input = with_method(input, "nystrom");
-  comparison.reference_input.solver.step.reset();
-  comparison.reference_input.solver.rtol = reference_tolerance;
+  Reference& reference = comparison.reference;
+  reference.input = with_method(input, "nystrom");
+  reference.input.solver.step.reset();
+  reference.input.solver.rtol = reference_tolerance;
   const Progress watched = [&](double time) {
     if (progress && !progress(time)) comparison.interrupted = true;
     return !comparison.interrupted;
   };
   if (announce) announce("reference");
-  comparison.reference = simulate_judged(
-      comparison.reference_input, cases_beside_in_time(comparison.reference_input), 1, watched);
-  require_completed(comparison.reference);
+  reference.result =
+      simulate_judged(reference.input, cases_beside_in_time(reference.input), 1, watched);
+  require_completed(reference.result);
+  reference.sub_impacts = reference.result.sub_impacts;
   for (ComparedRun& run : runs) {
-    if (announce) announce(run.name);
+    if (announce) announce(run.setting.method);
     if (!watched(0.0)) break;  // runs of few steps do not look
-    run.result = simulate(run.input, watched);
+    run.result = run_trial(run, reference, watched);
     if (comparison.interrupted) break;
-    set_beside(run, comparison.reference);
+    run.pairs = match_sub_impacts(reference.sub_impacts, run.result.sub_impacts);
+    if (run.verdict == Verdict::right) run.message = "every sub-impact corresponds";
     comparison.runs.push_back(std::move(run));
   }
   return comparison;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 
+#include "case/counted.h"
 #include "case/problem.h"
 #include "numerics/median.h"
 #include "study/method_choice.h"
@@ -54,23 +54,36 @@ std::pair<std::size_t, std::string> count_known(const Result& result, double lar
 
 }  // namespace
 
+void set_horizon(Reference& reference, std::size_t n, const std::string& reason) {
+  const auto& all = reference.result.sub_impacts;
+  reference.sub_impacts.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
+  reference.horizon = reference.input.end_time;
+  reference.horizon_reason = "the case's end";
+  if (n == all.size() || n == 0) return;
+  reference.horizon = 0.5 * (all[n - 1].end.value() + all[n].start);
+  reference.horizon_reason = reason;
+}
+
 Reference compute_reference(const Case& input, double largest_error, const Progress& progress) {
   const bool yields = may_yield(input);
   const char* first = yields ? "nystrom" : "exponential";
   const char* second = yields ? "erk" : "nystrom";
   Reference reference;
   reference.input = accurate(input, first);
-  const Case refined_input = accurate(input, second);
   reference.description = fmt::format("{} at rtol {:.0e} beside {} at rtol {:.0e}", first,
                                       reference_tolerance, second, reference_tolerance);
 
-  auto refined_run = std::async(std::launch::async, [&] { return simulate(refined_input); });
-  Result result = simulate(reference.input, progress);
-  const Result other = refined_run.get();
+  Result result;
+  const std::vector<RunBeside> beside =
+      simulate_beside(reference.input, {{accurate(input, second), "time", reference.description}},
+                      2, progress, nullptr, result);
   require_completed(result, first);
-  require_completed(other, second);
-  const RunBeside beside{{refined_input, "time", reference.description, 1.0}, other};
-  judge(reference.input, result, {&beside, 1});
+  for (const RunBeside& other : beside) require_completed(other.result, second);
+  if (result.outcome.kind == OutcomeKind::stopped) {
+    reference.result = std::move(result);
+    return reference;
+  }
+  judge(reference.input, result, beside);
 
   const auto [n, reason] = count_known(result, largest_error);
   if (n == 0) {
@@ -79,20 +92,15 @@ Reference compute_reference(const Case& input, double largest_error, const Progr
                                 "later end",
                                 input.end_time, reason.empty() ? "there is none" : reason));
   }
-  reference.sub_impacts.assign(result.sub_impacts.begin(),
-                               result.sub_impacts.begin() + static_cast<std::ptrdiff_t>(n));
+  reference.result = std::move(result);
+  set_horizon(reference, n, reason);
   for (const SubImpact& s : reference.sub_impacts) {
     reference.error = std::max({reference.error, *s.start_error, *s.end_error});
   }
-  reference.horizon = input.end_time;
-  reference.horizon_reason = "the case's end";
-  if (n < result.sub_impacts.size()) {
-    reference.horizon = 0.5 * (*reference.sub_impacts.back().end + result.sub_impacts[n].start);
-    reference.horizon_reason = reason;
+  if (reference.horizon < input.end_time) {
     reference.input.end_time = reference.horizon;
-    result = simulate(reference.input, progress);
+    reference.result = simulate(reference.input, progress);
   }
-  reference.result = std::move(result);
   return reference;
 }
 
@@ -104,6 +112,8 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
   const std::vector<MatchedPair> pairs = match_sub_impacts(reference, run);
   errors.n_corresponding = n_leading_matches(pairs);
   errors.unmatched = first_unmatched(pairs, reference, run);
+  double largest_impulse = 0.0;
+  for (const SubImpact& s : reference) largest_impulse = std::max(largest_impulse, s.impulse);
   std::vector<double> times;
   for (std::size_t i = 0; i < errors.n_corresponding; ++i) {
     const SubImpact& there = reference[i];
@@ -116,10 +126,17 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
                                       1e6 * *there.end)};
       break;
     }
-    if (i > 0) times.push_back(std::abs(here.start - there.start));
-    if (here.end && there.end) times.push_back(std::abs(*here.end - *there.end));
+    const double start = std::abs(here.start - there.start);
+    errors.starts = std::max(errors.starts, start);
+    if (i > 0) times.push_back(start);
+    if (here.end && there.end) {
+      times.push_back(std::abs(*here.end - *there.end));
+      errors.ends = std::max(errors.ends, times.back());
+    }
     errors.peak_force =
         std::max(errors.peak_force, std::abs(here.peak_force / there.peak_force - 1.0));
+    errors.impulse =
+        std::max(errors.impulse, std::abs(here.impulse - there.impulse) / largest_impulse);
   }
   if (!times.empty()) {
     errors.maximum = *std::max_element(times.begin(), times.end());
@@ -161,6 +178,32 @@ Verdict judge(const Result& run, const EventErrors& errors) {
       return Verdict::failed;
   }
   return Verdict::failed;
+}
+
+Result run_trial(Trial& trial, const Reference& reference, const Progress& progress) {
+  try {
+    Result result = simulate(trial.input, progress);
+    trial.work = result.work;
+    trial.seconds = result.work.wall_seconds;
+    trial.repeats = 1;
+    trial.energy_error = result.max_energy_error;
+    trial.errors = event_errors(result, reference);
+    trial.verdict = judge(result, trial.errors);
+    const EventErrors& errors = trial.errors;
+    if (!result.outcome.completed()) {
+      trial.message =
+          fmt::format("at {:.6g} us {}", 1e6 * result.outcome.time, result.outcome.message);
+    } else if (errors.unmatched) {
+      trial.message = fmt::format("{} instead of {}; {}; {}", counted(errors.n_found, "sub-impact"),
+                                  errors.n_reference, leading_words(errors.n_corresponding),
+                                  errors.unmatched->description);
+    }
+    return result;
+  } catch (const InvalidCase& error) {
+    trial.verdict = Verdict::refused;
+    trial.message = error.key + " " + error.what();
+    return {};
+  }
 }
 
 }  // namespace subimpact

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "case/meshes.h"
@@ -16,7 +15,7 @@
 namespace subimpact {
 namespace {
 
-// Wished error of the reference over the wanted one.
+// Tolerance of the reference over the wanted one.
 constexpr double reference_share = 0.2;
 // Runs within the wanted error that admit a mesh; the reference itself is one more of its sequence.
 constexpr int enough_in_a_row = 3;
@@ -64,38 +63,35 @@ std::string mesh_words(const Case& input) {
   return words;
 }
 
-// The reference, its leading sub-impacts that are decided and within its own wish, and the horizon
-// in the middle of the separation that follows.
+// The reference, its leading sub-impacts that are decided and within its own tolerance, and the
+// horizon in the middle of the separation that follows.
 void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
-  Case wished = input;
-  wished.model = {};
-  wished.model.section = input.model.section;
-  wished.model.layers = input.model.layers;
-  wished.solver = {};
-  wished.parts.mesh = nullptr;
-  wished.output.keep_no_rows();
-  wished.accuracy.event_times = reference_share * plan.wanted;
-  plan.reference = simulate_within(wished, {}, how);
-  const Result& result = plan.reference.result;
-  const auto& all = result.sub_impacts;
-  const WishOutcome& wish = result.wish.value();
-  const auto is_within = [&](const SubImpact& s) { return s.start < wish.horizon; };
-  plan.sub_impacts.assign(all.begin(), std::ranges::partition_point(all, is_within));
-  plan.reference_error = wish.reached;
-  plan.horizon = input.end_time;
-  plan.horizon_reason = "the case's end";
-  const std::size_t n = plan.sub_impacts.size();
-  if (n < all.size() && n > 0) {
-    plan.horizon = 0.5 * (plan.sub_impacts.back().end.value() + all[n].start);
-    plan.horizon_reason = wish.reason;
-  }
-  if (plan.interrupted || (n > 0 && (n > 1 || plan.sub_impacts.front().end))) return;
+  Case asked = input;
+  asked.model = {};
+  asked.model.section = input.model.section;
+  asked.model.layers = input.model.layers;
+  asked.solver = {};
+  asked.parts.mesh = nullptr;
+  asked.output.keep_no_rows();
+  asked.accuracy.event_times = reference_share * plan.wanted;
+  WithinRun run = simulate_within(asked, {}, how);
+  Reference& reference = plan.reference;
+  reference.input = std::move(run.input);
+  reference.result = std::move(run.result);
+  const ToleranceOutcome& outcome = reference.result.tolerance.value();
+  const auto is_within = [&](const SubImpact& s) { return s.start < outcome.horizon; };
+  const auto& all = reference.result.sub_impacts;
+  const auto n =
+      static_cast<std::size_t>(std::ranges::partition_point(all, is_within) - all.begin());
+  set_horizon(reference, n, outcome.reason);
+  reference.error = outcome.reached;
+  if (plan.interrupted || (n > 0 && (n > 1 || reference.sub_impacts.front().end))) return;
   throw InvalidCase(
       "time.end",
       fmt::format("is {} s, up to which no event time is known to {:.2g} us: {}; use "
                   "a later end, a larger error, or more accuracy.work_limit",
                   input.end_time, 1e6 * reference_share * plan.wanted,
-                  wish.reason.empty() ? "the first contact lasts to the end" : wish.reason));
+                  outcome.reason.empty() ? "the first contact lasts to the end" : outcome.reason));
 }
 
 double error_of(const SubImpact& s) {
@@ -103,7 +99,7 @@ double error_of(const SubImpact& s) {
 }
 
 // Whether the errors of all sub-impacts are small beside their durations and the separations about
-// them, those of the reference included. A wish may be larger.
+// them, those of the reference included. A tolerance may be larger.
 bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubImpact>& reference) {
   for (std::size_t i = 0; i < reference.size(); ++i) {
     const SubImpact& s = reference[i];
@@ -135,26 +131,21 @@ class Planner {
   std::size_t first_of_sequence_ = 0;
 };
 
-// Adds the run; false if interrupted.
+// Adds the run; false if interrupted, or refused: a mesh too coarse for the strike.
 bool Planner::run_point(const Case& input) {
   PlanPoint point;
   point.input = input;
   point.mesh = mesh_words(input);
-  point.method = descriptor_of(input.solver.method).name;
-  if (options_.announce) options_.announce(point.mesh + ", " + point.method, input.end_time);
-  const auto start = std::chrono::steady_clock::now();
-  const Result result = simulate(input, options_.progress);
-  point.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (result.outcome.kind == OutcomeKind::stopped) {
-    plan_.interrupted = true;
-    return false;
-  }
-  point.errors = event_errors(result.sub_impacts, plan_.sub_impacts);
-  point.verdict = judge(result, point.errors);
-  point.work = counted_work(result);
+  point.setting.method = descriptor_of(input.solver.method).name;
+  if (options_.announce)
+    options_.announce(point.mesh + ", " + point.setting.method, input.end_time);
+  const Result result = run_trial(point, plan_.reference, options_.progress);
+  if (result.outcome.kind == OutcomeKind::stopped) plan_.interrupted = true;
+  if (plan_.interrupted || point.verdict == Verdict::refused) return false;
+  point.counted = counted_work(result);
   point.within = point.verdict == Verdict::right &&
-                 point.errors.maximum + plan_.reference_error <= plan_.wanted &&
-                 are_recognisable(result.sub_impacts, plan_.sub_impacts);
+                 point.errors.maximum + plan_.reference.error <= plan_.wanted &&
+                 are_recognisable(result.sub_impacts, plan_.reference.sub_impacts);
   plan_.points.push_back(std::move(point));
   return true;
 }
@@ -166,7 +157,7 @@ void Planner::admit(const Refinement& sequence, std::size_t first) {
   while (n > first && points[n - 1].within) --n;
   if (n + 2 > points.size()) return;  // a single run proves nothing
   for (std::size_t i = n; i < points.size(); ++i) points[i].admitted = true;
-  if (plan_.cheapest && points[n].work >= points[*plan_.cheapest].work) return;
+  if (plan_.cheapest && points[n].counted >= points[*plan_.cheapest].counted) return;
   plan_.cheapest = n;
   sequence_ = sequence;
   first_of_sequence_ = first;
@@ -175,9 +166,9 @@ void Planner::admit(const Refinement& sequence, std::size_t first) {
 // As the work of the last two runs of the sequence from `first` grows.
 double Planner::work_of_next(std::size_t first) const {
   const auto& points = plan_.points;
-  const double last = points.back().work;
+  const double last = points.back().counted;
   if (points.size() < first + 2) return last;
-  return last * std::max(1.0, last / points[points.size() - 2].work);
+  return last * std::max(1.0, last / points[points.size() - 2].counted);
 }
 
 // Whether the sequence from `first` need not go on: its finest runs are within the wanted error, or
@@ -190,10 +181,11 @@ bool Planner::is_enough(std::size_t first, int in_a_row) const {
                                 last.input.model.strike_refinement == 1.0;
   if (in_a_row >= (beside_reference ? enough_beside_reference : enough_in_a_row)) return true;
   const double cheapest_left =
-      in_a_row == 0 ? work_of_next(first)
-                    : plan_.points[plan_.points.size() - static_cast<std::size_t>(in_a_row)].work;
+      in_a_row == 0
+          ? work_of_next(first)
+          : plan_.points[plan_.points.size() - static_cast<std::size_t>(in_a_row)].counted;
   return cheapest_left >
-         (plan_.cheapest ? plan_.points[*plan_.cheapest].work : reference.accuracy.work_limit);
+         (plan_.cheapest ? plan_.points[*plan_.cheapest].counted : reference.accuracy.work_limit);
 }
 
 void Planner::run(const Family& family) {
@@ -202,15 +194,14 @@ void Planner::run(const Family& family) {
   base.model.strike_refinement = family.refinement;
   base.solver = {};
   base.solver.method = family.method;
-  base.end_time = plan_.horizon;
+  base.end_time = plan_.reference.horizon;
   const std::size_t first = plan_.points.size();
   const Refinement sequence(base, {});
   std::optional<Case> next = sequence.resized(
       sequence.first(), static_cast<double>(fewest_parts) / mesh_count(sequence.first()));
   for (int in_a_row = 0; next; next = sequence.finer(*next, std::sqrt(2.0))) {
-    try {
-      if (!run_point(*next)) return;
-    } catch (const InvalidCase&) {  // a mesh too coarse for the strike
+    if (!run_point(*next)) {
+      if (plan_.interrupted) return;
       continue;
     }
     in_a_row = plan_.points.back().within ? in_a_row + 1 : 0;

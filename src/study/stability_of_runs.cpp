@@ -52,15 +52,17 @@ std::vector<MapRow> rows_of_map() {
   return rows;
 }
 
-struct Trial {
-  OutcomePoint point;
-  Case input;
-};
-
 // Those of the methods asked for that can run the case at all.
-std::vector<Trial> trials_of(const Case& input, const std::vector<std::string>& methods) {
+std::vector<OutcomePoint> points_of(const Case& input, const std::vector<std::string>& methods) {
   const double highest_frequency = resolve(with_method(input, "erk")).settings().highest_frequency;
-  std::vector<Trial> trials;
+  std::vector<OutcomePoint> points;
+  const auto add = [&](const char* group, const MapRow& row, double x, const Case& chosen) {
+    OutcomePoint& point = points.emplace_back();
+    point.group = group;
+    point.row = row.name;
+    point.x = x;
+    point.input = chosen;
+  };
   for (const MapRow& row : rows_of_map()) {
     if (!asked_for(methods, row.method)) continue;
     Case chosen = with_method(input, row.method);
@@ -71,45 +73,29 @@ std::vector<Trial> trials_of(const Case& input, const std::vector<std::string>& 
       chosen.study.beyond_critical = row.forced;
       for (const double angle : angles) {
         chosen.solver.step = angle / highest_frequency;
-        trials.push_back({{"fixed step", row.name, angle}, chosen});
+        add("fixed step", row, angle, chosen);
       }
       continue;
     }
     chosen.solver.max_order = row.max_order;
     for (const double rtol : tolerances) {
       chosen.solver.rtol = rtol;
-      trials.push_back({{"tolerance", row.name, rtol}, chosen});
+      add("tolerance", row, rtol, chosen);
     }
   }
-  return trials;
+  return points;
 }
 
-void run(Trial& trial, const Reference& reference, double run_seconds) {
-  OutcomePoint& point = trial.point;
-  trial.input.end_time = reference.horizon;
+void run(OutcomePoint& point, const Reference& reference, double run_seconds) {
+  point.input.end_time = reference.horizon;
   const auto start = Clock::now();
-  try {
-    const Result result = simulate(trial.input, [&](double) {
-      return std::chrono::duration<double>(Clock::now() - start).count() < run_seconds;
-    });
-    point.errors = event_errors(result, reference);
-    point.energy_error = result.max_energy_error;
-    point.verdict = judge(result, point.errors);
-    if (result.outcome.kind == OutcomeKind::stopped) {
-      point.verdict = Verdict::not_run;
-      point.message = fmt::format("left out: not done after {:g} s, at {:.6g} us", run_seconds,
-                                  1e6 * result.outcome.time);
-    } else if (!result.outcome.completed()) {
-      point.message =
-          fmt::format("at {:.6g} us {}", 1e6 * result.outcome.time, result.outcome.message);
-    } else if (point.errors.unmatched) {
-      point.message = fmt::format("{} of {}; {}", counted(point.errors.n_found, "sub-impact"),
-                                  point.errors.n_reference, point.errors.unmatched->description);
-    }
-  } catch (const InvalidCase& error) {
-    point.verdict = Verdict::refused;
-    point.message = error.key + " " + error.what();
-  }
+  const Result result = run_trial(point, reference, [&](double) {
+    return std::chrono::duration<double>(Clock::now() - start).count() < run_seconds;
+  });
+  if (result.outcome.kind != OutcomeKind::stopped) return;
+  point.verdict = Verdict::not_run;
+  point.message = fmt::format("left out: not done after {:g} s, at {:.6g} us", run_seconds,
+                              1e6 * result.outcome.time);
 }
 
 double shortest_of(const std::vector<SubImpact>& sub_impacts, double shortest) {
@@ -127,24 +113,22 @@ OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& method
                        double run_seconds, const Count& progress) {
   OutcomeMap map;
   map.reference = compute_reference(input, reference_error);
-  std::vector<Trial> trials = trials_of(input, methods);
+  map.points = points_of(input, methods);
   std::mutex mutex;
   std::size_t done = 0;
   bool stopped = false;
-  in_parallel(trials.size(), [&](std::size_t i) {
+  in_parallel(map.points.size(), [&](std::size_t i) {
     {
       const std::lock_guard lock(mutex);
       if (stopped) {
-        trials[i].point.verdict = Verdict::not_run;
-        trials[i].point.message = "left out: interrupted";
+        map.points[i].message = "left out: interrupted";
         return;
       }
     }
-    run(trials[i], map.reference, run_seconds);
+    run(map.points[i], map.reference, run_seconds);
     const std::lock_guard lock(mutex);
-    if (progress && !progress(++done, trials.size())) stopped = true;
+    if (progress && !progress(++done, map.points.size())) stopped = true;
   });
-  for (const Trial& trial : trials) map.points.push_back(trial.point);
   return map;
 }
 

@@ -16,8 +16,7 @@ TEST(ARunAsAsked, GivesWhatTheProgramGivesNumberForNumber) {
       directory.path);
   ASSERT_EQ(finished.status, 0) << finished.errors;
   const FinishedRun program = read_results(directory.path / "here");
-  const LoadedCase loaded =
-      read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=3e-4")});
+  const LoadedCase loaded = read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=3e-4")});
   const WithinRun here = run_as_asked(loaded.value, loaded.given);
   EXPECT_EQ(here.result.used.mesh, program.result.used.mesh);
   ASSERT_EQ(here.result.sub_impacts.size(), program.result.sub_impacts.size());

@@ -342,8 +342,8 @@ TEST(RunWithin, ThatTheCaseItselfWishesForNeedsNoOption) {
 TEST(RunWithin, AFixedMeshThatCannotMeetTheWishEndsWithStatus0AndTheReason) {
   const TemporaryDirectory directory;
   const FinishedRun run = open_run(directory, {"--within", "1ns", "--set", "model.segments=101"});
-  EXPECT_FALSE(run.result.wish->met);
-  EXPECT_EQ(run.result.wish->key, "model.segments");
+  EXPECT_FALSE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->key, "model.segments");
 }
 
 // The first touch is the only event time, and a mesh that the contact outlasts is doubted.

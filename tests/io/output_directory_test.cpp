@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 
 #include "file_size_limit.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "read_file.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
@@ -148,8 +148,8 @@ TEST(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
   const TemporaryDirectory directory;
   make(directory.path, "run", "1", {{"events.csv", "of run 1"}});
   make(directory.path, "figures", "1", {{"response.svg", "of run 1"}});
-  EXPECT_EQ(SealedFiles(directory.path).text("events.csv"), "of run 1");
-  EXPECT_EQ(SealedFiles(directory.path).text("response.svg"), "of run 1");
+  EXPECT_EQ(ListedFiles(directory.path).text("events.csv"), "of run 1");
+  EXPECT_EQ(ListedFiles(directory.path).text("response.svg"), "of run 1");
   expect_in(refusal_of(directory.path, "figures", "2"), "holds the results of another run");
   OutputDirectory run(directory.path, "run", "2");
   commit(run, "events.csv", "of run 2");
@@ -214,7 +214,7 @@ class AKilledWriter : public testing::Test {
                   fs::copy_options::overwrite_existing);
   }
   std::string read() const {
-    const SealedFiles files(killed_.path);
+    const ListedFiles files(killed_.path);
     return files.text("a.csv") + ", " + files.text("b.csv");
   }
 
@@ -247,8 +247,8 @@ TEST(AFullDisk, SendsWhatWasStagedElsewhere) {
   files.relocate("disk full");
   commit(files, "summary.json", "2");
   EXPECT_TRUE(fs::is_empty(directory.path));
-  EXPECT_EQ(SealedFiles(files.path()).text("events.csv"), "1");
-  EXPECT_EQ(SealedFiles(files.path()).text("summary.json"), "2");
+  EXPECT_EQ(ListedFiles(files.path()).text("events.csv"), "1");
+  EXPECT_EQ(ListedFiles(files.path()).text("summary.json"), "2");
   ASSERT_EQ(files.notes().size(), 1u);
   EXPECT_EQ(files.notes().front(),
             "disk full; the results are in " + files.path().string() + " instead");
@@ -275,7 +275,7 @@ TEST(ADiskTooSmall, IsFoundBeforeTheRunAndTheOlderFilesStay) {
   input.end_time = 1.0;
   input.output.interval = 2e-7;
   input.output.sections.assign(1'000'000, 0.5);
-  EXPECT_GT(foreseen_bytes(input), 4.8e14);
+  EXPECT_GT(expected_bytes(input), 4.8e14);
   expect_in(message_of<OutputError>([&] { const ResultWriter files(directory.path, input); }),
             directory.path.string() + ": the rows of this run take some 4.9e+05 GB, and",
             "use a longer output.interval, or choose another directory with --out");
@@ -313,7 +313,7 @@ TEST(APipeInPlaceOfAFile, IsRefusedInsteadOfWaitedFor) {
   const fs::path file = directory.path / "events.csv";
   fs::remove(file);
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
-  expect_in(message_of<ResultsError>([&] { SealedFiles(directory.path).text("events.csv"); }),
+  expect_in(message_of<ResultsError>([&] { ListedFiles(directory.path).text("events.csv"); }),
             "it is no regular file");
 }
 
@@ -334,7 +334,7 @@ TEST(ADirectoryRemovedDuringARun, LosesNoRow) {
   files.finish(input, Result{});
   const fs::path place = files.directory().path();
   EXPECT_TRUE(files.directory().is_relocated());
-  const std::string history = SealedFiles(place).text("history.csv");
+  const std::string history = ListedFiles(place).text("history.csv");
   EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), n_rows + 1);
   EXPECT_EQ(history.find('\0'), std::string::npos);
   fs::remove_all(place);

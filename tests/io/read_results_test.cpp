@@ -115,19 +115,19 @@ TEST(ReadResults, KeepsWarningsFailuresNearMissesAndTheClosestApproach) {
 TEST(ReadResults, KeepsAWishAndThatNoneWasMade) {
   Result result = sample_result();
   for (const bool met : {true, false}) {
-    result.wish = WishOutcome{1e-6, met, met ? 3e-7 : infinity, 8.4e-4, "too coarse", "model.mesh"};
+    result.tolerance = ToleranceOutcome{1e-6, met, met ? 3e-7 : infinity, 8.4e-4, "too coarse", "model.mesh"};
     const FinishedRun run = written_and_read(result);
-    ASSERT_TRUE(run.result.wish);
-    EXPECT_EQ(run.result.wish->met, met);
-    EXPECT_EQ(run.result.wish->wished, 1e-6);
-    EXPECT_EQ(run.result.wish->reached, met ? 3e-7 : infinity);
-    EXPECT_EQ(run.result.wish->horizon, 8.4e-4);
-    EXPECT_EQ(run.result.wish->reason, "too coarse");
-    EXPECT_EQ(run.result.wish->key, "model.mesh");
+    ASSERT_TRUE(run.result.tolerance);
+    EXPECT_EQ(run.result.tolerance->met, met);
+    EXPECT_EQ(run.result.tolerance->asked, 1e-6);
+    EXPECT_EQ(run.result.tolerance->reached, met ? 3e-7 : infinity);
+    EXPECT_EQ(run.result.tolerance->horizon, 8.4e-4);
+    EXPECT_EQ(run.result.tolerance->reason, "too coarse");
+    EXPECT_EQ(run.result.tolerance->key, "model.mesh");
     expect_in(summary_json(run.input, result), met ? "\"wish_met\": true" : "\"wish_met\": false");
   }
   const FinishedRun run = written_and_read(sample_result());
-  EXPECT_FALSE(run.result.wish);
+  EXPECT_FALSE(run.result.tolerance);
   expect_in(summary_json(run.input, run.result), "\"wish_met\": null");
 }
 

@@ -2,7 +2,7 @@
 
 #include "case_with.h"
 #include "file_size_limit.h"
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 #include "report/figure_script.h"
 #include "report/files.h"
 #include "sample_result.h"

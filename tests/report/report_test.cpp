@@ -334,9 +334,9 @@ TEST(Advice, OnUncertainSubImpactsOfAMeshThatTheCaseFixesFreesIt) {
 TEST(Advice, OnSearchesThatTheLimitOfWorkEndedRaisesIt) {
   Result result = result_that_took_a_while(2);
   result.choice = "sections yield";
-  result.wish = WishOutcome{1e-6, false, 2e-6, 1e-3, "", "accuracy.work_limit"};
+  result.tolerance = ToleranceOutcome{1e-6, false, 2e-6, 1e-3, "", "accuracy.work_limit"};
   expect_in(advice_on(result), "--within 1us\n--set accuracy.work_limit=");
-  result.wish->key = "model.segments";
+  result.tolerance->key = "model.segments";
   EXPECT_EQ(advice_on(result), "");
 }
 
@@ -470,7 +470,7 @@ TEST(Warnings, AreShownInTheSummary) {
 }
 
 TEST(Wish, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
-  const std::pair<WishOutcome, std::string> all[] = {
+  const std::pair<ToleranceOutcome, std::string> all[] = {
       {{1e-7, true, 0.3e-7, 8e-3, "", ""},
        "event times within 0.1 us: met to the end (0.03 us reached)"},
       {{1e-6, true, 0.3e-6, 840e-6, "its mesh is too coarse", "model.segments"},
@@ -483,24 +483,24 @@ TEST(Wish, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
       {{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, "", ""},
        "event times within 1 us: not met; the error reached is not known"}};
   Result result = sample_result();  // ends: 0.33, 0.6 and, still open, 8 ms
-  expect_not_in(summary_of(paper_case(), result), "wish");
+  expect_not_in(summary_of(paper_case(), result), "  tolerance ");
   for (const auto& [wish, words] : all) {
-    EXPECT_EQ(wish_words(wish, result), words);
-    result.wish = wish;
+    EXPECT_EQ(tolerance_words(wish, result), words);
+    result.tolerance = wish;
     const std::string summary = summary_of(paper_case(), result);
-    expect_in(line_of(summary, "wish"), words);
-    EXPECT_LT(summary.find("  wish "), summary.find("  sub-impacts "));
+    expect_in(line_of(summary, "tolerance"), words);
+    EXPECT_LT(summary.find("  tolerance "), summary.find("  sub-impacts "));
   }
 }
 
 TEST(PlanTable, EndsWithItsHorizonNamesTheAdmittedMeshAndTakesBackTheKeysThatTheCaseFixes) {
   Plan plan;
   plan.wanted = 1e-6;
-  plan.horizon = 285e-6;
-  plan.horizon_reason = "the case's end";
+  plan.reference.horizon = 285e-6;
+  plan.reference.horizon_reason = "the case's end";
   PlanPoint point;
   point.mesh = "96 elements";
-  point.method = "exponential";
+  point.setting.method = "exponential";
   point.input.model.mesh = MeshKind::hermite;
   point.input.model.elements = 96;
   point.verdict = Verdict::right;

@@ -54,10 +54,16 @@ TEST(TheFigureOfCriticalSteps, ShowsWhateverNumbersOfCellsThereAre) {
 TEST(AMapOfOutcomes, HasARowPerMethodAndAColumnPerSetting) {
   const TemporaryDirectory directory;
   OutcomeMap map;
-  map.points = {
-      {"fixed step", "central-difference, forced", 0.5, Verdict::right, {}, 0.0, ""},
-      {"fixed step", "central-difference, forced", 64.0, Verdict::unstable, {}, 0.0, ""},
-      {"tolerance", "bdf, order up to 2", 1e-8, Verdict::wrong_count, {}, 0.0, "two, lost"}};
+  const auto add = [&](const char* group, const char* row, double x, Verdict verdict) {
+    OutcomePoint& point = map.points.emplace_back();
+    point.group = group;
+    point.row = row;
+    point.x = x;
+    point.verdict = verdict;
+  };
+  add("fixed step", "central-difference, forced", 0.5, Verdict::right);
+  add("fixed step", "central-difference, forced", 64.0, Verdict::unstable);
+  add("tolerance", "bdf, order up to 2", 1e-8, Verdict::wrong_count);
   write(directory.path, part_of(map));
   expect_in(directory.read("outcomes.svg"), "central-difference, forced", "bdf, order up to 2",
             ">64<", "1e-08", "wrong count");

@@ -9,9 +9,9 @@
 namespace subimpact {
 namespace {
 
-WorkPrecisionPoint point(const std::string& method, double rtol, double error, double seconds,
-                         Verdict verdict = Verdict::right) {
-  WorkPrecisionPoint p;
+Trial point(const std::string& method, double rtol, double error, double seconds,
+            Verdict verdict = Verdict::right) {
+  Trial p;
   p.setting = {method, false, rtol};
   p.verdict = verdict;
   p.errors.maximum = error;
@@ -44,7 +44,7 @@ TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
     OutputDirectory files(directory.path, "work-precision", "a-b");
     PointLog log(files, {"a", "b"});
     EXPECT_EQ(log.n_known(), 0u);
-    for (const WorkPrecisionPoint& p : all.front().points) log.append("a", "elastic", p);
+    for (const Trial& p : all.front().points) log.append("a", "elastic", p);
   }
   OutputDirectory files(directory.path, "work-precision", "a-b");
   const PointLog log(files, {"a", "b"});

@@ -14,12 +14,12 @@ TEST(ComparedMethods, AllFindTheSameSubImpactsOfAnElasticBeam) {
   ASSERT_EQ(comparison.runs.size(), 10u);
   EXPECT_EQ(comparison.reference.sub_impacts.size(), 8u);
   for (const ComparedRun& run : comparison.runs) {
-    EXPECT_EQ(run.n_corresponding, 8u) << run.name << ": " << run.remark;
-    EXPECT_EQ(run.remark, "every sub-impact corresponds");
-    const bool accurate =
-        run.name.rfind("erk", 0) == 0 || run.name == "nystrom" || run.name == "exponential";
-    EXPECT_LT(1e6 * run.max_end_difference, accurate ? 1e-3 : 0.5) << run.name;
-    EXPECT_GT(run.result.work.steps, 0) << run.name;
+    EXPECT_EQ(run.errors.n_corresponding, 8u) << run.setting.method << ": " << run.message;
+    EXPECT_EQ(run.message, "every sub-impact corresponds");
+    const bool accurate = run.setting.method.rfind("erk", 0) == 0 ||
+                          run.setting.method == "nystrom" || run.setting.method == "exponential";
+    EXPECT_LT(1e6 * run.errors.ends, accurate ? 1e-3 : 0.5) << run.setting.method;
+    EXPECT_GT(run.result.work.steps, 0) << run.setting.method;
   }
 }
 
@@ -29,8 +29,8 @@ TEST(AMethodThatMissesASubImpact, IsToldFromWhereOn) {
   const ComparedRun& run = comparison.runs.front();
   EXPECT_EQ(comparison.reference.sub_impacts.size(), 26u);
   EXPECT_NE(run.result.sub_impacts.size(), 26u);
-  EXPECT_LT(run.n_corresponding, 26u);
-  expect_in(run.remark, "instead of 26", " us");
+  EXPECT_LT(run.errors.n_corresponding, 26u);
+  expect_in(run.message, "instead of 26", " us");
 }
 
 TEST(ATreatmentOfEvents, IsNamedAfterAPlusSign) {
@@ -45,7 +45,7 @@ TEST(ATreatmentOfEvents, IsNamedAfterAPlusSign) {
   EXPECT_EQ(used(2), EventHandling::located);
   EXPECT_EQ(used(3), EventHandling::located);  // it has no root-finding
   EXPECT_EQ(used(4), EventHandling::interpolated);
-  EXPECT_EQ(comparison.reference.used.events, EventHandling::located);
+  EXPECT_EQ(comparison.reference.result.used.events, EventHandling::located);
   EXPECT_THROW(compare(input, {"nystrom+library"}), InvalidCase);
   EXPECT_THROW(compare(input, {"erk+librari"}), InvalidCase);
 }
@@ -58,10 +58,10 @@ TEST(AnInterruptedComparison, HasTheMethodsThatHadEnded) {
                                        [&](double) { return running != "nystrom"; });
   EXPECT_TRUE(cut_short.interrupted);
   ASSERT_EQ(cut_short.runs.size(), 1u);
-  EXPECT_EQ(cut_short.runs.front().name, "erk");
+  EXPECT_EQ(cut_short.runs.front().setting.method, "erk");
   const Comparison whole = compare(input, {"erk"}, note, [](double) { return true; });
   EXPECT_FALSE(whole.interrupted);
-  EXPECT_EQ(cut_short.runs.front().max_end_difference, whole.runs.front().max_end_difference);
+  EXPECT_EQ(cut_short.runs.front().errors.ends, whole.runs.front().errors.ends);
   const Comparison none = compare(input, {"erk"}, note, [](double) { return false; });
   EXPECT_TRUE(none.interrupted);
   EXPECT_TRUE(none.runs.empty());

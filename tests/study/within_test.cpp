@@ -82,9 +82,9 @@ TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
     Case input = paper_run(SectionKind::elastic, 2e-3);
     input.accuracy.event_times = wish;
     const WithinRun run = simulate_within(input, {});
-    ASSERT_TRUE(run.result.wish);
-    EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
-    EXPECT_LE(run.result.wish->reached, wish);
+    ASSERT_TRUE(run.result.tolerance);
+    EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
+    EXPECT_LE(run.result.tolerance->reached, wish);
     EXPECT_LE(largest_difference(run.result.sub_impacts, limit.sub_impacts), wish) << wish;
     EXPECT_LT(mesh_count(run.input), 1600);
   }
@@ -96,7 +96,7 @@ TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
   Case input = paper_run(SectionKind::exact, 0.3e-3);
   input.accuracy.event_times = 0.3e-6;
   const WithinRun run = simulate_within(input, {});
-  EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
+  EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
   ASSERT_GE(run.result.sub_impacts.size(), 3u);
   EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 0.3e-6);
   EXPECT_NEAR(run.result.sub_impacts[1].start, 203.297e-6, 0.3e-6);
@@ -128,9 +128,9 @@ TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
   open.mesh = open.size = false;
   const WithinRun run = simulate_within(input, open);
   EXPECT_TRUE(run.result.outcome.completed());
-  ASSERT_TRUE(run.result.wish);
-  EXPECT_FALSE(run.result.wish->met);
-  EXPECT_EQ(run.result.wish->key, "model.segments");
+  ASSERT_TRUE(run.result.tolerance);
+  EXPECT_FALSE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->key, "model.segments");
   EXPECT_EQ(run.input.model.segments, 101);
 }
 
@@ -142,8 +142,8 @@ TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
   OpenChoices open;
   open.method = open.tolerance = false;
   const WithinRun run = simulate_within(input, open);
-  EXPECT_FALSE(run.result.wish->met);
-  EXPECT_EQ(run.result.wish->key, "solver.step") << run.result.wish->reason;
+  EXPECT_FALSE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->key, "solver.step") << run.result.tolerance->reason;
   EXPECT_EQ(run.input.solver.step, 1e-7);
 }
 
@@ -155,8 +155,8 @@ TEST(AWish, StopsAtTheLimitOfWork) {
   WithinOptions options;
   options.finished = [&](const Result& result) { work += counted_work(result); };
   const WithinRun run = simulate_within(input, {}, options);
-  EXPECT_FALSE(run.result.wish->met);
-  EXPECT_EQ(run.result.wish->key, "accuracy.work_limit");
+  EXPECT_FALSE(run.result.tolerance->met);
+  EXPECT_EQ(run.result.tolerance->key, "accuracy.work_limit");
   EXPECT_LE(work, 2.0 * 3e6);  // the limit holds for predicted work
 }
 
@@ -167,7 +167,7 @@ TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
   const WithinRun run = simulate_within(input, {});
   EXPECT_EQ(run.result.n_yielded_sections, 0u);
   EXPECT_EQ(run.input.model.mesh, MeshKind::hermite);
-  EXPECT_TRUE(run.result.wish->met) << run.result.wish->reason;
+  EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
 }
 
 TEST(CasesBeside, AreCoarserInMeshAndTime) {

@@ -69,10 +69,10 @@ WorkPrecisionOptions quick(std::vector<std::string> methods) {
   return options;
 }
 
-std::vector<WorkPrecisionPoint> points_of(const WorkPrecision& study, const std::string& method) {
-  std::vector<WorkPrecisionPoint> points;
+std::vector<Trial> points_of(const WorkPrecision& study, const std::string& method) {
+  std::vector<Trial> points;
   std::copy_if(study.points.begin(), study.points.end(), std::back_inserter(points),
-               [&](const WorkPrecisionPoint& p) { return p.setting.method == method; });
+               [&](const Trial& p) { return p.setting.method == method; });
   return points;
 }
 
@@ -82,7 +82,7 @@ TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
                      quick({"central-difference", "exponential", "erk:dormand-prince"}));
   const auto central = points_of(study, "central-difference");
   ASSERT_GE(central.size(), 5u);
-  for (const WorkPrecisionPoint& point : central) EXPECT_EQ(point.verdict, Verdict::right);
+  for (const Trial& point : central) EXPECT_EQ(point.verdict, Verdict::right);
   // Second order over eight halvings, give or take the phase of the last step.
   const double order = std::log2(central.front().errors.median / central.back().errors.median) /
                        static_cast<double>(central.size() - 1);
@@ -119,15 +119,15 @@ TEST(AWorkPrecisionStudy, RunsNothingAgainThatIsKnown) {
   WorkPrecisionOptions options = quick({"central-difference"});
   std::set<std::string> run;
   options.announce = [&](const std::string& what) { run.insert(what); };
-  options.known = [&](const Setting& setting) -> std::optional<WorkPrecisionPoint> {
+  options.known = [&](const Setting& setting) -> std::optional<Trial> {
     if (setting == first.points[1].setting) return std::nullopt;
-    for (const WorkPrecisionPoint& point : first.points) {
+    for (const Trial& point : first.points) {
       if (point.setting == setting) return point;
     }
     return std::nullopt;
   };
   int finished = 0;
-  options.finished = [&](const WorkPrecisionPoint&) { ++finished; };
+  options.finished = [&](const Trial&) { ++finished; };
   const WorkPrecision second = work_precision(input, options);
   EXPECT_EQ(finished, 1);
   EXPECT_EQ(run.size(), 2u);  // the reference and the point that was missing
@@ -138,7 +138,7 @@ TEST(AWorkPrecisionStudy, RunsNothingAgainThatIsKnown) {
 TEST(AnInterruptedStudy, KeepsThePointsItHas) {
   WorkPrecisionOptions options = quick({"central-difference"});
   int finished = 0;
-  options.finished = [&](const WorkPrecisionPoint&) { ++finished; };
+  options.finished = [&](const Trial&) { ++finished; };
   options.progress = [&](double) { return finished < 3; };
   const WorkPrecision study = work_precision(paper_run(SectionKind::elastic, 0.6e-3), options);
   EXPECT_TRUE(study.interrupted);
@@ -147,7 +147,7 @@ TEST(AnInterruptedStudy, KeepsThePointsItHas) {
 
 TEST(Recommendation, TakesTheCheapestOfThoseThatFindEverySubImpact) {
   const auto point = [](double error, double seconds, Verdict verdict) {
-    WorkPrecisionPoint p;
+    Trial p;
     p.errors.maximum = error;
     p.seconds = seconds;
     p.verdict = verdict;
@@ -164,7 +164,7 @@ TEST(Recommendation, TakesTheCheapestOfThoseThatFindEverySubImpact) {
 
 TEST(Recommendation, TellsASettingThatReachesItsErrorByLuckFromOneThatDoesSteadily) {
   const auto point = [](const char* method, double error, double seconds) {
-    WorkPrecisionPoint p;
+    Trial p;
     p.setting.method = method;
     p.errors.maximum = error;
     p.seconds = seconds;

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 
 namespace subimpact {
 
@@ -12,7 +12,7 @@ namespace subimpact {
 inline void reseal(const std::filesystem::path& directory) {
   Manifest manifest = *read_manifest(directory);
   for (auto& [name, seal] : manifest.files) {
-    if (const auto now = seal_of(directory / name)) seal = *now;
+    if (const auto now = fingerprint_of(directory / name)) seal = *now;
   }
   std::ofstream(directory / manifest_name) << to_json(manifest);
 }

@@ -33,7 +33,7 @@ struct Request {
 
   bool advised() const { return plan.cheapest.has_value(); }
   const PlanPoint& advice() const { return plan.points[*plan.cheapest]; }
-  double ratio() const { return cheapest > 0.0 ? advice().work / cheapest : 0.0; }
+  double ratio() const { return cheapest > 0.0 ? advice().counted / cheapest : 0.0; }
 };
 
 bool same_sequence(const Case& a, const Case& b) {
@@ -47,7 +47,8 @@ double cheapest_of(const Plan& plan, const Reference& truth, std::size_t n, doub
   const auto& points = plan.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i + 1 < points.size() && same_sequence(points[i].input, points[i + 1].input)) continue;
-    const double work = cheapest_work(sequence_of(points[i].input, plan.horizon), truth, n, wish);
+    const double work =
+        cheapest_work(sequence_of(points[i].input, plan.reference.horizon), truth, n, wish);
     if (work > 0.0 && (cheapest == 0.0 || work < cheapest)) cheapest = work;
   }
   return cheapest;
@@ -66,12 +67,12 @@ void judge(Request& request) {
     return;
   }
   const Reference truth = reference_of(plan.reference.input, 2.0);
-  request.n_judged = std::min(n_judged(truth, request.wish), plan.sub_impacts.size());
+  request.n_judged = std::min(n_judged(truth, request.wish), plan.reference.sub_impacts.size());
   const PlanPoint& advice = request.advice();
   request.error = error_of(simulate(advice.input).sub_impacts, truth, request.n_judged);
   request.cheapest = cheapest_of(plan, truth, request.n_judged, request.wish);
-  for (const PlanPoint& point : plan.points) request.of_plan += point.work / advice.work;
-  request.of_reference = counted_work(plan.reference.result) / advice.work;
+  for (const PlanPoint& point : plan.points) request.of_plan += point.counted / advice.counted;
+  request.of_reference = counted_work(plan.reference.result) / advice.counted;
 }
 
 // With the default limit of work.
@@ -109,9 +110,10 @@ void print_row(const Request& request) {
   }
   const Plan& plan = request.plan;
   fmt::print("| {} | {:g} | {}, {} | {:.1f} | {} of {} | {:.3g} | {:.2f} | {:.1f} | {:.1f} |\n",
-             request.scene, us * request.wish, request.advice().mesh, request.advice().method,
-             us * plan.horizon, request.n_judged, plan.sub_impacts.size(), us * request.error,
-             request.ratio(), request.of_plan, request.of_reference);
+             request.scene, us * request.wish, request.advice().mesh,
+             request.advice().setting.method, us * plan.reference.horizon, request.n_judged,
+             plan.reference.sub_impacts.size(), us * request.error, request.ratio(),
+             request.of_plan, request.of_reference);
 }
 
 }  // namespace

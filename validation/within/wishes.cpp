@@ -58,7 +58,7 @@ Wished run_wish(Case input, double wish) {
 
 void judge(Wished& wished, const Reference& reference, const std::vector<SequenceRun>& runs) {
   const auto& all = wished.run.result.sub_impacts;
-  wished.n = n_before(all, wished.run.result.wish->horizon);
+  wished.n = n_before(all, wished.run.result.tolerance->horizon);
   wished.n_possible = n_judged(reference, wished.wish);
   wished.n_known = std::min(wished.n, wished.n_possible);
   wished.error = error_of(all, reference, wished.n_known);
@@ -93,7 +93,7 @@ void print_row(const JudgedScene& scene, const Wished& wished, double ratio) {
              scene.yields ? "yields" : "elastic", us * wished.wish, mesh_count(wished.run.input),
              scene.yields ? "cells" : "elements", result.sub_impacts.size(), wished.n,
              wished.n_known, us * wished.error, ratio > 0.0 ? fmt::format("{:.2f}", ratio) : "",
-             result.wish->reason);
+             result.tolerance->reason);
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ int study_wishes(const WishStudy& study) {
   std::vector<double> ratios, ratios_of_met;
   for (const JudgedScene& scene : scenes) {
     for (const Wished& wished : scene.wished) {
-      const WishOutcome& outcome = *wished.run.result.wish;
+      const ToleranceOutcome& outcome = *wished.run.result.tolerance;
       const double ratio = wished.cheapest > 0.0 ? wished.work / wished.cheapest : 0.0;
       ++requests;
       met += outcome.met;

@@ -59,7 +59,7 @@ class OutputDirectory {
  private:
   void open(const std::filesystem::path& directory);
   void begin_staging();
-  void seal();
+  void write_manifest();
   void settle();
   void put_in_place(const std::string& name, const Manifest& manifest);
   void remove_replaced(const std::string& name, const Manifest& manifest);

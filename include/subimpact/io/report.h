@@ -27,8 +27,8 @@ std::string error_words(const Result& result);
 /// ", 9 certain", ", all certain": continues a number of sub-impacts. Empty without error estimate.
 std::string certain_words(const Result& result);
 
-/// What became of a wished accuracy, in one line: wish, horizon, error, reason and the key to free.
-std::string wish_words(const WishOutcome& wish, const Result& result);
+/// What became of a tolerance on event times, in one line: horizon, error, reason, key to free.
+std::string tolerance_words(const ToleranceOutcome& tolerance, const Result& result);
 
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
 /// with outcome_caveat(), if there is one. With an error estimate, times have their errors beside

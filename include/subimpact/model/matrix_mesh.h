@@ -11,14 +11,14 @@ struct MeshMatrices {
     std::size_t first;
     std::vector<double> coefficients;
   };
-  BandedMatrix mass;               ///< kg; positive definite, of half bandwidth up to 3
-  std::vector<Row> curvature{};      ///< B: one row per section
-  std::vector<double> weights{};     ///< W of the sections, m
-  std::vector<double> positions{};   ///< x of the sections, m
-  SparseFunctional struck_point{};   ///< S, displacement of the struck point
-  SparseFunctional first_end{};    ///< w(0); zero where it is held
-  std::vector<double> translation{}; ///< unknowns of a beam that moves by 1 m as a whole
-  bool is_held = false;            ///< whether supports prevent that
+  BandedMatrix mass;                  ///< kg; positive definite, of half bandwidth up to 3
+  std::vector<Row> curvature{};       ///< B: one row per section
+  std::vector<double> weights{};      ///< W of the sections, m
+  std::vector<double> positions{};    ///< x of the sections, m
+  SparseFunctional struck_point{};    ///< S, displacement of the struck point
+  SparseFunctional first_end{};       ///< w(0); zero where it is held
+  std::vector<double> translation{};  ///< unknowns of a beam that moves by 1 m as a whole
+  bool is_held = false;               ///< whether supports prevent that
   std::string description = "a mesh given by its matrices";
 };
 

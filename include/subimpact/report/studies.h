@@ -48,16 +48,15 @@ class PointLog {
   PointLog(OutputDirectory& directory, const std::vector<std::string>& cases);
 
   /// A point of an earlier study.
-  std::optional<WorkPrecisionPoint> known(const std::string& case_id, const Setting& setting) const;
+  std::optional<Trial> known(const std::string& case_id, const Setting& setting) const;
   std::size_t n_known() const { return known_.size(); }
   /// Commits the file with a row more. Throws OutputError.
-  void append(const std::string& case_id, const std::string& label,
-              const WorkPrecisionPoint& point);
+  void append(const std::string& case_id, const std::string& label, const Trial& point);
 
  private:
   OutputDirectory& directory_;
   std::string text_;
-  std::map<std::string, WorkPrecisionPoint> known_;
+  std::map<std::string, Trial> known_;
 };
 
 /// Identifies a case: a fingerprint of the program's version and of all keys of the case but those

@@ -42,10 +42,10 @@ struct SolverOptions {
 };
 
 struct AccuracyOptions {
-  /// s: wished bound on the error of every event time, for simulate_within() (see study/within.h);
+  /// s: bound on the error of every event time, for simulate_within() (see study/within.h);
   /// simulate() takes no notice of it.
   std::optional<double> event_times;
-  /// Bound on the work of all runs that such a wish may cost together, in evaluations of the
+  /// Bound on the work of all runs that such a bound may cost together, in evaluations of the
   /// right-hand side times unknowns of the beam: some 5 ns each.
   double work_limit = 2e10;
   /// Largest error of the energy, relative to the initial energy, of a run that counts as

@@ -250,12 +250,12 @@ struct NeglectedShear {
   std::optional<double> with;  ///< s; none: not within three times the other
 };
 
-/// What became of a wished accuracy of the event times (starts and ends of sub-impacts).
-struct WishOutcome {
-  double wished = 0.0;   ///< s, error of event times that was asked for
-  bool met = false;      ///< whether every event time of the run is decided and within the wish
+/// What became of a tolerance on the event times (starts and ends of sub-impacts).
+struct ToleranceOutcome {
+  double asked = 0.0;    ///< s, error of event times that was asked for
+  bool met = false;      ///< whether every event time of the run is certain and within it
   double reached = 0.0;  ///< s, largest error of the event times before the horizon; inf: not known
-  double horizon = 0.0;  ///< s, up to which event times are decided and within the wish
+  double horizon = 0.0;  ///< s, up to which event times are certain and within it
   std::string reason;    ///< why the horizon comes before the end; else empty
   std::string key;       ///< key of the case that stands in the way and could be freed; or empty
 };
@@ -324,7 +324,7 @@ struct Result {
   std::vector<std::string> warnings;
   std::optional<ErrorEstimate> error_estimate;    ///< with error bars
   std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
-  std::optional<WishOutcome> wish;                ///< of runs that were asked for an accuracy
+  std::optional<ToleranceOutcome> tolerance;      ///< of runs that were asked for an accuracy
   std::optional<Predictability> predictability;   ///< of a case with scatter
   /// Why mesh and method are what they are, where the program chose them; else empty.
   std::string choice;

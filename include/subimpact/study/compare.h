@@ -7,29 +7,19 @@
 #include <vector>
 
 #include "subimpact/case/simulate.h"
+#include "subimpact/study/event_errors.h"
 #include "subimpact/study/judgement.h"
-#include "subimpact/study/match.h"
 
 namespace subimpact {
 
-/// One method's run, set beside the reference run.
-struct ComparedRun {
-  std::string name;  ///< as given: "erk", "erk:dormand-prince"
-  Case input;
+/// One method's run, set beside the reference run; Setting::method is the name as given.
+struct ComparedRun : Trial {
   Result result;
-  std::vector<MatchedPair> pairs;       ///< reference (first) against this run (second)
-  std::size_t n_corresponding = 0;      ///< leading sub-impacts that correspond
-  double max_start_difference = 0.0;    ///< s, over the corresponding ones
-  double max_end_difference = 0.0;      ///< s
-  double max_peak_difference = 0.0;     ///< relative
-  double max_impulse_difference = 0.0;  ///< relative to the largest impulse
-  std::string
-      remark;  ///< in words: how count and order differ from the reference, and from where on
+  std::vector<MatchedPair> pairs;  ///< reference (first) against this run (second)
 };
 
 struct Comparison {
-  Case reference_input;
-  Result reference;  ///< with error bars
+  Reference reference;  ///< with error bars
   std::vector<ComparedRun> runs;
   bool interrupted = false;  ///< `runs` are those that had ended; none: nor had the reference
 };

@@ -8,6 +8,7 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/match.h"
+#include "subimpact/study/sweep.h"
 
 namespace subimpact {
 
@@ -22,6 +23,11 @@ struct Reference {
   std::string horizon_reason;          ///< in words
   std::string description;             ///< the two runs, in words
 };
+
+/// Of the result of a reference the first `n` sub-impacts count, for a reason in words that matters
+/// where there are more: sets `sub_impacts`, and the horizon in the middle of the separation that
+/// follows.
+void set_horizon(Reference& reference, std::size_t n, const std::string& reason);
 
 /// Two runs by different methods, one beside the other on two cores: `exponential` and `nystrom` at
 /// rtol = 1e-12 where the beam is elastic, else `nystrom` and `erk`. The error stated for an event
@@ -44,7 +50,10 @@ struct EventErrors {
   double maximum = 0.0;             ///< s
   double first = 0.0;               ///< s, of the first end
   double last = 0.0;                ///< s, of the last time compared
+  double starts = 0.0;              ///< s, largest of the starts
+  double ends = 0.0;                ///< s, largest of the ends
   double peak_force = 0.0;          ///< largest, relative
+  double impulse = 0.0;             ///< largest, relative to the largest impulse
   double striker_velocity = 0.0;    ///< at the horizon, relative to the initial velocity
   double beam_velocity = 0.0;       ///< its mean, likewise
   std::optional<UnmatchedSubImpact> unmatched;  ///< the first sub-impact that does not correspond
@@ -79,5 +88,25 @@ std::string_view to_string(Verdict verdict);
 
 /// The verdict on a run that was accepted.
 Verdict judge(const Result& run, const EventErrors& errors);
+
+/// A variant of a case, run and judged by a reference: what compare, work-precision, plan and
+/// stability list.
+struct Trial {
+  Setting setting;
+  Case input;
+  Verdict verdict = Verdict::not_run;
+  std::string message;  ///< why it is not right, in words
+  EventErrors errors;   ///< meaningful if right or of wrong count
+  Work work;
+  double seconds = 0.0;  ///< wall time of one run, set-up included
+  int repeats = 0;
+  double energy_error = 0.0;  ///< largest relative one of the run
+
+  bool reaches(double error) const { return verdict == Verdict::right && errors.maximum <= error; }
+};
+
+/// Runs `trial.input`, whose end is the reference's horizon, and judges it. An InvalidCase is a
+/// verdict, and the result then empty.
+Result run_trial(Trial& trial, const Reference& reference, const Progress& progress = {});
 
 }  // namespace subimpact

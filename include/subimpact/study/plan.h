@@ -12,15 +12,10 @@
 
 namespace subimpact {
 
-/// One run of a sequence of meshes, set beside the reference.
-struct PlanPoint {
-  Case input;
-  std::string mesh;    ///< "501 cells", "200 elements, 4 times as fine at the strike"
-  std::string method;  ///< as in case files
-  Verdict verdict = Verdict::not_run;
-  EventErrors errors;    ///< total ones, against the reference
-  double work = 0.0;     ///< counted (counted_work)
-  double seconds = 0.0;  ///< wall time of the run
+/// One run of a sequence of meshes, set beside the reference; the method is as in case files.
+struct PlanPoint : Trial {
+  std::string mesh;      ///< "501 cells", "200 elements, 4 times as fine at the strike"
+  double counted = 0.0;  ///< counted_work() of the run
   bool within = false;  ///< right, and with the reference's error within the wanted one and half of
                         ///< what it times
   /// Whether it and all finer runs of its sequence are within: not a mesh that is right by chance.
@@ -30,13 +25,10 @@ struct PlanPoint {
 struct Plan {
   Case asked;           ///< as the caller passed it
   double wanted = 0.0;  ///< s
-  /// The run that stands for the limit of fine meshes, and its error bars.
-  WithinRun reference;
-  std::vector<SubImpact> sub_impacts;  ///< of the reference, those before the horizon
-  double reference_error = 0.0;        ///< s, the largest stated one of these
-  double horizon = 0.0;                ///< s, up to which runs are judged
-  std::string horizon_reason;          ///< in words
-  std::vector<PlanPoint> points;       ///< sequence by sequence, each from coarse to fine
+  /// The run that stands for the limit of fine meshes: its sub-impacts before the horizon, up to
+  /// which runs are judged.
+  Reference reference;
+  std::vector<PlanPoint> points;  ///< sequence by sequence, each from coarse to fine
   std::optional<std::size_t>
       cheapest;  ///< index into points, by counted work; empty: none admitted
   bool interrupted = false;

@@ -8,7 +8,6 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/sweep.h"
 
 namespace subimpact {
 
@@ -75,14 +74,10 @@ struct MultistepGrowth {
 };
 std::vector<MultistepGrowth> bdf_growths();
 
-struct OutcomePoint {
+struct OutcomePoint : Trial {
   std::string group;  ///< "fixed step" or "tolerance"
   std::string row;    ///< method, and what else sets the row apart
   double x = 0.0;     ///< omega_max h, or rtol
-  Verdict verdict = Verdict::refused;
-  EventErrors errors{};
-  double energy_error = 0.0;  ///< largest relative one of the run
-  std::string message{};      ///< message to the user, where the run is not right
 };
 
 struct OutcomeMap {

@@ -70,9 +70,9 @@ struct WithinRun {
 /// from the counted work of the runs so far follows whether it is affordable. Neither depends on
 /// measured time or on the number of jobs. Runs that are not expected to be the last keep no rows.
 ///
-/// Result::wish states whether this is met; if not, why, and which key of the case stands in the
-/// way. Result::choice gives the reason of the choice. A search that is stopped returns the last
-/// mesh that was finished. Throws InvalidCase.
+/// Result::tolerance states whether this is met; if not, why, and which key of the case stands in
+/// the way. Result::choice gives the reason of the choice. A search that is stopped returns the
+/// last mesh that was finished. Throws InvalidCase.
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options = {});
 

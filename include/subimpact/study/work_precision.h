@@ -8,36 +8,22 @@
 #include <vector>
 
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/sweep.h"
 
 namespace subimpact {
 
-/// One setting's run, set beside the reference.
-struct WorkPrecisionPoint {
-  Setting setting;
-  Verdict verdict = Verdict::not_run;
-  std::string message;  ///< why it is not right, in words
-  EventErrors errors;   ///< meaningful if right or of wrong count
-  Work work;
-  double seconds = 0.0;  ///< wall time of one run, see timed repeats
-  int repeats = 0;
-
-  bool reaches(double error) const { return verdict == Verdict::right && errors.maximum <= error; }
-};
-
 /// The cheapest setting for a wanted error.
 struct Recommendation {
-  double wanted = 0.0;                      ///< s
-  std::optional<WorkPrecisionPoint> point;  ///< nothing if no setting reaches it
+  double wanted = 0.0;         ///< s
+  std::optional<Trial> point;  ///< nothing if no setting reaches it
   /// Where a finer setting of the same method misses the error, so that the cheapest one reaches it
   /// by chance: the cheapest setting of any method whose finer ones all reach it too.
-  std::optional<WorkPrecisionPoint> steady;
+  std::optional<Trial> steady;
 };
 
 struct WorkPrecision {
   std::string label;  ///< of the chart: what sets this case apart from others beside it
   Reference reference;
-  std::vector<WorkPrecisionPoint> points;
+  std::vector<Trial> points;
   bool interrupted = false;
 };
 
@@ -50,9 +36,9 @@ struct WorkPrecisionOptions {
   double timing_budget = 0.6;        ///< s, of the repeats of one setting
   int most_repeats = 7;
   /// A point that is known already, from a study that was interrupted.
-  std::function<std::optional<WorkPrecisionPoint>(const Setting&)> known;
+  std::function<std::optional<Trial>(const Setting&)> known;
   /// Called with each point as soon as it is computed.
-  std::function<void(const WorkPrecisionPoint&)> finished;
+  std::function<void(const Trial&)> finished;
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
   Progress progress;  ///< of a single run; returning false ends the study with what it has
@@ -66,10 +52,10 @@ WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& opti
 
 /// The cheapest setting for each of recommended_errors(): all sub-impacts correspond, and no event
 /// time is off by more.
-std::vector<Recommendation> recommendations_from(const std::vector<WorkPrecisionPoint>& points);
+std::vector<Recommendation> recommendations_from(const std::vector<Trial>& points);
 
 /// By how much errors grow over the scene: the median, over the points that are right, of the last
 /// event's error over that of the first. Nothing without such points.
-std::optional<double> error_growth(const std::vector<WorkPrecisionPoint>& points);
+std::optional<double> error_growth(const std::vector<Trial>& points);
 
 }  // namespace subimpact

@@ -1,4 +1,4 @@
-#include "io/sealed_files.h"
+#include "io/listed_files.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -24,25 +24,25 @@ const std::string staging_prefix = ".subimpact-";
 constexpr std::size_t n_identity = 32;  // digits
 constexpr const char* hexadecimal = "0123456789abcdef";
 
-Json seals_to_json(const std::map<std::string, Seal>& seals) {
+Json fingerprints_to_json(const std::map<std::string, Fingerprint>& fingerprints) {
   Json json = Json::object();
-  for (const auto& [name, seal] : seals) {
-    json[name] = {{"bytes", seal.bytes}, {"sha256", seal.sha256}};
+  for (const auto& [name, fingerprint] : fingerprints) {
+    json[name] = {{"bytes", fingerprint.bytes}, {"sha256", fingerprint.sha256}};
   }
   return json;
 }
 
 // Names are those of files in the directory itself: a manifest from elsewhere must not lead out.
-std::map<std::string, Seal> seals_from(const Json& json) {
-  std::map<std::string, Seal> seals;
+std::map<std::string, Fingerprint> fingerprints_from(const Json& json) {
+  std::map<std::string, Fingerprint> fingerprints;
   for (const auto& [name, entry] : json.items()) {
     if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
       throw ResultsError(fmt::format("\"{}\" is not the name of a file of results", name));
     }
-    seals[name] = {integer<std::uintmax_t>(entry.at("bytes")),
-                   entry.at("sha256").get<std::string>()};
+    fingerprints[name] = {integer<std::uintmax_t>(entry.at("bytes")),
+                          entry.at("sha256").get<std::string>()};
   }
-  return seals;
+  return fingerprints;
 }
 
 [[noreturn]] void refuse_to_read(const fs::path& path, const char* cause) {
@@ -80,31 +80,31 @@ std::string text_of(std::istream& file, const fs::path& path) {
 
 }  // namespace
 
-Seal seal_of(std::istream& file) {
+Fingerprint fingerprint_of(std::istream& file) {
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(),
                                                                         EVP_MD_CTX_free);
   EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
-  Seal seal;
+  Fingerprint fingerprint;
   std::array<char, 1 << 16> buffer;
   while (file.read(buffer.data(), buffer.size()), file.gcount() > 0) {
     const auto n = static_cast<std::size_t>(file.gcount());
     EVP_DigestUpdate(context.get(), buffer.data(), n);
-    seal.bytes += n;
+    fingerprint.bytes += n;
   }
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
   unsigned int length = 0;
   EVP_DigestFinal_ex(context.get(), digest.data(), &length);
-  for (unsigned int i = 0; i < length; ++i) seal.sha256 += fmt::format("{:02x}", digest[i]);
+  for (unsigned int i = 0; i < length; ++i) fingerprint.sha256 += fmt::format("{:02x}", digest[i]);
   file.clear();
   file.seekg(0);
-  return seal;
+  return fingerprint;
 }
 
-std::optional<Seal> seal_of(const fs::path& path) {
+std::optional<Fingerprint> fingerprint_of(const fs::path& path) {
   if (!fs::is_regular_file(fs::symlink_status(path))) return {};
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::system_error(errno, std::generic_category(), path.string());
-  return seal_of(file);
+  return fingerprint_of(file);
 }
 
 fs::path staging_of(const fs::path& directory, const std::string& commit) {
@@ -130,8 +130,8 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
     manifest.kind = json.at("kind").get<std::string>();
     manifest.identity = json.at("identity").get<std::string>();
     manifest.commit = json.at("commit").get<std::string>();
-    manifest.files = seals_from(json.at("files"));
-    manifest.replaced = seals_from(json.at("replaced"));
+    manifest.files = fingerprints_from(json.at("files"));
+    manifest.replaced = fingerprints_from(json.at("replaced"));
     if (manifest.commit.find_first_not_of(hexadecimal) != std::string::npos) {
       throw ResultsError("\"commit\" is not a hexadecimal number");
     }
@@ -150,8 +150,8 @@ std::string to_json(const Manifest& manifest) {
                      {"identity", manifest.identity},
                      {"program", "subimpact " + project_version()},
                      {"commit", manifest.commit},
-                     {"files", seals_to_json(manifest.files)},
-                     {"replaced", seals_to_json(manifest.replaced)}};
+                     {"files", fingerprints_to_json(manifest.files)},
+                     {"replaced", fingerprints_to_json(manifest.replaced)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -165,16 +165,16 @@ void throw_always_replaced(const fs::path& directory) {
       "{}: is written anew again and again; read it when the runs have ended", directory.string()));
 }
 
-SealedFiles::SealedFiles(fs::path directory)
+ListedFiles::ListedFiles(fs::path directory)
     : directory_(std::move(directory)), manifest_(read_manifest(directory_)) {}
 
-bool SealedFiles::are_sealed() const {
+bool ListedFiles::are_listed() const {
   return manifest_ && manifest_->kind != "figures" && manifest_->kind != "report";
 }
 
-std::ifstream SealedFiles::open(const std::string& name) const {
+std::ifstream ListedFiles::open(const std::string& name) const {
   const fs::path path = directory_ / name;
-  if (!are_sealed()) return open_file(path);
+  if (!are_listed()) return open_file(path);
   const auto listed = manifest_->files.find(name);
   if (listed == manifest_->files.end()) {
     throw ResultsError(fmt::format("{}: is not among the results of `subimpact {}` that {} lists",
@@ -186,7 +186,7 @@ std::ifstream SealedFiles::open(const std::string& name) const {
     errno = 0;
     std::ifstream file(place, std::ios::binary);
     if (!file && errno == EACCES) refuse_to_read(place, std::strerror(errno));
-    if (file && seal_of(file) == listed->second) return file;
+    if (file && fingerprint_of(file) == listed->second) return file;
   }
   const std::optional<Manifest> now = read_manifest(directory_);
   if (now && now->commit != manifest_->commit) throw ReplacedMeanwhile();
@@ -196,7 +196,7 @@ std::ifstream SealedFiles::open(const std::string& name) const {
       path.string(), manifest_name));
 }
 
-std::string SealedFiles::text(const std::string& name) const {
+std::string ListedFiles::text(const std::string& name) const {
   std::ifstream file = open(name);
   return text_of(file, directory_ / name);
 }

@@ -10,24 +10,24 @@
 namespace subimpact {
 
 /// What a file must be: its length in bytes and its SHA-256 in hexadecimal digits.
-struct Seal {
+struct Fingerprint {
   std::uintmax_t bytes = 0;
   std::string sha256;
-  bool operator==(const Seal&) const = default;
+  bool operator==(const Fingerprint&) const = default;
 };
 
 /// Of all that can be read; the file is at its beginning then.
-Seal seal_of(std::istream& file);
+Fingerprint fingerprint_of(std::istream& file);
 /// Of a regular file; nothing if there is none of that name (a symbolic link is none). Throws
 /// std::system_error if the file cannot be opened.
-std::optional<Seal> seal_of(const std::filesystem::path& file);
+std::optional<Fingerprint> fingerprint_of(const std::filesystem::path& file);
 
 struct Manifest {
-  std::string kind;                      ///< "run", "figures", "compare" ...
-  std::string identity;                  ///< of the run or study
-  std::string commit;                    ///< names the directory that the files are moved from
-  std::map<std::string, Seal> files;     ///< by their names
-  std::map<std::string, Seal> replaced;  ///< files that these take the place of
+  std::string kind;                          ///< "run", "figures", "compare" ...
+  std::string identity;                      ///< of the run or study
+  std::string commit;                        ///< names the directory that the files are moved from
+  std::map<std::string, Fingerprint> files;  ///< by their names
+  std::map<std::string, Fingerprint> replaced;  ///< files that these take the place of
 };
 
 inline constexpr const char* manifest_name = "manifest.json";
@@ -58,15 +58,15 @@ struct ReplacedMeanwhile {};
 [[noreturn]] void throw_always_replaced(const std::filesystem::path& directory);
 
 /// The files of a directory as its manifest lists them, to be read.
-class SealedFiles {
+class ListedFiles {
  public:
   /// Throws ResultsError.
-  explicit SealedFiles(std::filesystem::path directory);
+  explicit ListedFiles(std::filesystem::path directory);
 
   const std::optional<Manifest>& manifest() const { return manifest_; }
   /// Whether the manifest lists tables. A directory without a manifest, or with one of figures or
   /// pages alone, is of an older version of this program.
-  bool are_sealed() const;
+  bool are_listed() const;
 
   /// Opens a file whose length and checksum are those of the manifest or, if there is no list of
   /// tables, the file as it is. Throws ResultsError, ReplacedMeanwhile.
@@ -80,11 +80,11 @@ class SealedFiles {
 
 /// What `read(files)` returns for files that others may replace meanwhile. Throws ResultsError.
 template <class Read>
-auto read_sealed(const std::filesystem::path& directory, Read read) {
+auto read_listed(const std::filesystem::path& directory, Read read) {
   constexpr int most_attempts = 20;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     try {
-      return read(SealedFiles(directory));
+      return read(ListedFiles(directory));
     } catch (const ReplacedMeanwhile&) {
     }
   }
