@@ -34,6 +34,7 @@ const Named cases[] = {{"paper", check_paper},
                        {"contact", check_contact},
                        {"bending", check_bending},
                        {"rigid_plastic", check_rigid_plastic},
+                       {"repeated_strikes", check_repeated_strikes},
                        {"conservation", check_conservation}};
 
 constexpr const char* begin_mark = "<!-- results: written by scripts/validate --update -->\n";

@@ -56,6 +56,7 @@ Outcome check_glued_mass();
 Outcome check_long_beam();
 Outcome check_paper();
 Outcome check_paper_as_computed();
+Outcome check_repeated_strikes();
 Outcome check_rigid_bodies();
 Outcome check_rigid_plastic();
 Outcome check_sdnl32();

@@ -98,7 +98,12 @@ LoadedCase CaseOptions::load(const std::vector<Override>& by_options) const {
                          "--within " + within});
   }
   overrides.insert(overrides.end(), by_options.begin(), by_options.end());
-  return read_case_file(file, overrides);
+  LoadedCase loaded = read_case_file(file, overrides);
+  if (may_repeat || loaded.value.strikes == 1) return loaded;
+  throw CaseFileError(loaded.message(InvalidCase(
+      "repeat.strikes", fmt::format("is {}, but only `subimpact run` strikes more than once; "
+                                    "allowed here: 1; add --set repeat.strikes=1",
+                                    loaded.value.strikes))));
 }
 
 std::string CaseOptions::directory_with(const std::string& ending) const {

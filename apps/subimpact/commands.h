@@ -46,7 +46,8 @@ struct CaseOptions {
   std::string file;
   std::string method;
   std::vector<std::string> settings;
-  std::string within;  // empty, or a time with its unit
+  std::string within;       // empty, or a time with its unit
+  bool may_repeat = false;  // whether the command takes repeat.strikes
 
   void add_to(CLI::App& command);
   void add_within_to(CLI::App& command);

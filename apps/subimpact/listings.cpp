@@ -57,8 +57,10 @@ void add_explain(CLI::App& program, int& status) {
 void add_new(CLI::App& program, int& status) {
   auto [command, options] = add_command(
       program, status, "new", "Print a commented case file to begin with", print_new_case);
-  command.add_option("SCENE", options.scene, "hammer (default), ball-drop or cantilever")
-      ->check(CLI::IsMember({"hammer", "ball-drop", "cantilever"}));
+  command
+      .add_option("SCENE", options.scene,
+                  "hammer (default), ball-drop, cantilever or repeated-strikes")
+      ->check(CLI::IsMember({"hammer", "ball-drop", "cantilever", "repeated-strikes"}));
   command.footer(
       "Examples:\n"
       "  subimpact new > case.toml\n"

@@ -17,8 +17,9 @@ namespace {
 struct RunOptions {
   CaseOptions input;
   std::string directory;
-  std::string within;  // empty, or a time with its unit
-  bool all = false;    // rows of the table
+  std::string within;     // empty, or a time with its unit
+  std::string continued;  // empty, or a directory
+  bool all = false;       // rows of the table
   bool verbose = false;
   std::string error_bars;  // empty: from coarser meshes; "off", "time" or "all"
   Jobs jobs = n_processors();
@@ -27,6 +28,12 @@ struct RunOptions {
 
 std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOptions& options) {
   if (options.error_bars.empty()) return std::nullopt;
+  if (!options.continued.empty() && options.error_bars != "off") {
+    throw CaseFileError(fmt::format(
+        "--error-bars={}: cannot go with --continue: the errors of a run that goes on are those "
+        "that the runs beside the earlier one show; leave out --error-bars",
+        options.error_bars));
+  }
   if (loaded.value.accuracy.event_times) {
     throw CaseFileError(fmt::format(
         "--error-bars={}: cannot go with a tolerance on event times, whose errors come from other "
@@ -37,16 +44,30 @@ std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOption
   return options.error_bars == "time" ? ErrorBars::time : ErrorBars::all;
 }
 
+// The rows of the run whose strike goes on come first, as far as this one has such rows.
+void add_rows_before(const Case& input, const FinishedRun& before, ResultWriter& files) {
+  const auto add = [&](const auto& rows) {
+    for (const auto& row : rows) files.add(row);
+  };
+  const OutputOptions &now = input.output, &then = before.input.output;
+  if (now.has_history()) add(before.result.history);
+  if (now.sections == then.sections) add(before.result.section_history);
+  if (now.points == then.points) add(before.result.point_history);
+  if (now.shapes != 0.0 && now.shape_points == then.shape_points) add(before.result.shapes);
+}
+
 WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOptions& options,
-                     const InterruptListener& listener, ResultWriter& files) {
+                     const InterruptListener& listener, ResultWriter& files,
+                     const std::optional<FinishedRun>& before) {
   ProgressDisplay progress(loaded.value.end_time, options.quiet, listener);
   RunRequest request;
   request.error_bars = error_bars_of(loaded, options);
   request.jobs = options.jobs;
   request.progress = std::ref(progress);
   request.announce = [&progress](const std::string& what) { progress.show_run(what); };
-  request.rows = [&files] {
+  request.rows = [&] {
     files.restart();
+    if (before) add_rows_before(loaded.value, *before, files);
     return &files;
   };
   request.resolved = std::move(resolved);
@@ -56,6 +77,11 @@ WithinRun run_loaded(const LoadedCase& loaded, ResolvedRun resolved, const RunOp
 // Of a case with scatter: what it leaves of the event times.
 void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListener& listener) {
   if (!run.result.outcome.completed() || scattering_keys(run.input).empty()) return;
+  if (run.input.parts.start) {
+    run.result.warnings.emplace_back(
+        "the scatter has no effect: it is known for the first strike on a straight beam alone");
+    return;
+  }
   StatusLine status;
   SensitivityOptions how;
   how.jobs = options.jobs;
@@ -110,6 +136,7 @@ std::string next_steps(const RunOptions& options, const GivenKeys& given, const 
     add(fmt::format("{} report {}", program, quoted(directory)),
         "draws it: the moving beam, charts, every number on one page (some seconds)");
   }
+  if (run.input.parts.start) return text;  // advice is for a first strike
   for (const Advice& advice : advice(run.input, given, run.result)) {
     std::vector<std::string> settings;
     std::string command = fmt::format("{} run {}", program, quoted(options.input.file));
@@ -136,6 +163,12 @@ std::string next_steps(const RunOptions& options, const GivenKeys& given, const 
 int run(RunOptions& options) {
   LoadedCase loaded = options.input.load();
   error_bars_of(loaded, options);
+  std::optional<FinishedRun> before;
+  if (!options.continued.empty()) before = continue_from(options.continued, loaded);
+  const Striker& striker = loaded.value.scene.striker;
+  if (before && !goes_on(before->result.end_state.get(), striker, loaded.value.at_rest)) {
+    before.reset();  // its rows are those of another strike
+  }
   // Refuses what cannot be modelled before anything is written.
   ResolvedRun resolved = with_places(loaded, [&] { return resolve(loaded.value); });
   with_places(loaded, [&] { check_memory(resolved.settings()); });
@@ -145,7 +178,12 @@ int run(RunOptions& options) {
   const std::vector<std::string> doubts = print_doubts(loaded, options.quiet);
   InterruptListener listener;
   const WithinRun finished = with_places(loaded, [&] {
-    WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files);
+    WithinRun run = run_loaded(loaded, std::move(resolved), options, listener, files, before);
+    if (before) {
+      if (run.input.output.has_history())
+        run.result.n_history_rows += before->result.n_history_rows;
+      run.result.n_shape_rows += before->result.n_shape_rows;
+    }
     add_scatter(run, options, listener);
     return run;
   });
@@ -159,6 +197,7 @@ int run(RunOptions& options) {
           next_steps(options, loaded.given, finished,
                      unwritten.empty() ? files.directory().path().string() : std::string()),
           sub_impact_table(result, !options.all));
+    if (!result.strikes.empty()) print("\n{}", strike_table(result, !options.all));
     if (result.predictability) print("\n{}", scatter_table(result));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
@@ -193,6 +232,12 @@ void add_run(CLI::App& program, int& status) {
       "missing. Default: the case file's name without its ending, and -results, "
       "in the current directory");
   options.input.add_within_to(command);
+  options.input.may_repeat = true;
+  command.add_option(
+      "--continue", options.continued,
+      "Goes on from the end of the finished run in this directory, to a later "
+      "time.end; with another striker, or strike.rest, the beam there is struck "
+      "again. Keys of model and solver that CASE does not give are those of that run");
   command
       .add_flag("--error-bars{all}", options.error_bars,
                 "By default all errors are estimated from runs on three coarser meshes, which take "
@@ -214,6 +259,8 @@ void add_run(CLI::App& program, int& status) {
       "  subimpact run case.toml --error-bars\n"
       "  subimpact run case.toml --error-bars=time\n"
       "  subimpact run case.toml --method central-difference --set solver.step=1e-7\n"
+      "  subimpact run case.toml --continue case-results --set time.end=0.02\n"
+      "  subimpact run case.toml --continue case-results --set strike.rest=true --out second\n"
       "  subimpact run case.toml --set beam.ends=free,free --set 'title=\"Second try\"'\n"
       "Exit status: 0 done; 2 bad command line or case file, or a scene outside the model's "
       "validity; 3 a check or the solver failed, or results could not be written to DIR; 128 and "

@@ -49,6 +49,8 @@ struct IdleKey {
 
 // The first row that holds gives the reason.
 constexpr IdleKey idle_keys[] = {
+    {"strike.rest", "repeat.strikes",
+     [](const Case& c) { return c.strikes == 1 && !c.parts.start; }},
     {"beam.poisson", "beam.theory",
      [](const Case& c) { return does_not_shear(c) && !contact_uses(c, "contact.beam_poisson"); }},
     {"beam.shear_coefficient", "beam.theory", does_not_shear},

@@ -102,6 +102,8 @@ Problem problem_of(const Case& input) {
   problem.contact_damping = input.scene.contact.damping;
   problem.check_contact_law = input.parts.contact_law != nullptr;
   problem.may_yield = may_yield(input);
+  problem.start = input.parts.start;
+  problem.at_rest = input.at_rest;
   problem.section = input.parts.section;
   if (!problem.section && problem.may_yield) {
     problem.section = descriptor_of(input.model.section).make(input.model, input.scene.beam);

@@ -154,6 +154,30 @@ std::string folded_line(const Result& result, std::size_t first, std::size_t las
       last - first + 1, with_digits(force, 3), with_digits(impulse, 3));
 }
 
+std::string strike_table(const Result& result, bool all) {
+  constexpr std::size_t shown_all = 20;
+  constexpr double thinning = 1.25;  // from one that is shown to the next
+  std::string text =
+      "strike  sub-impacts      restitution  peak force      dent  permanent set   bending      "
+      "dent"
+      "\n                                               N        mm             mm         J       "
+      "  "
+      "J\n";
+  const std::size_t n = result.strikes.size();
+  double next = 1.0;
+  for (const StrikeRow& row : result.strikes) {
+    const bool is_last = &row == &result.strikes.back();
+    if (!all && n > shown_all && !is_last && row.strike < next) continue;
+    next = std::max(row.strike + 1.0, thinning * row.strike);
+    text += fmt::format("{:6} {:12} {:>16} {:11.0f} {:9.4f} {:>14} {:9.3g} {:9.3g}\n", row.strike,
+                        row.sub_impacts, text_of({row.restitution, row.restitution_error}, 1.0, 4),
+                        row.peak_force, 1e3 * row.dent,
+                        text_of({row.permanent_set, row.permanent_set_error}, 1e3, 4),
+                        row.bending_dissipated, row.contact_dissipated);
+  }
+  return text;
+}
+
 std::string sub_impact_table(const Result& result, bool fold) {
   const SubImpactRows table = sub_impact_rows(result);
   std::string text;

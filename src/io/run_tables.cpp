@@ -60,6 +60,7 @@ std::size_t n_points(const Case& input, const Result&) { return input.output.poi
 std::size_t n_shape_points(const Case&, const Result& result) {
   return result.n_shape_rows > 0 ? result.used.n_shape_points : 0;
 }
+std::size_t one_if_repeated(const Case& input, const Result&) { return input.strikes > 1 ? 1 : 0; }
 std::size_t one_with_shapes(const Case& input, const Result& result) {
   return n_shape_points(input, result) > 0 ? 1 : 0;
 }
@@ -199,6 +200,40 @@ const RunTable<EnvelopeRow>& run_table() {
   return table;
 }
 // clang-format on
+
+template <>
+const RunTable<StrikeRow>& run_table() {
+  static const RunTable<StrikeRow> table = {
+      "strikes.csv",
+      "one row per strike of a run with repeat.strikes, at its end",
+      {{"strike", "its number, from 1", &StrikeRow::strike},
+       {"sub_impacts", "their number", &StrikeRow::sub_impacts},
+       {"restitution", "velocity at which the bodies part over that at which they met",
+        &StrikeRow::restitution},
+       {"striker_velocity_m_per_s", "velocity of the striker", &StrikeRow::striker_velocity},
+       {"peak_force_N", "largest force", &StrikeRow::peak_force},
+       {"impulse_Ns", "of all sub-impacts", &StrikeRow::impulse},
+       {"dent_m", "residual indentation, of all strikes so far", &StrikeRow::dent},
+       {"permanent_set_m", "largest displacement at rest against the chord, likewise",
+        &StrikeRow::permanent_set},
+       {"hinge_rotation_rad", "of the largest plastic hinge, likewise", &StrikeRow::hinge_rotation},
+       {"striker_J", "energy left in the striker", &StrikeRow::striker_energy},
+       {"vibration_J",
+        "motion and elastic energy of the beam, with what stays locked in sections that have "
+        "yielded",
+        &StrikeRow::vibration},
+       {"bending_J", "dissipated by bending and by the damping of the beam, in this strike",
+        &StrikeRow::bending_dissipated},
+       {"contact_J", "dissipated by the contact, in this strike", &StrikeRow::contact_dissipated},
+       {"restitution_error", "error of the restitution, from runs beside that were struck as often",
+        &StrikeRow::restitution_error},
+       {"peak_force_error_N", "error of the largest force, likewise", &StrikeRow::peak_force_error},
+       {"permanent_set_error_m", "error of the permanent set, likewise",
+        &StrikeRow::permanent_set_error}},
+      &Result::strikes,
+      one_if_repeated};
+  return table;
+}
 
 std::string column_listing() {
   std::string text;

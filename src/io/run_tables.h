@@ -20,7 +20,7 @@ struct RunTable {
   std::vector<double Row::*> drawn = {};
 };
 
-/// For SubImpact, Transition, HistoryRow, SectionRow, PointRow, ShapeRow, EnvelopeRow.
+/// For SubImpact, Transition, HistoryRow, SectionRow, PointRow, ShapeRow, EnvelopeRow, StrikeRow.
 template <class Row>
 const RunTable<Row>& run_table();
 
@@ -33,6 +33,7 @@ void for_each_run_table(Use use) {
   use(run_table<PointRow>());
   use(run_table<ShapeRow>());
   use(run_table<EnvelopeRow>());
+  use(run_table<StrikeRow>());
 }
 
 template <class Row>

@@ -7,6 +7,7 @@
 
 #include "io/listed_files.h"
 #include "io/run_tables.h"
+#include "io/state_file.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 
@@ -206,10 +207,12 @@ void ResultWriter::finish(const Case& input, const Result& result) {
     const auto write_table = [&]<class Row>(const RunTable<Row>& table) {
       write_file(place / table.file, csv_of<Row>(result));
     };
+    if (input.strikes > 1) write_table(run_table<StrikeRow>());
     if (!result.envelope.empty()) write_table(run_table<EnvelopeRow>());
     write_table(run_table<SubImpact>());
     write_table(run_table<Transition>());
     write_file(place / "summary.json", summary_json(input, result));
+    if (result.end_state) write_file(place / state_name, state_json(*result.end_state));
     if (may_write_case(directory_.path())) write_file(place / case_name, case_file_text(input));
     directory_.commit();
   });

@@ -43,6 +43,10 @@ class FlowEquations {
   void commit_rest();
   /// M_p times the rotation of all hinges, either way, over M_y kappa_y m.
   double hinge_work() const;
+  /// The hinges, where nothing has flowed since the last commit.
+  void exchange(Snapshot& snapshot) {
+    for (Hinge& hinge : hinges_) snapshot(hinge);
+  }
 
  private:
   struct Hinge {
@@ -54,6 +58,7 @@ class FlowEquations {
     double path = 0.0;                          // turned before it, either way
     double below = 0.0;                         // M_p while its moment is held there, in M_y
 
+    void exchange(Snapshot& snapshot) { snapshot(turned, sense, sense_before, path, below); }
     bool is_among() const { return local != SubCellSections::none; }
     bool turns() const { return sense != 0.0; }
     bool turns_back() const { return turned * sense < 0.0; }  // against its moment

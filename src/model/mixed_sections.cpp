@@ -116,6 +116,35 @@ bool MixedSections::commit(double contact_force) {
   return true;
 }
 
+void MixedSections::exchange(Snapshot& snapshot) {
+  for (AlignedVector* list : {&before_, &earlier_, &low_, &high_, &p_}) {
+    snapshot(*list);
+    snapshot.require(list->size() == mesh_.n_sections());
+  }
+  snapshot(force_before_, work_on_shift_, flowing_);
+  if (snapshot.reads()) elastic_ = before_;
+  if (flow_) snapshot(flow_->cells, flow_->equations);
+  snapshot.require(std::ranges::all_of(
+      flowing_, [&](std::size_t index) { return index < flow_->cells.n_made(); }));
+}
+
+void MixedSections::resting_forces(std::span<const double> unknowns, std::span<double> forces) {
+  mesh_.jumps(unknowns.data(), p_.data(), elastic_.data());
+  mesh_.solve_hats(elastic_);
+  mesh_.forces_of(elastic_.data(), stiffness_, forces.data());
+}
+
+std::size_t MixedSections::rest_at(std::span<const double> unknowns) {
+  resting_forces(unknowns, forces_);
+  std::size_t i = 0;
+  while (i < elastic_.size() && elastic_[i] >= low_[i] && elastic_[i] <= high_[i]) ++i;
+  work_on_shift_ = 0.0;
+  flowed_ = false;
+  commit(0.0);
+  before_ = earlier_ = elastic_;
+  return i;
+}
+
 // Of the nodes of a cell whose sections have flowed: nothing flows beside a node while its moment
 // lies within the windows of both cells beside it.
 void MixedSections::narrow_windows(std::size_t cell) {

@@ -39,6 +39,13 @@ class MixedSections {
   /// That state becomes the history; `contact_force` (N) acts on it. Returns whether anything
   /// flowed on the way to it.
   bool commit(double contact_force);
+  /// Histories at the last commit, and the state there, which is then the one last evaluated.
+  void exchange(Snapshot& snapshot);
+  /// forces = -K^T M, N, if nothing flows.
+  void resting_forces(std::span<const double> unknowns, std::span<double> forces);
+  /// Unknowns at rest become the history. Returns the first section that would yield there, or
+  /// their number.
+  std::size_t rest_at(std::span<const double> unknowns);
 
   // Of the state last settled or evaluated:
 

@@ -42,6 +42,10 @@ class MomentLaw {
   /// flowed.
   bool commit(double m, const SectionLaw& law, double yield_curvature);
 
+  void exchange(Snapshot& snapshot) {
+    snapshot(history_, lags_, edge_, direction_, plastic_, low_, high_, rising_, falling_);
+  }
+
  private:
   // Where a motion beyond the window goes on: up to `end`, times its sense.
   struct Branch {
@@ -49,6 +53,7 @@ class MomentLaw {
     double scale = 1.0;  // 1 on the virgin curve, else 2
     double sense = 1.0;
     double end = limit;
+    void exchange(Snapshot& snapshot) { snapshot(x, m, scale, sense, end); }
   };
   static Flow on(const Branch& branch, double m) {
     const double part = (m - branch.m) / branch.scale;

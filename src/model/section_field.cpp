@@ -131,11 +131,37 @@ void SectionField::commit_reversal(std::size_t section, double curvature) {
   SectionHistory& history = stored_history(section);
   if (history.direction == 0) ++n_yielded_;
   law_->commit(history, curvature);
+  follow_history(section);
+}
+
+void SectionField::follow_history(std::size_t section) {
   at_rest_[static_cast<std::size_t>(slot_[section])].is_known = false;
-  const ElasticWindow window = law_->window(history);
+  const ElasticWindow window = law_->window(history(section));
   low_[section] = window.low;
   high_[section] = window.high;
   offset_[section] = window.offset;
+}
+
+void SectionField::exchange(Snapshot& snapshot) {
+  std::vector<std::size_t> yielded, flowing;
+  for (std::size_t i = 0; i < slot_.size(); ++i) {
+    if (has_yielded(i)) yielded.push_back(i);
+  }
+  for (const Flow& flow : flowing_) flowing.push_back(flow.section);
+  snapshot(yielded, flowing);
+  for (const auto* sections : {&yielded, &flowing}) {
+    snapshot.require(std::ranges::all_of(*sections, [&](auto i) { return i < slot_.size(); }));
+  }
+  n_yielded_ = yielded.size();
+  for (const std::size_t section : yielded) {
+    snapshot(stored_history(section));
+    if (snapshot.reads()) follow_history(section);
+  }
+  if (!snapshot.reads()) return;
+  flowing_.clear();
+  for (const std::size_t section : flowing) {
+    flowing_.push_back({section, law_->branch_from_edge(history(section))});
+  }
 }
 
 std::size_t SectionField::commit(std::span<const double> curvatures,

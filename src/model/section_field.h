@@ -55,6 +55,10 @@ class SectionField {
   std::size_t commit(const std::vector<Outside>& outside);
   /// Commits the curvature at which one section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature);
+  /// The histories of all sections.
+  void exchange(Snapshot& snapshot);
+  /// From here on no section flows, until the next commit.
+  void stop_flow() { flowing_.clear(); }
 
   /// A section that continues to flow from its edge.
   struct Flow {
@@ -88,6 +92,7 @@ class SectionField {
 
  private:
   SectionHistory& stored_history(std::size_t section);
+  void follow_history(std::size_t section);
   // Energies of a yielded section without moment; while nothing flows, a moment M adds M^2/(2
   // stiffness) to the elastic one. They follow from the history alone, and are computed when first
   // needed after each flow.

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "numerics/snapshot.h"
 #include "subimpact/model/fibres.h"
 #include "subimpact/model/scene.h"
 
@@ -12,6 +13,7 @@ namespace subimpact {
 struct SectionHistory {
   struct Point {
     double x, m;
+    void exchange(Snapshot& snapshot) { snapshot(x, m); }
   };
   std::vector<Point>
       reversals;         ///< reversal points still in force, alternating, ever closer together
@@ -19,6 +21,8 @@ struct SectionHistory {
   int direction = 0;     ///< sense of the last flow, +1 or -1; 0: has never yielded
   double work = 0.0;     ///< integral of m dx up to the edge
   double work_of_branch = 0.0;  ///< that part which was done on the branch of the edge
+
+  void exchange(Snapshot& snapshot) { snapshot(reversals, edge, direction, work, work_of_branch); }
 };
 
 /// Curvatures (1/m) between which no fibre of a section flows: there M = stiffness kappa - offset.

@@ -130,6 +130,16 @@ bool SubCellSections::commit(std::size_t index, const Ends& moments) {
   return true;
 }
 
+void SubCellSections::exchange(Snapshot& snapshot) {
+  std::vector<std::size_t> made;
+  for (const Cell& cell : cells_) made.push_back(cell.cell);
+  snapshot(made);
+  snapshot.require(std::ranges::all_of(made, [&](auto i) { return i < index_of_.size(); }));
+  for (const std::size_t cell : made) make(cell);
+  for (Section& section : sections_) snapshot(section.law);
+  for (Cell& cell : cells_) snapshot(cell.window.low, cell.window.high);
+}
+
 void SubCellSections::narrow_window(Cell& cell) const {
   cell.window = {-MomentLaw::limit, MomentLaw::limit};
   for (std::size_t i = cell.first; i < cell.end; ++i) {

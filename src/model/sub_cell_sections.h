@@ -46,6 +46,8 @@ class SubCellSections {
   Flow flow(std::size_t index, const Ends& moments) const;
   /// Advances histories to these moments. Returns whether anything flowed.
   bool commit(std::size_t index, const Ends& moments);
+  /// The histories of all cells made.
+  void exchange(Snapshot& snapshot);
 
   /// Moments at both nodes between which nothing flows in the cell.
   struct Window {

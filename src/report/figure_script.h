@@ -87,6 +87,7 @@ FigureScript bending_figure(const Case& input, const Result& result);
 FigureScript shapes_figure(const Case& input, const Result& result);
 FigureScript envelope_figure(const Case& input, const Result& result);
 FigureScript measured_figure(const Overlay& overlay);
+FigureScript strikes_figure(const Case& input, const Result& result);
 
 /// Sections that `bending` has room for: the first ones of output.sections.
 inline constexpr std::size_t most_bending_panels = 24;

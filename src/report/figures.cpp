@@ -41,7 +41,7 @@ std::string uncertain_mark(const Result& result) {
 
 constexpr const char* script_names[] = {"style",       "tables",   "response", "first-sub-impact",
                                         "indentation", "energies", "timeline", "bending",
-                                        "shapes",      "envelope"};
+                                        "shapes",      "envelope", "strikes"};
 
 // Data of another run would be drawn in place of this one's; files that no manifest lists would
 // lie among results.
@@ -98,6 +98,7 @@ std::vector<FigureScript> figure_scripts(const Case& input, const Result& result
   if (!result.section_history.empty()) figures.push_back(bending_figure(input, result));
   if (!result.shapes.empty()) figures.push_back(shapes_figure(input, result));
   if (!result.envelope.empty()) figures.push_back(envelope_figure(input, result));
+  if (!result.strikes.empty()) figures.push_back(strikes_figure(input, result));
   const std::string caveat = outcome_caveat(result);
   const std::string uncertain = uncertain_mark(result);
   for (FigureScript& figure : figures) {

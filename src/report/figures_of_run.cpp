@@ -383,4 +383,23 @@ FigureScript measured_figure(const Overlay& overlay) {
   return figure;
 }
 
+FigureScript strikes_figure(const Case&, const Result& result) {
+  FigureScript figure("strikes",
+                      "Strike after strike, at the end of each: restitution; dent and permanent "
+                      "set of all strikes so far; energy that the strike has dissipated in bending "
+                      "and in the contact. Bars: errors, where they are known.",
+                      {800, 860});
+  NumberRows rows;
+  for (const StrikeRow& row : result.strikes) {
+    rows.push_back({static_cast<double>(row.strike), row.restitution, row.dent, row.permanent_set,
+                    row.bending_dissipated, row.contact_dissipated,
+                    row.restitution_error.value_or(0.0), row.permanent_set_error.value_or(0.0)});
+  }
+  figure.table("strikes", "strike,restitution,dent,set,bending,contact,e_error,set_error", rows);
+  figure.set("n", static_cast<double>(rows.size()));
+  figure.set("largest_dent", largest(result.strikes, &StrikeRow::dent));
+  figure.set("largest_set", largest(result.strikes, &StrikeRow::permanent_set));
+  return figure;
+}
+
 }  // namespace subimpact

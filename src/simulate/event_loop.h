@@ -60,6 +60,8 @@ class EventLoop {
 
   /// Puts the beam at the first touch, with the contact just begun.
   void start();
+  /// Goes on from the state that a run ended in, with contact and sections as they are.
+  void resume(double time, const State& y);
   /// The same in another state, with the contact as it is (see ContactState::set).
   void start_from(const State& y);
   /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure

@@ -1,9 +1,12 @@
 #include "simulate/field_recorder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "numerics/units.h"
 #include "simulate/run_parts.h"
 
 namespace subimpact {
@@ -44,6 +47,20 @@ FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& row
 double FieldRecorder::next_shape() const {
   if (!has_shapes()) return std::numeric_limits<double>::infinity();
   return static_cast<double>(next_shape_) * shape_interval_;
+}
+
+void FieldRecorder::resume(double time, const std::vector<EnvelopeRow>& envelope) {
+  last_shape_time_ = last_followed_time_ = time;
+  if (!has_shapes()) return;
+  next_shape_ = first_after(time, shape_interval_);
+  if (envelope.size() == envelope_.size()) {
+    envelope_ = envelope;
+  } else {
+    result_.warnings.push_back(fmt::format(
+        "extremes along the beam are those after {:.6g} us: the run before kept none at "
+        "these points",
+        us * time));
+  }
 }
 
 void FieldRecorder::add_shape(double time, const State& y, Accounts& accounts) {

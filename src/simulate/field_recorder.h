@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -11,6 +12,11 @@
 namespace subimpact {
 
 struct RunParts;
+
+/// The first multiple of an interval (s) after a time, as its number.
+inline long first_after(double time, double interval) {
+  return static_cast<long>(std::floor(time / interval * (1.0 + 1e-12))) + 1;
+}
 
 /// Records shapes, envelope, permanent set, plastic zones, support reactions and the motion of
 /// points. Shapes are of regular instants and of the events of the contact. The envelope follows
@@ -32,6 +38,10 @@ class FieldRecorder {
   void add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const;
   /// At the end: the envelope and, of a state that `is_good`, the last shape and the bending left.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
+  /// Of the stations, so far.
+  const std::vector<EnvelopeRow>& envelope() const { return envelope_; }
+  /// Goes on from the time (s) and envelope that another recorder had reached.
+  void resume(double time, const std::vector<EnvelopeRow>& envelope);
 
  private:
   bool has_shapes() const { return field_.size() > 0 && shape_interval_ > 0.0; }

@@ -9,6 +9,7 @@
 #include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
 #include "numerics/mass_solver.h"
+#include "simulate/continuation.h"
 #include "simulate/method_settings.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
@@ -161,6 +162,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
     used.velocity_tolerance = options.solver.rtol * scales.velocity;
   }
   used.energy_tolerance = energy_tolerance(options, used);
+  check_continuation(problem, options, used);
   used.shape_interval = shape_interval(options, beam.mesh());
   if (used.shape_interval > 0.0) {
     const auto most = static_cast<std::size_t>(options.output.shape_points);

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "numerics/units.h"
+#include "simulate/continuation.h"
 #include "simulate/methods.h"
 #include "simulate/recorder.h"
 #include "simulate/run_parts.h"
@@ -73,7 +74,11 @@ void count_work(const Integrator& integrator, const StruckBeam& beam, const Even
 // Steps to the end, or to where the run is stopped.
 void run_to_end(EventLoop& loop, RunParts& parts, const Progress& progress,
                 const Observer* observer, Result& result) {
-  loop.start();
+  if (goes_on(parts.problem)) {
+    loop.resume(parts.problem.start->time, parts.beam.initial_state());
+  } else {
+    loop.start();
+  }
   std::optional<NoMoreContact> no_more_contact;
   const auto is_over = [&] {
     if (parts.beam.contact().is_closed()) return false;
@@ -175,12 +180,14 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   const OutputOptions& output = parts.given.output;
   StruckBeam& beam = parts.beam;
   Result result;
+  if (parts.problem.start) begin_from(*parts.problem.start, parts);
   Audit audit(beam, beam.initial_state(), {used.energy_tolerance, tolerated_momentum});
   Recorder recorder(beam, output.history_interval(parts.given.end_time), used.events, audit, result,
                     rows);
   if (!output.interval) recorder.follow_force();
   recorder.keep_fields(parts);
   if (observer != nullptr) recorder.show(*observer);
+  if (goes_on(parts.problem)) read_records(*parts.problem.start, audit, recorder);
   EventLoop loop(beam, integrator, recorder, audit, loop_options(parts));
   result.work.setup_seconds = seconds_since(start);
 
@@ -200,6 +207,9 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
   result.outcome.time =
       result.outcome.first_failure ? result.outcome.first_failure->to : loop.time();
   result.contact_over = result.no_more_contact.has_value();
+  if (result.is_usable()) {
+    result.end_state = end_state(parts, loop.time(), loop.state(), audit, recorder);
+  }
   recorder.finish(loop.time(), loop.state(), beam, !result.outcome.first_failure);
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);

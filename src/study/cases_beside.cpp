@@ -102,12 +102,17 @@ std::optional<CaseBeside> on_finer_cells(const Case& input) {
   return on_mesh_of(2.0, by_differences);
 }
 
-// Takes no rows into memory.
-class NoRows final : public RowSink {
- public:
-  void add(const HistoryRow&) override {}
-  void add(const SectionRow&) override {}
-};
+// With the ends of the runs beside it, if all have one.
+void keep_states(const std::vector<CaseBeside>& cases,
+                 const std::vector<std::optional<Result>>& others, Result& run) {
+  if (!run.end_state) return;
+  auto state = std::make_shared<RunState>(*run.end_state);
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    if (!others[k] || !others[k]->end_state) return;
+    state->beside.emplace_back(cases[k].description, others[k]->end_state);
+  }
+  run.end_state = std::move(state);
+}
 
 }  // namespace
 
@@ -202,6 +207,7 @@ std::vector<RunBeside> simulate_beside(const Case& input, const std::vector<Case
         }
       },
       std::max(jobs, 1u));
+  keep_states(cases, others, run);
   if (stop) return {};
   if (lacks_memory) {
     run.warnings.push_back(

@@ -33,6 +33,8 @@ Energies Accounts::energies(const State& y) {
   sum.contact_elastic = contact.elastic;
   sum.contact_plastic = contact.plastic + beam_.losses().contact;
   sum.beam_damping = beam_.losses().beam;
+  sum.bending_plastic -= beam_.spent().bending;
+  sum.contact_plastic -= beam_.spent().contact;
   return sum;
 }
 

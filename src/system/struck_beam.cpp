@@ -92,6 +92,7 @@ void StruckBeam::use_modes() {
 }
 
 State StruckBeam::initial_state() const {
+  if (!start_.empty()) return start_;
   State y(2 * n_positions(), 0.0);
   y.back() = striker_velocity_;
   return y;
@@ -99,7 +100,7 @@ State StruckBeam::initial_state() const {
 
 State StruckBeam::state_before_touch(double time) const {
   State y = initial_state();
-  y[n_] = -striker_velocity_ * time;
+  y[n_] -= striker_velocity_ * time;
   return y;
 }
 

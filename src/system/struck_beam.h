@@ -7,6 +7,7 @@
 #include "model/modal_mesh.h"
 #include "model/section_field.h"
 #include "numerics/mass_solver.h"
+#include "numerics/snapshot.h"
 #include "ode/second_order_ode.h"
 #include "subimpact/model/beam_mesh.h"
 #include "subimpact/model/scene.h"
@@ -127,8 +128,24 @@ class StruckBeam final : public MechanicalSystem {
   /// Damping force over velocity and mass of each of these modes, 1/s.
   std::span<const double> modal_damping() const { return modal_damping_; }
 
-  /// At the first touch: beam at rest, displacements zero.
+  /// At the first touch: beam at rest, displacements zero; or what resume() or begin_strike() was
+  /// given last.
   State initial_state() const;
+  /// Histories and the accepted state y that they hold at, in the unknowns of the mesh, in natural
+  /// modes too.
+  void exchange(Snapshot& snapshot, State& y);
+  /// Goes on from a state that exchange() has read.
+  void resume(const State& y) { start_ = y; }
+  /// Another strike on the beam in the state that exchange() has read, with the striker's nose on
+  /// the dent. `at_rest`: in its residual shape, a free beam with zero mean displacement and
+  /// rotation; `first_frequency` (rad/s, roughly): of the beam. What was dissipated before does not
+  /// count. Throws std::domain_error where nothing is struck, or a beam at rest would yield.
+  void begin_strike(State y, bool at_rest, double first_frequency);
+  /// Dissipated before the present strike: parts of Energies.
+  struct Spent {
+    double bending = 0.0, contact = 0.0;  ///< J
+  };
+  const Spent& spent() const { return spent_; }
   /// A time (s) before it, in the striker's approach.
   State state_before_touch(double time) const;
   std::span<const double> beam_positions(std::span<const double> y) const { return y.first(n_); }
@@ -184,6 +201,7 @@ class StruckBeam final : public MechanicalSystem {
   void add_stiffness_damping(std::span<const double> velocities, std::span<double> forces);
   void add_damping(std::span<const double> velocities, std::span<double> forces);
   void use_modes();
+  void come_to_rest(std::span<double> w, double first_frequency);
   BeamJacobian& jacobian() const;
 
   std::shared_ptr<const BeamMesh> mesh_;
@@ -215,6 +233,8 @@ class StruckBeam final : public MechanicalSystem {
   std::vector<SectionField::Outside> outside_;  // at the last evaluation
   std::vector<double> trial_;                   // accelerations
   SectionMotion committed_;
+  State start_;  // none: straight and at rest
+  Spent spent_;
 };
 
 /// A struck beam on a modal mesh, as oscillators driven by the contact force; the striker is

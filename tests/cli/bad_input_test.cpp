@@ -62,7 +62,7 @@ TEST(BadCommandLine, EndsWithStatus2AndSaysWhyAndLeavesNothing) {
       {{"run", paper, "--set", "beam.length"}, "--set beam.length|table.key=value"},
       {{"run", paper, "--set", "model.segments=500"},
        "--set model.segments=500: model.segments is 500|odd"},
-      {{"new", "bell"}, "bell|hammer|ball-drop|cantilever"},
+      {{"new", "bell"}, "bell|hammer|ball-drop|cantilever|repeated-strikes"},
       {{"run", paper, "--error-bars=none"}, "none|off"},
       {{"run", paper, "--within", "1us", "--error-bars=off"}, "--error-bars=off"},
       {{"explain", paper, "--within", "1"}, "unit"},

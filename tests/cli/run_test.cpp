@@ -108,7 +108,7 @@ TEST(Run, AdvisesCommandsThatTheShellTakes) {
 }
 
 TEST(NewCase, OfEverySceneIsCommentedAndRuns) {
-  for (const char* scene : {"hammer", "ball-drop", "cantilever"}) {
+  for (const char* scene : {"hammer", "ball-drop", "cantilever", "repeated-strikes"}) {
     const TemporaryDirectory directory;
     const Finished text = run_in(directory, {"new", scene});
     expect_in(text.output, "# ");

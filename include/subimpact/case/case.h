@@ -13,6 +13,7 @@
 #include "subimpact/model/fibres.h"
 #include "subimpact/model/scene.h"
 #include "subimpact/simulate/options.h"
+#include "subimpact/simulate/run_state.h"
 
 namespace subimpact {
 
@@ -68,6 +69,8 @@ struct CaseParts {
   std::shared_ptr<const ContactLaw> contact_law;
   /// Empty: the section of model.section; otherwise that key only decides whether it may yield.
   std::optional<Fibres> section;
+  /// Problem::start: Result::end_state of an earlier run.
+  std::shared_ptr<const RunState> start;
 };
 
 /// A case: the options of its run, and what they apply to.
@@ -78,7 +81,9 @@ struct Case : Options {
   /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They leave
   /// the run as it is; see study/predictability.h.
   std::map<std::string, double> scatter;
-  CaseParts parts;  ///< none: the built-in ones
+  std::optional<bool> at_rest;  ///< Problem::at_rest
+  int strikes = 1;              ///< that the beam receives (study/repeated_strikes.h)
+  CaseParts parts;              ///< none: the built-in ones
 };
 
 }  // namespace subimpact

@@ -32,6 +32,13 @@ FinishedRun read_results(const std::filesystem::path& directory);
 /// of two of its names ("time_us,force_kN", "t [ms];F [N]"), separated by commas, semicolons or
 /// tabs, then numbers with decimal points, times increasing. Throws ResultsError.
 Signal read_signal(const std::filesystem::path& file);
+class LoadedCase;
+
+/// Makes a case go on from the end of the finished run in a directory, which it returns with
+/// Result::end_state: sets CaseParts::start, and takes over the keys of model and of solver where
+/// the case gives none of the table. Throws ResultsError for files that hold no state,
+/// CaseFileError with all keys that differ but must not.
+FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& loaded);
 
 /// The tables of a population of runs, as `subimpact-sweep` writes them.
 struct SweptRuns {

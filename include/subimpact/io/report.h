@@ -30,6 +30,10 @@ std::string certain_words(const Result& result);
 /// What became of a tolerance on event times, in one line: horizon, error, reason, key to free.
 std::string tolerance_words(const ToleranceOutcome& tolerance, const Result& result);
 
+/// The strikes of a beam that was struck several times, one line each. `all`: if not, of more than
+/// twenty only those of a sequence that thins out.
+std::string strike_table(const Result& result, bool all = true);
+
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
 /// with outcome_caveat(), if there is one. With an error estimate, times have their errors beside
 /// them and no number has a digit below what the errors allow; sub-impacts that are not certain

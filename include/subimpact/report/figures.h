@@ -35,12 +35,13 @@ std::vector<std::string> write_figure_scripts(const std::filesystem::path& direc
 /// Draws into a directory, as SVG, PNG and PDF: `response` (force and displacements),
 /// `first-sub-impact` (force and back stress), `indentation` (force against indentation),
 /// `energies` (with zones), `timeline` (start, duration and impulse of every sub-impact), `bending`
-/// (moment against curvature of the sections kept), `shapes` and `envelope` (along the beam). The
-/// gnuplot scripts, tables included, stay beside them. Figures of a run that did not complete state
-/// this above their panels. A script that the directory `scripts` has replaces that of the library.
-/// With `overlay` also `measured` (a measured force and the computed one).
-/// A figure whose files cannot be written is one that failed. Throws GnuplotMissing, and
-/// OutputError if `scripts` holds results or the finished scripts of drawn figures.
+/// (moment against curvature of the sections kept), `shapes` and `envelope` (along the beam),
+/// `strikes` (of repeated ones), and with `overlay` `measured` (a measured force and the computed
+/// one). The gnuplot scripts, tables included, stay beside them. Figures of a run that did not
+/// complete state this above their panels. A script that the directory `scripts` has replaces that
+/// of the library. A figure whose files cannot be written is one that failed. Throws
+/// GnuplotMissing, and OutputError if `scripts` holds results or the finished scripts of drawn
+/// figures.
 DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& input,
                           const Result& result, const std::filesystem::path& scripts = {},
                           const Overlay* overlay = nullptr);

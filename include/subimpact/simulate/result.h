@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "subimpact/ode/work_counts.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
+#include "subimpact/simulate/run_state.h"
 #include "subimpact/system/energies.h"
 #include "subimpact/system/plastic_zone.h"
 
@@ -89,6 +91,24 @@ struct EnvelopeRow {
   Range strain;                ///< -kappa h/2, of the outer fibre behind; tension: above 0
   Range plastic_curvature;     ///< 1/m
   double permanent_set = 0.0;  ///< m: displacement at rest against the chord
+};
+
+/// One row of strikes.csv: one of the strikes that a beam received one after another, at its end.
+struct StrikeRow {
+  int strike = 0;                   ///< from 1
+  std::size_t sub_impacts = 0;      ///< their number
+  double restitution = 0.0;         ///< as Result::restitution()
+  double striker_velocity = 0.0;    ///< m/s
+  double peak_force = 0.0;          ///< N
+  double impulse = 0.0;             ///< N s
+  double dent = 0.0;                ///< m, residual, of all strikes so far
+  double permanent_set = 0.0;       ///< m, largest against the chord, likewise
+  double hinge_rotation = 0.0;      ///< rad, largest, likewise
+  double striker_energy = 0.0;      ///< J, left in the striker
+  double vibration = 0.0;           ///< J, of the beam, with what stays locked in bent sections
+  double bending_dissipated = 0.0;  ///< J, by this strike
+  double contact_dissipated = 0.0;  ///< J, likewise
+  std::optional<double> restitution_error, peak_force_error, permanent_set_error;
 };
 
 /// Takes the rows of a run as they are made, so that they need not be held in memory. Called in the
@@ -295,6 +315,8 @@ struct Result {
   std::vector<ShapeRow> shapes;             ///< empty if a RowSink took the rows
   std::size_t n_shape_rows = 0;             ///< wherever they went
   std::vector<EnvelopeRow> envelope;        ///< in ascending order of x; with shapes
+  /// Of a beam that was struck several times: of all strikes, the last of which the rest describes.
+  std::vector<StrikeRow> strikes;
   /// The plastic hinges of the whole beam at the end, in ascending order of x; with shapes.
   std::vector<PlasticZone> plastic_zones;
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
@@ -320,6 +342,8 @@ struct Result {
   double beam_damping_loss = 0.0;            ///< J, by that of the beam
   /// Largest difference between the impulse and the integrated force of a sub-impact, over m v0.
   double max_impulse_error = 0.0;
+  /// Where the run stands at its end, for runs that go on from there; null for one that failed.
+  std::shared_ptr<const RunState> end_state;
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
   std::optional<ErrorEstimate> error_estimate;    ///< with error bars

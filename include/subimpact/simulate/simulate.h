@@ -31,6 +31,15 @@ struct Problem {
   std::optional<Fibres> section;  ///< empty: the solid rectangle
   bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam
   bool check_contact_law = true;  ///< whether a run begins with broken_rule(*contact_law)
+  /// The end of an earlier run of the same beam, mesh and laws. Null: the beam is straight, at rest
+  /// and has never yielded.
+  std::shared_ptr<const RunState> start;
+  /// What happens from `start` on. Empty: the same strike goes on if the striker is the same, its
+  /// results being those of the whole strike; otherwise a new strike begins, at t = 0, on the beam
+  /// as it moves. false: a new strike begins, whatever the striker. true: the same, and the beam
+  /// has come to rest in its residual shape before. A new striker's nose lies on the dent, its
+  /// velocity must exceed that of the struck point.
+  std::optional<bool> at_rest;
 };
 
 struct RunParts;

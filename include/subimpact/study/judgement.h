@@ -24,6 +24,13 @@ struct CaseBeside {
   bool of_existence = true;
 };
 
+/// Takes no rows into memory.
+class NoRows final : public RowSink {
+ public:
+  void add(const HistoryRow&) override {}
+  void add(const SectionRow&) override {}
+};
+
 struct RunBeside {
   CaseBeside of;
   Result result;

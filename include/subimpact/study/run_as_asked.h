@@ -43,6 +43,13 @@ std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& r
 /// unless error bars are off; simulate(Case) is one run on the mesh that the case has. `given`: the
 /// keys that the caller has chosen; mesh and method are the program's where they are none of these.
 /// Throws InvalidCase.
+///
+/// A run from an earlier state (CaseParts::start) has the errors that the runs beside the earlier
+/// one show when they go on from theirs, so those of the whole; without them none are stated.
+///
+/// With repeat.strikes = N the beam is struck N times, on the mesh of the first strike, and has
+/// come to rest before each strike unless strike.rest is false. The result is that of the last
+/// strike, with a row of each in Result::strikes.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
 /// The first of the runs that run_as_asked() makes of a case, by default.

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/mixed_sections.h"
+#include "numerics/lanes.h"
+#include "system/accounts.h"
+#include "system/struck_beam.h"
+
+namespace subimpact {
+namespace {
+
+// Of the beam's own restoring forces in its first mode, so that a free beam is held too.
+constexpr double share_of_mass = 1e-2;
+constexpr int most_iterations = 120;
+constexpr int until_residual = 15;    // iterations until the residual is computed anew
+constexpr double least_power = 1e-22;  // of the residual forces, relative to those at first
+constexpr double rounding = 1e-9;      // of the curvatures between which a section stays elastic
+
+// Adds E I K^T D K, D the inverse widths of the hats: five diagonals.
+void add_lumped_stiffness(const MixedMesh& mesh, double stiffness, BandedMatrix& result) {
+  constexpr std::size_t n_diagonals = 5;
+  const std::vector<double> nothing(mesh.n_sections(), 0.0);
+  std::vector<double> comb(mesh.n_unknowns()), bent(nothing), forces(comb);
+  for (std::size_t first = 0; first < n_diagonals; ++first) {
+    for (std::size_t i = 0; i < comb.size(); ++i) comb[i] = i % n_diagonals == first ? 1.0 : 0.0;
+    mesh.jumps(comb.data(), nothing.data(), bent.data());
+    for (std::size_t j = 0; j < bent.size(); ++j) {
+      bent[j] *= mesh.copies_of_part() / mesh.section_weights()[j];
+    }
+    mesh.forces_of(bent.data(), stiffness, forces.data());
+    for (std::size_t i = 0; i < comb.size(); ++i) {
+      for (std::size_t j = i - std::min<std::size_t>(i, 2); j <= i; ++j) {
+        if (comb[j] != 0.0) result.at(i, j) -= forces[i];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void StruckBeam::exchange(Snapshot& snapshot, State& y) {
+  const auto* modes = dynamic_cast<const ModalMesh*>(mesh_.get());
+  snapshot.begin("motion");
+  State of_mesh = y;
+  const auto half = [&](State& state, std::size_t k) {
+    return std::span(state).subspan(k * (n_ + 1), n_);
+  };
+  if (modes != nullptr && !snapshot.reads()) {
+    for (const std::size_t k : {0, 1}) modes->to_physical(half(y, k), half(of_mesh, k));
+  }
+  snapshot(of_mesh);
+  snapshot.require(of_mesh.size() == 2 * n_positions());
+  if (snapshot.reads()) y = of_mesh;
+  if (modes != nullptr && snapshot.reads()) {
+    for (const std::size_t k : {0, 1}) modes->to_modal(half(of_mesh, k), half(y, k));
+  }
+  snapshot.begin("contact");
+  snapshot(contact_);
+  snapshot.begin("losses");
+  snapshot(losses_.contact, losses_.beam, spent_.bending, spent_.contact);
+  snapshot.begin("sections");
+  mixed_ ? snapshot(*mixed_) : snapshot(sections_);
+  if (!snapshot.reads()) return;
+  read_motion(y, committed_);
+  if (mixed_) std::ranges::copy(beam_positions(y), mixed_is_at_.begin());
+}
+
+void StruckBeam::begin_strike(State y, bool at_rest, double first_frequency) {
+  contact_.set(ContactBranch::separated, contact_.history());
+  if (at_rest) {
+    std::ranges::fill(y, 0.0);
+    come_to_rest(std::span(y).first(n_), first_frequency);
+  }
+  y[n_] = mesh_->struck_point()(beam_positions(y)) + contact_.residual_indentation();
+  while (indentation(y) < contact_.residual_indentation()) y[n_] = std::nextafter(y[n_], HUGE_VAL);
+  y.back() = striker_velocity_;
+  if (!(indentation_rate(y) > 0.0)) {
+    throw std::domain_error(
+        fmt::format("the struck point moves at {:.6g} m/s, which the striker does not reach at "
+                    "{:.6g} m/s",
+                    y.back() - indentation_rate(y), y.back()));
+  }
+  start_ = y;
+  losses_ = {};
+  spent_ = {};
+  const Energies before = Accounts(*this).energies(y);
+  spent_ = {before.bending_plastic, before.contact_plastic};
+}
+
+// Forces that nothing but flow would change, f - A w: at rest they vanish, and the elastic energy is
+// the least. By conjugate gradients with the stiffness of the beam while nothing flows (of mixed
+// cells with lumped hats) and some mass, which holds a free beam where its mean displacement and
+// rotation are zero.
+void StruckBeam::come_to_rest(std::span<double> w, double first_frequency) {
+  if (!sections_.can_yield()) return;
+  const Evaluation as_set = section_evaluation_;
+  section_evaluation_ = Evaluation::smooth;
+  sections_.stop_flow();
+  const auto forces_at = [&](std::span<const double> unknowns, std::vector<double>& forces) {
+    mixed_ ? mixed_->resting_forces(unknowns, forces) : bend(unknowns, forces);
+  };
+  const std::size_t bandwidth = mixed_ ? 2 : mesh_->stiffness_bandwidth();
+  BandedMatrix near(n_, std::max(mesh_->mass().half_bandwidth(), bandwidth));
+  if (mixed_) {
+    add_lumped_stiffness(mixed_->mesh(), sections_.stiffness(), near);
+  } else {
+    std::ranges::fill(moments_, sections_.stiffness());
+    mesh_->add_stiffness(moments_, near);
+  }
+  const double held = share_of_mass * first_frequency * first_frequency;
+  for (std::size_t i = 0; i < n_; ++i) {
+    for (std::size_t j = i; j < std::min(n_, i + near.half_bandwidth() + 1); ++j) {
+      near.at(i, j) += held * mesh_->mass()(i, j);
+    }
+  }
+  const std::optional<BandedMatrix> factor = near.cholesky_factor();
+  std::vector<double> constant(n_), residual(n_), solved, direction(n_, 0.0), change(n_);
+  std::ranges::fill(w, 0.0);
+  forces_at(w, constant);
+  double before = 0.0, first = 0.0;
+  for (int k = 0; factor && k < most_iterations; ++k) {
+    const bool anew = k % until_residual == 0;
+    if (anew) forces_at(w, residual);
+    solved = residual;
+    factor->solve_as_factor(solved);
+    const double power = dot(residual.data(), solved.data(), n_);
+    first = std::max(first, power);
+    if (!(power > least_power * first)) break;
+    const double part = anew ? 0.0 : power / before;
+    before = power;
+    for (std::size_t i = 0; i < n_; ++i) direction[i] = solved[i] + part * direction[i];
+    forces_at(direction, change);
+    for (std::size_t i = 0; i < n_; ++i) change[i] -= constant[i];
+    const double length = -power / dot(direction.data(), change.data(), n_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      w[i] += length * direction[i];
+      residual[i] += length * change[i];
+    }
+  }
+  section_evaluation_ = as_set;
+  std::size_t i = 0;
+  if (mixed_) {
+    i = mixed_->rest_at(w);
+    std::ranges::copy(w, mixed_is_at_.begin());
+  } else {
+    mesh_->curvatures(w, curvatures_);
+    const auto low = sections_.window_low(), high = sections_.window_high();
+    const auto holds = [&](std::size_t k) {
+      const double margin = rounding * (high[k] - low[k]);
+      return curvatures_[k] > low[k] - margin && curvatures_[k] < high[k] + margin;
+    };
+    while (i < sections_.size() && holds(i)) ++i;
+  }
+  if (i == mesh_->n_sections()) return;
+  throw std::domain_error(
+      fmt::format("at rest the moment left at x = {:.6g} m would make the section yield again",
+                  mesh_->section_positions()[i]));
+}
+
+}  // namespace subimpact

@@ -1,0 +1,206 @@
+// Runs cut at the end of a step and continued, against runs in one piece.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <ostream>
+
+#include "paper_scene.h"
+#include "print.h"
+#include "subimpact/study/judgement.h"
+
+namespace subimpact {
+namespace {
+
+struct Scene {
+  const char* name;
+  Method method;
+  double end_time;                 // s
+  std::function<void(Case&)> set;  // what differs from the paper's scene
+  double bound = 1e-12;            // relative; 0: the stated errors in time
+
+  Case input() const {
+    Case of_scene;
+    of_scene.scene = paper_scene();
+    of_scene.model.segments = 301;
+    of_scene.solver.method = method;
+    of_scene.end_time = end_time;
+    of_scene.output.interval = 0.0;
+    set(of_scene);
+    return of_scene;
+  }
+};
+void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
+
+constexpr auto central = Method::central_difference;
+
+const Scene scenes[] = {
+    {"exact_sections", central, 2e-3, [](Case&) {}},
+    {"layers", central, 2e-3, [](Case& c) { c.model.section = SectionKind::layers; }},
+    {"a_cantilever_off_its_middle", central, 2e-3,
+     [](Case& c) {
+       c.scene.beam.ends = {EndSupport::clamped, EndSupport::free};
+       c.scene.striker.position = 0.7;
+     }},
+    {"with_shear", central, 2e-3,
+     [](Case& c) {
+       c.scene.beam.theory = BeamTheory::timoshenko;
+       c.scene.beam.poisson = 0.33;
+     }},
+    {"mixed_cells", central, 0.84e-3,
+     [](Case& c) {
+       c.model.mesh = MeshKind::mixed;
+       c.model.segments = 400;
+     },
+     1e-10},  // their equations of flow are solved to 1e-5 of M_y
+    {"elastic_modes", Method::exponential, 2e-3,
+     [](Case& c) { c.model.section = SectionKind::elastic; }},
+    {"elastic_modes_with_damping_and_a_sphere", Method::exponential, 2e-3,
+     [](Case& c) {
+       c.model.section = SectionKind::elastic;
+       c.scene.beam.damping.ratio = 0.01;
+       c.scene.contact.kind = ContactKind::hertz;
+       c.scene.contact.stiffness = 5e9;
+     }},
+    {"runge_kutta_with_damping", Method::erk, 1.5e-3,
+     [](Case& c) { c.scene.beam.damping.mass = 200.0; }, 0.0},
+    {"nystrom_on_elements", Method::nystrom, 1.5e-3,
+     [](Case& c) {
+       c.model.mesh = MeshKind::hermite;
+       c.model.elements = 60;
+     },
+     0.0},
+    {"bdf", Method::bdf, 0.5e-3,
+     [](Case& c) {
+       c.model.segments = 101;
+       c.solver.rtol = 1e-7;
+     },
+     0.0},
+};
+
+// Ends of steps after which a run is cut: in contact without flow, in flight, while sections flow.
+struct Steps final : Observer {
+  void on_step(const RunView& end) override {
+    const double plastic = end.energies().bending_plastic;
+    times.push_back(end.time());
+    contact.push_back(end.in_contact());
+    flows.push_back(plastic > plastic_before * (1.0 + 1e-9) + 1e-9);
+    plastic_before = plastic;
+  }
+  // The middle one of those of which this and the next step are both so.
+  double middle(const std::function<bool(std::size_t)>& is_so) const {
+    std::vector<double> found;
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+      if (is_so(i) && is_so(i + 1)) found.push_back(times[i]);
+    }
+    return found.empty() ? -1.0 : found[found.size() / 2];
+  }
+  std::vector<double> times;
+  std::vector<bool> contact, flows;
+  double plastic_before = 0.0;
+};
+
+Result run_in_two(Case input, double cut) {
+  const double end = input.end_time;
+  input.end_time = cut;
+  const Result first = simulate(input);
+  EXPECT_TRUE(first.outcome.completed()) << first.outcome.message;
+  input.end_time = end;
+  input.parts.start = first.end_state;
+  return simulate(input);
+}
+
+struct Differences {
+  double bound, largest = 0.0;
+  void see(double a, double b, double scale, const char* what, std::size_t k = 0) {
+    const double difference = std::abs(a - b) / scale;
+    largest = std::max(largest, difference);
+    EXPECT_LE(difference, bound) << what << ' ' << k + 1;
+  }
+};
+
+void expect_same_within(const Case& input, const Result& whole, const Result& parts,
+                        double bound) {
+  Differences found{bound};
+  const double v0 = input.scene.striker.velocity;
+  const double energy = whole.used.initial_energy;
+  ASSERT_EQ(whole.sub_impacts.size(), parts.sub_impacts.size());
+  for (std::size_t i = 0; i < whole.sub_impacts.size(); ++i) {
+    const SubImpact& a = whole.sub_impacts[i];
+    const SubImpact& b = parts.sub_impacts[i];
+    found.see(a.start, b.start, input.end_time, "start", i);
+    found.see(whole.end_of(a), parts.end_of(b), input.end_time, "end", i);
+    found.see(a.impulse, b.impulse, v0 * input.scene.striker.mass, "impulse", i);
+    found.see(a.peak_force, b.peak_force, whole.max_force, "peak", i);
+    found.see(a.residual_indentation, b.residual_indentation, whole.max_indentation, "dent", i);
+    EXPECT_EQ(a.zone, b.zone);
+  }
+  ASSERT_EQ(whole.transitions.size(), parts.transitions.size());
+  ASSERT_EQ(whole.near_misses.size(), parts.near_misses.size());
+  found.see(whole.striker_velocity, parts.striker_velocity, v0, "velocity of the striker");
+  found.see(whole.beam_mean_velocity, parts.beam_mean_velocity, v0, "velocity of the beam");
+  const Energies &a = whole.final_energies, &b = parts.final_energies;
+  found.see(a.beam_kinetic, b.beam_kinetic, energy, "kinetic energy");
+  found.see(a.bending_elastic, b.bending_elastic, energy, "elastic energy");
+  found.see(a.bending_plastic, b.bending_plastic, energy, "plastic work");
+  found.see(a.contact_plastic, b.contact_plastic, energy, "work of the dent");
+  found.see(a.beam_damping, b.beam_damping, energy, "damping");
+  EXPECT_EQ(whole.n_yielded_sections, parts.n_yielded_sections);
+  EXPECT_EQ(whole.first_section_yield.has_value(), parts.first_section_yield.has_value());
+  std::printf("largest difference %.1e\n", found.largest);
+}
+
+void expect_within_stated_errors(const Result& whole, const Result& parts) {
+  ASSERT_EQ(whole.sub_impacts.size(), parts.sub_impacts.size());
+  double largest = 0.0;
+  for (std::size_t i = 0; i < whole.sub_impacts.size(); ++i) {
+    const SubImpact& a = whole.sub_impacts[i];
+    const SubImpact& b = parts.sub_impacts[i];
+    ASSERT_TRUE(a.start_error) << i;
+    EXPECT_LE(std::abs(a.start - b.start), *a.start_error) << "start " << i + 1;
+    if (!a.end) continue;
+    EXPECT_LE(std::abs(*a.end - *b.end), *a.end_error) << "end " << i + 1;
+    largest = std::max(largest, std::abs(*a.end - *b.end) / *a.end_error);
+  }
+  std::printf("largest difference %.2g of the stated error\n", largest);
+}
+
+class ContinuedRun : public testing::TestWithParam<Scene> {
+ protected:
+  // Cuts a run where `is_so`, if it is anywhere, and compares.
+  void compare(const std::function<bool(const Steps&, std::size_t)>& is_so, bool is_possible) {
+    const Case input = GetParam().input();
+    Steps steps;
+    ASSERT_TRUE(simulate(input, steps).outcome.completed());
+    Result whole = simulate(input);
+    ASSERT_TRUE(whole.outcome.completed()) << whole.outcome.message;
+    const double cut = steps.middle([&](std::size_t i) { return is_so(steps, i); });
+    ASSERT_EQ(cut > 0.0, is_possible);
+    if (!is_possible) return;
+    const Result parts = run_in_two(input, cut);
+    ASSERT_TRUE(parts.outcome.completed()) << parts.outcome.message;
+    if (GetParam().bound > 0.0) return expect_same_within(input, whole, parts, GetParam().bound);
+    whole = simulate_judged(input, cases_beside_in_time(input), 1, {}, nullptr);
+    expect_within_stated_errors(whole, parts);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(, ContinuedRun, testing::ValuesIn(scenes), NamedAsPrinted{});
+
+TEST_P(ContinuedRun, FromWithinAContactEqualsTheWhole) {
+  compare([](const Steps& s, std::size_t i) { return s.contact[i] && !s.flows[i]; }, true);
+}
+
+TEST_P(ContinuedRun, FromAFlightEqualsTheWhole) {
+  compare([](const Steps& s, std::size_t i) { return !s.contact[i]; }, true);
+}
+
+TEST_P(ContinuedRun, FromSectionsThatFlowEqualsTheWhole) {
+  compare([](const Steps& s, std::size_t i) { return s.flows[i]; },
+          GetParam().input().model.section != SectionKind::elastic);
+}
+
+}  // namespace
+}  // namespace subimpact
