@@ -81,7 +81,7 @@ std::string contact_words(const Case& input) {
   const Scene& scene = input.scene;
   if (input.parts.contact_law) return {};
   const BuiltInContactLaw& law = built_in_contact_law(scene.contact.kind);
-  if (!uses_key(constants_given(input, law), "striker.nose_radius")) {
+  if (!scene.striker.nose_radius || !uses_key(constants_given(input, law), "striker.nose_radius")) {
     return fmt::format("contact of given stiffness, law {}", law.name);
   }
   return fmt::format("{} nose of {:.4g} mm, law {}",

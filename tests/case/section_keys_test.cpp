@@ -21,12 +21,10 @@ Case with(const Settings& settings, bool short_form = false) {
   return input;
 }
 
-const Settings tube{{"beam.section.shape", "tube"},
-                    {"beam.section.diameter", 0.03},
-                    {"beam.section.wall", 0.002}};
-const Settings of_nose{{"contact.striker_modulus", 2.1e11},
-                       {"contact.striker_poisson", 0.3},
-                       {"beam.poisson", 0.33}};
+const Settings tube{
+    {"beam.section.shape", "tube"}, {"beam.section.diameter", 0.03}, {"beam.section.wall", 0.002}};
+const Settings of_nose{
+    {"contact.striker_modulus", 2.1e11}, {"contact.striker_poisson", 0.3}, {"beam.poisson", 0.33}};
 
 Settings operator+(Settings a, const Settings& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -85,13 +83,15 @@ TEST(SectionKeys, RefuseLawsThatDoNotDescribeNoseAndSection) {
   expect_refused(with(circle + Settings{{"contact.law", "sphere"}} + of_nose), "contact.law",
                  "touch in an ellipse");
   for (const char* law : {"hertz", "sphere"}) {
-    expect_refused(with(Settings{{"contact.law", law}, {"striker.nose", "cylinder"}} + of_nose, true),
-                   "contact.law", "touches it along a line");
+    expect_refused(
+        with(Settings{{"contact.law", law}, {"striker.nose", "cylinder"}} + of_nose, true),
+        "contact.law", "touches it along a line");
   }
   expect_refused(with({{"contact.yield_pressure", 4e8}}, true), "contact.yield_pressure",
                  "only \"sphere\" yields at it");
-  expect_refused(with(Settings{{"contact.law", "sphere"}, {"contact.damping", 0.1}} + of_nose, true),
-                 "contact.damping", "contact.law = \"sphere\" loses its energy by yielding");
+  expect_refused(
+      with(Settings{{"contact.law", "sphere"}, {"contact.damping", 0.1}} + of_nose, true),
+      "contact.damping", "contact.law = \"sphere\" loses its energy by yielding");
 }
 
 TEST(SectionKeys, RefuseMixedCellsWhereTheirLawIsNotTheRectangles) {
@@ -107,8 +107,8 @@ TEST(SectionKeys, GiveTheSameRunInShortAndLongFormOfARectangle) {
   const Case brief = with({}, true);
   const Beam& beam = brief.scene.beam;
   const Result one = simulate(brief);
-  const Result other = simulate(
-      with({{"beam.section.height", beam.thickness}, {"beam.section.width", beam.width}}));
+  const Result other =
+      simulate(with({{"beam.section.height", beam.thickness}, {"beam.section.width", beam.width}}));
   EXPECT_EQ(one.max_force, other.max_force);
   EXPECT_EQ(one.striker_velocity, other.striker_velocity);
 }

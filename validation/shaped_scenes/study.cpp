@@ -155,9 +155,9 @@ int study(int n_scenes, std::uint64_t seed) {
       continue;
     }
     const Result cells = judged(input);
-    std::vector<Tally*> rows{&all,
-                             &by[shape_names[static_cast<std::size_t>(input.scene.beam.section.shape)]],
-                             &by[law_names[static_cast<std::size_t>(input.scene.contact.kind)]]};
+    std::vector<Tally*> rows{
+        &all, &by[shape_names[static_cast<std::size_t>(input.scene.beam.section.shape)]],
+        &by[law_names[static_cast<std::size_t>(input.scene.contact.kind)]]};
     if (input.scene.beam.hardening > 0.0) rows.push_back(&by["hardening"]);
     const auto for_each = [&](auto change) {
       for (Tally* row : rows) change(*row);
