@@ -7,8 +7,8 @@
 #include <ranges>
 
 #include "case/case_choices.h"
-#include "io/record.h"
 #include "io/listed_files.h"
+#include "io/record.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/read_results.h"
@@ -22,16 +22,28 @@ constexpr int deepest_state = 8;
 const Record<RunState>& state_record() {
   static const Record<RunState> record = {
       {"time_s", "", &RunState::time, Form::from_zero},
-      {"striker_mass_kg", "", [](auto& s) -> auto& { return s.striker.mass; }, Form::above_zero},
-      {"striker_velocity_m_per_s", "", [](auto& s) -> auto& { return s.striker.velocity; },
-       Form::finite},
-      {"striker_gap_m", "", [](auto& s) -> auto& { return s.striker.gap; }, Form::from_zero},
-      {"striker_position", "", [](auto& s) -> auto& { return s.striker.position; },
-       Form::from_zero},
-      {"mesh", "", &RunState::mesh},
-      {"section", "", &RunState::section},
-      {"contact_law", "", &RunState::contact_law}};
-  return record;
+      {"striker_mass_kg", "", [](auto& s) -> auto& {return s.striker.mass;
+}
+, Form::above_zero
+}  // namespace
+, {"striker_velocity_m_per_s", "", [](auto& s) -> auto& {return s.striker.velocity;
+}  // namespace subimpact
+, Form::finite
+}
+, {"striker_gap_m", "", [](auto& s) -> auto& {return s.striker.gap;
+}
+, Form::from_zero
+}
+, {"striker_position", "", [](auto& s) -> auto& {return s.striker.position;
+}
+, Form::from_zero
+}
+, {"mesh", "", &RunState::mesh}, {"section", "", &RunState::section}, {
+  "contact_law", "", &RunState::contact_law
+}
+}
+;
+return record;
 }
 
 Json json_of(const RunState& state) {
@@ -56,7 +68,7 @@ std::shared_ptr<const RunState> state_of(const Json& json) {
 }
 
 // Tables whose keys may differ between a run and one that goes on from it, and such keys.
-constexpr std::array free_tables = {"",      "time",  "solver",  "accuracy", "output",
+constexpr std::array free_tables = {"",      "time",   "solver", "accuracy", "output",
                                     "study", "strike", "repeat", "scatter"};
 constexpr std::array free_keys = {"striker.mass", "striker.velocity", "striker.gap"};
 // Tables that a later run takes from the earlier one where it says nothing.
@@ -101,9 +113,10 @@ FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& lo
   FinishedRun run = read_results(directory);
   run.result.end_state = read_sealed(directory, [&](const ListedFiles& files) {
     if (!files.manifest()->files.contains(state_name)) {
-      throw ResultsError(fmt::format("{}: holds no {}: the run failed, or an older version made it; "
-                                     "no run can go on from there",
-                                     directory.string(), state_name));
+      throw ResultsError(
+          fmt::format("{}: holds no {}: the run failed, or an older version made it; "
+                      "no run can go on from there",
+                      directory.string(), state_name));
     }
     try {
       return state_from(files.text(state_name));
@@ -115,9 +128,8 @@ FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& lo
     return loaded.given.in_file.contains(key.name) || loaded.given.in_settings.contains(key.name);
   };
   const auto gives_table = [&](const std::string& table) {
-    return std::ranges::any_of(case_keys(), [&](const CaseKey& key) {
-      return key.table() == table && is_given(key);
-    });
+    return std::ranges::any_of(
+        case_keys(), [&](const CaseKey& key) { return key.table() == table && is_given(key); });
   };
   std::vector<std::string> differences;
   for (const CaseKey& key : case_keys()) {

@@ -14,10 +14,10 @@
 
 namespace subimpact {
 
-/// Copies numbers into named lists, or back from them, in one order: a class names its members once,
-/// in `void exchange(Snapshot& snapshot) { snapshot(a, b, c); }`, and is written and read by that.
-/// Members are numbers, enumerations, optionals, arrays and vectors of these, and classes with such
-/// a function. Reading throws std::runtime_error where numbers do not fit.
+/// Copies numbers into named lists, or back from them, in one order: a class names its members
+/// once, in `void exchange(Snapshot& snapshot) { snapshot(a, b, c); }`, and is written and read by
+/// that. Members are numbers, enumerations, optionals, arrays and vectors of these, and classes
+/// with such a function. Reading throws std::runtime_error where numbers do not fit.
 class Snapshot {
  public:
   using Lists = std::map<std::string, std::vector<double>>;

@@ -15,7 +15,7 @@ namespace {
 // Of the beam's own restoring forces in its first mode, so that a free beam is held too.
 constexpr double share_of_mass = 1e-2;
 constexpr int most_iterations = 120;
-constexpr int until_residual = 15;    // iterations until the residual is computed anew
+constexpr int until_residual = 15;     // iterations until the residual is computed anew
 constexpr double least_power = 1e-22;  // of the residual forces, relative to those at first
 constexpr double rounding = 1e-9;      // of the curvatures between which a section stays elastic
 
@@ -90,8 +90,8 @@ void StruckBeam::begin_strike(State y, bool at_rest, double first_frequency) {
   spent_ = {before.bending_plastic, before.contact_plastic};
 }
 
-// Forces that nothing but flow would change, f - A w: at rest they vanish, and the elastic energy is
-// the least. By conjugate gradients with the stiffness of the beam while nothing flows (of mixed
+// Forces that nothing but flow would change, f - A w: at rest they vanish, and the elastic energy
+// is the least. By conjugate gradients with the stiffness of the beam while nothing flows (of mixed
 // cells with lumped hats) and some mass, which holds a free beam where its mean displacement and
 // rotation are zero.
 void StruckBeam::come_to_rest(std::span<double> w, double first_frequency) {

@@ -12,10 +12,9 @@ namespace {
 
 std::vector<std::string> run_to(const char* end, const std::string& out,
                                 std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {"run",   SUBIMPACT_PAPER_CASE,
-                                    "--out", out,
-                                    "--set", std::string("time.end=") + end,
-                                    "--set", "model.segments=201"};
+  std::vector<std::string> words = {
+      "run",   SUBIMPACT_PAPER_CASE,           "--out", out,
+      "--set", std::string("time.end=") + end, "--set", "model.segments=201"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -28,8 +27,7 @@ TEST(ContinuedRun, OfTheProgramLeavesTheFilesOfTheWholeStrike) {
   const TemporaryDirectory here;
   ASSERT_EQ(run_program(run_to("1.2 ms", "whole"), here.path).status, 0);
   ASSERT_EQ(run_program(run_to("0.5 ms", "first"), here.path).status, 0);
-  const Finished on =
-      run_program(run_to("1.2 ms", "both", {"--continue", "first"}), here.path);
+  const Finished on = run_program(run_to("1.2 ms", "both", {"--continue", "first"}), here.path);
   ASSERT_EQ(on.status, 0) << on.errors;
   const FinishedRun whole = read_results(here.path / "whole");
   const FinishedRun both = read_results(here.path / "both");

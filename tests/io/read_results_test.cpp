@@ -115,7 +115,8 @@ TEST(ReadResults, KeepsWarningsFailuresNearMissesAndTheClosestApproach) {
 TEST(ReadResults, KeepsAWishAndThatNoneWasMade) {
   Result result = sample_result();
   for (const bool met : {true, false}) {
-    result.tolerance = ToleranceOutcome{1e-6, met, met ? 3e-7 : infinity, 8.4e-4, "too coarse", "model.mesh"};
+    result.tolerance =
+        ToleranceOutcome{1e-6, met, met ? 3e-7 : infinity, 8.4e-4, "too coarse", "model.mesh"};
     const FinishedRun run = written_and_read(result);
     ASSERT_TRUE(run.result.tolerance);
     EXPECT_EQ(run.result.tolerance->met, met);

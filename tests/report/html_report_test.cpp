@@ -64,7 +64,8 @@ std::string page_of(const Result& result) {
 TEST(HtmlReport, ShowsAWishUnderTheTitle) {
   FinishedRun run = small_run();
   expect_not_in(page_of(run), "Tolerance:");
-  run.result.tolerance = ToleranceOutcome{1e-6, false, 2e-6, 8.4e-4, "cells < 51", "model.segments"};
+  run.result.tolerance =
+      ToleranceOutcome{1e-6, false, 2e-6, 8.4e-4, "cells < 51", "model.segments"};
   const std::string page = page_of(run);
   expect_in(page, "Tolerance: event times within 1 µs: not met; 2 µs reached up to 840 µs",
             "cells &lt; 51; free model.segments.");

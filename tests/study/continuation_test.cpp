@@ -121,8 +121,7 @@ struct Differences {
   }
 };
 
-void expect_same_within(const Case& input, const Result& whole, const Result& parts,
-                        double bound) {
+void expect_same_within(const Case& input, const Result& whole, const Result& parts, double bound) {
   Differences found{bound};
   const double v0 = input.scene.striker.velocity;
   const double energy = whole.used.initial_energy;

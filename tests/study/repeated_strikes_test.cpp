@@ -50,7 +50,10 @@ class RestingBeams : public testing::TestWithParam<RestingBeam> {};
 const RestingBeam free_of_moments[] = {
     {"exact_sections", [](Case&) {}},
     {"layers", [](Case& c) { c.model.section = SectionKind::layers; }},
-    {"pinned", [](Case& c) { c.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned}; }},
+    {"pinned",
+     [](Case& c) {
+       c.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
+     }},
     {"cantilever",
      [](Case& c) {
        c.scene.beam.ends = {EndSupport::clamped, EndSupport::free};
@@ -120,9 +123,9 @@ TEST(RestingBeam, BetweenClampsKeepsTheUniformMomentOfLeastEnergy) {
     const Result first = simulate(input);
     const std::vector<ShapeRow> shape = shape_at_rest(input, first);
     ASSERT_FALSE(shape.empty());
-    const double rotation = std::accumulate(
-        first.plastic_zones.begin(), first.plastic_zones.end(), 0.0,
-        [](double sum, const PlasticZone& zone) { return sum + zone.rotation; });
+    const double rotation =
+        std::accumulate(first.plastic_zones.begin(), first.plastic_zones.end(), 0.0,
+                        [](double sum, const PlasticZone& zone) { return sum + zone.rotation; });
     const Beam& beam = input.scene.beam;
     const double moment = -beam.bending_stiffness() * rotation / beam.length;
     EXPECT_GT(std::abs(moment), 1e-4 * beam.yield_moment());

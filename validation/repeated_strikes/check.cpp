@@ -58,15 +58,15 @@ void check_bar(Outcome& outcome) {
   const Result result = run_as_asked(case_of("repeated_strikes"), {}, {}).result;
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const std::vector<StrikeRow>& strikes = result.strikes;
-  outcome.rows.push_back({"strikes of the bar", 91, static_cast<double>(strikes.size()),
-                          Bound::absolute, 0.0});
+  outcome.rows.push_back(
+      {"strikes of the bar", 91, static_cast<double>(strikes.size()), Bound::absolute, 0.0});
   outcome.rows.push_back({"processor time of all, s", 30, seconds, Bound::within, 0.0});
   const bool grows = std::ranges::is_sorted(strikes, {}, &StrikeRow::dent);
   outcome.rows.push_back({"the dent never shrinks", 1, grows ? 1.0 : 0.0, Bound::holds, 0.0});
   double worst = 0.0;
   for (const StrikeRow& row : strikes) {
-    const double energy = row.striker_energy + row.vibration + row.bending_dissipated +
-                          row.contact_dissipated;
+    const double energy =
+        row.striker_energy + row.vibration + row.bending_dissipated + row.contact_dissipated;
     worst = std::max(worst, result.used.initial_energy - energy);
   }
   outcome.rows.push_back({"energy that strikes lose, of theirs, beyond all accounts", 1e-3,
@@ -78,15 +78,16 @@ void check_bar(Outcome& outcome) {
                           dissipated(strikes.back()) / dissipated(strikes.front()), Bound::within,
                           0.0});
   std::string table =
-      "| strike | sub-impacts | restitution | dent, mm | permanent set, mm | bending, J | contact, J "
+      "| strike | sub-impacts | restitution | dent, mm | permanent set, mm | bending, J | contact, "
+      "J "
       "|\n|---|---|---|---|---|---|---|\n";
   for (const int k : n_shown) {
     const StrikeRow& row = strikes.at(static_cast<std::size_t>(k - 1));
-    table += fmt::format("| {} | {} | {:.4f} ± {:.1g} | {:.4f} | {:.4f} ± {:.1g} | {:.3g} | {:.3g} |\n",
-                         row.strike, row.sub_impacts, row.restitution,
-                         row.restitution_error.value_or(NAN), 1e3 * row.dent,
-                         1e3 * row.permanent_set, 1e3 * row.permanent_set_error.value_or(NAN),
-                         row.bending_dissipated, row.contact_dissipated);
+    table += fmt::format(
+        "| {} | {} | {:.4f} ± {:.1g} | {:.4f} | {:.4f} ± {:.1g} | {:.3g} | {:.3g} |\n", row.strike,
+        row.sub_impacts, row.restitution, row.restitution_error.value_or(NAN), 1e3 * row.dent,
+        1e3 * row.permanent_set, 1e3 * row.permanent_set_error.value_or(NAN),
+        row.bending_dissipated, row.contact_dissipated);
   }
   outcome.notes.push_back("The bar, on the mesh that the first strike chose (" + result.used.mesh +
                           "):\n\n" + table);
