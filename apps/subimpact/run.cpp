@@ -197,7 +197,7 @@ int run(RunOptions& options) {
           next_steps(options, loaded.given, finished,
                      unwritten.empty() ? files.directory().path().string() : std::string()),
           sub_impact_table(result, !options.all));
-    if (!result.strikes.empty()) print("\n{}", strike_table(result, !options.all));
+    if (!result.strikes.empty()) print("\n{}", strike_table(result, options.all));
     if (result.predictability) print("\n{}", scatter_table(result));
     if (unwritten.empty()) print("\nfiles in {}\n", files.directory().path().string());
     std::fflush(stdout);
