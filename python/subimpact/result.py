@@ -71,6 +71,11 @@ class Result:
         return self._finished.table("envelope")
 
     @cached_property
+    def strikes(self) -> Table:
+        """The strikes of a case with repeat.strikes, one after another: strikes.csv."""
+        return self._finished.table("strikes")
+
+    @cached_property
     def summary(self) -> dict[str, Any]:
         """summary.json: settings given and used, counts, zones, conservation, work."""
         summary: dict[str, Any] = json.loads(self._finished.summary())

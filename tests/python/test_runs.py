@@ -14,7 +14,7 @@ import subimpact as si
 
 TABLES = {"sub_impacts": "events.csv", "transitions": "transitions.csv", "history": "history.csv",
           "sections": "sections.csv", "points": "points.csv", "shapes": "shapes.csv",
-          "envelope": "envelope.csv"}
+          "envelope": "envelope.csv", "strikes": "strikes.csv"}
 
 
 def text_of(value, name, digits):
