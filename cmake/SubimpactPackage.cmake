@@ -29,17 +29,18 @@ configure_package_config_file(cmake/subimpactConfig.cmake.in ${generated}/subimp
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${generated}/subimpactConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
-install(TARGETS subimpact_whole EXPORT subimpact)
-install(DIRECTORY include/subimpact TYPE INCLUDE FILES_MATCHING PATTERN "*.h")
+install(TARGETS subimpact_whole EXPORT subimpact COMPONENT library)
+install(DIRECTORY include/subimpact TYPE INCLUDE COMPONENT library FILES_MATCHING PATTERN "*.h")
 install(EXPORT subimpact NAMESPACE subimpact:: FILE subimpactTargets.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT library)
 install(FILES ${generated}/subimpactConfig.cmake ${generated}/subimpactConfigVersion.cmake
               cmake/FindKLU.cmake
-        DESTINATION ${package_dir})
-install(FILES LICENSE TYPE DOC)
+        DESTINATION ${package_dir} COMPONENT library)
+install(FILES LICENSE CITATION.cff TYPE DOC COMPONENT licence)
 
 # For pkg-config. The library is static, so what it needs is always linked with it.
 file(RELATIVE_PATH prefix_from_pc /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 configure_file(cmake/subimpact.pc.in ${generated}/subimpact.pc.generator @ONLY)
 file(GENERATE OUTPUT ${generated}/subimpact.pc INPUT ${generated}/subimpact.pc.generator)
-install(FILES ${generated}/subimpact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${generated}/subimpact.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT library)

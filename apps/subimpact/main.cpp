@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "io/printable.h"
+#include "numerics/processor.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
@@ -157,6 +158,10 @@ int run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (!occupy_closed_streams()) return subimpact::app::failed;
+  if (!subimpact::is_processor_sufficient()) {
+    std::fputs(subimpact::insufficient_processor, stderr);
+    return subimpact::app::failed;
+  }
   try {
     return run_command_line(argc, argv);
   } catch (...) {  // while a message was made

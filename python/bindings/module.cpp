@@ -1,6 +1,7 @@
 #include <exception>
 
 #include "bindings.h"
+#include "numerics/processor.h"
 #include "subimpact/io/results.h"
 
 namespace subimpact::python {
@@ -29,6 +30,9 @@ void translate(std::exception_ptr failure) {
 
 PYBIND11_MODULE(_core, module) {
   using namespace subimpact::python;
+  if (!subimpact::is_processor_sufficient()) {
+    throw py::import_error(subimpact::insufficient_processor);
+  }
   module.doc() = "The library subimpact, as the package subimpact uses it.";
   py::register_exception_translator(&translate);
   module.attr("__version__") = subimpact::project_version();
