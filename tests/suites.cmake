@@ -1,8 +1,9 @@
 # Writes a test of ctest for every suite of a test program; cmake -P, after the program is linked.
 #
 #   PROGRAM  the test program        PREFIX   of the names
-#   LABEL    of the tests            TIMEOUT  in seconds
+#   LABEL    of the tests; those of "unit" that take long are "run"
 #   COSTS    a file with lines "<name> <seconds>", of suites that take long
+#   TIMEOUT  in seconds
 #   OUTPUT   the file to write
 #
 # A suite, not a test, is one process: starting it takes longer than most tests.
@@ -22,8 +23,12 @@ foreach(line IN LISTS lines)
       set(cost ${CMAKE_MATCH_1})
     endif()
   endforeach()
+  set(label ${LABEL})
+  if(label STREQUAL "unit" AND cost GREATER 0)
+    set(label run)
+  endif()
   string(APPEND text "add_test([=[${name}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
-                     "set_tests_properties([=[${name}]=] PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT} "
+                     "set_tests_properties([=[${name}]=] PROPERTIES LABELS ${label} TIMEOUT ${TIMEOUT} "
                      "COST ${cost} WORKING_DIRECTORY [=[${DIRECTORY}]=])\n")
 endforeach()
 file(WRITE ${OUTPUT} "${text}")

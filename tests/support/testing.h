@@ -34,7 +34,8 @@ namespace subimpact {
 template <class... Pieces>
 void expect_in(const std::string& text, const Pieces&... pieces) {
   for (const std::string& piece : {std::string(pieces)...}) {
-    EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n" << text;
+    EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n"
+                                                   << text.substr(0, 10'000);
   }
 }
 
@@ -48,7 +49,8 @@ inline void expect_all_in(const std::string& text, const std::string& pieces) {
 template <class... Pieces>
 void expect_not_in(const std::string& text, const Pieces&... pieces) {
   for (const std::string& piece : {std::string(pieces)...}) {
-    EXPECT_EQ(text.find(piece), std::string::npos) << '"' << piece << "\" is in:\n" << text;
+    EXPECT_EQ(text.find(piece), std::string::npos) << '"' << piece << "\" is in:\n"
+                                                   << text.substr(0, 10'000);
   }
 }
 
