@@ -111,7 +111,7 @@ std::shared_ptr<const RunState> state_from(const std::string& text) {
 
 FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& loaded) {
   FinishedRun run = read_results(directory);
-  run.result.end_state = read_sealed(directory, [&](const ListedFiles& files) {
+  run.result.end_state = read_listed(directory, [&](const ListedFiles& files) {
     if (!files.manifest()->files.contains(state_name)) {
       throw ResultsError(
           fmt::format("{}: holds no {}: the run failed, or an older version made it; "
