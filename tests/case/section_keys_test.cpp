@@ -1,12 +1,9 @@
 // What a case may give of sections, noses and contact laws, and what is refused.
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "paper_case.h"
+#include "refusal.h"
 #include "subimpact/case/case_keys.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -32,13 +29,9 @@ Settings operator+(Settings a, const Settings& b) {
 }
 
 void expect_refused(const Case& input, const char* key, const char* words) {
-  try {
-    check(input);
-    FAIL() << "not refused: " << key << ' ' << words;
-  } catch (const InvalidCase& refused) {
-    EXPECT_EQ(refused.key, key);
-    EXPECT_NE(std::string(refused.what()).find(words), std::string::npos) << refused.what();
-  }
+  const Refusal refusal = refusal_of([&] { check(input); });
+  EXPECT_EQ(refusal.key, key);
+  expect_in(refusal.message, words);
 }
 
 TEST(SectionKeys, TakeEveryShapeByItsDimensions) {

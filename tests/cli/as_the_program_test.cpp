@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include "process.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/read_results.h"
@@ -11,10 +9,7 @@ namespace {
 
 TEST(ARunAsAsked, GivesWhatTheProgramGivesNumberForNumber) {
   const TemporaryDirectory directory;
-  const Finished finished = run_program(
-      {"run", SUBIMPACT_PAPER_CASE, "--out", "here", "--set", "time.end=3e-4", "--quiet"},
-      directory.path);
-  ASSERT_EQ(finished.status, 0) << finished.errors;
+  run_in(directory, paper("run", {"time.end=3e-4"}, {"--out", "here", "--quiet"}));
   const FinishedRun program = read_results(directory.path / "here");
   const LoadedCase loaded = read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=3e-4")});
   const WithinRun here = run_as_asked(loaded.value, loaded.given);

@@ -1,9 +1,5 @@
 // `subimpact run --continue`: a run goes on from the files of another one.
 
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "process.h"
 #include "subimpact/io/read_results.h"
 
@@ -19,16 +15,11 @@ std::vector<std::string> run_to(const char* end, const std::string& out,
   return words;
 }
 
-void expect_in(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << '"' << part << "\" is not in:\n" << text;
-}
-
 TEST(ContinuedRun, OfTheProgramLeavesTheFilesOfTheWholeStrike) {
   const TemporaryDirectory here;
-  ASSERT_EQ(run_program(run_to("1.2 ms", "whole"), here.path).status, 0);
-  ASSERT_EQ(run_program(run_to("0.5 ms", "first"), here.path).status, 0);
-  const Finished on = run_program(run_to("1.2 ms", "both", {"--continue", "first"}), here.path);
-  ASSERT_EQ(on.status, 0) << on.errors;
+  run_in(here, run_to("1.2 ms", "whole"));
+  run_in(here, run_to("0.5 ms", "first"));
+  const Finished on = run_in(here, run_to("1.2 ms", "both", {"--continue", "first"}));
   const FinishedRun whole = read_results(here.path / "whole");
   const FinishedRun both = read_results(here.path / "both");
   ASSERT_EQ(whole.result.sub_impacts.size(), both.result.sub_impacts.size());
@@ -60,8 +51,7 @@ TEST(ContinuedRun, ThatWasToldToEndGoesOn) {
   const std::string end = std::to_string(reached + 1e-3) + " s";
   words = run_to(end.c_str(), "here", slow);
   words.insert(words.end(), {"--continue", "here"});
-  const Finished on = run_program(words, here.path);
-  ASSERT_EQ(on.status, 0) << on.errors;
+  run_in(here, words);
   const Result result = read_results(here.path / "here").result;
   EXPECT_TRUE(result.outcome.completed());
   EXPECT_GT(result.outcome.time, reached);
@@ -70,12 +60,11 @@ TEST(ContinuedRun, ThatWasToldToEndGoesOn) {
 
 TEST(ContinuedRun, RefusesWhatDoesNotGoTogether) {
   const TemporaryDirectory here;
-  ASSERT_EQ(run_program(run_to("0.3 ms", "first", {"--error-bars=off"}), here.path).status, 0);
+  run_in(here, run_to("0.3 ms", "first", {"--error-bars=off"}));
   const auto errors_of = [&](const std::vector<std::string>& more, const char* end = "1 ms") {
     auto words = run_to(end, "next", {"--continue", "first"});
     words.insert(words.end(), more.begin(), more.end());
-    const Finished finished = run_program(words, here.path);
-    EXPECT_EQ(finished.status, 2) << finished.output;
+    const Finished finished = run_in(here, words, 2);
     return finished.errors;
   };
   expect_in(errors_of({"--set", "beam.width=0.02"}), "beam.width = 0.02, not 0.0163");
@@ -97,28 +86,20 @@ TEST(RepeatedStrikes, OfTheProgramHaveARowEachInATableAndOnTheScreen) {
   const TemporaryDirectory here;
   const std::vector<std::string> thrice = {"--set", "repeat.strikes=3", "--set",
                                            "beam.ends=pinned,pinned"};
-  const Finished finished = run_program(run_to("1 ms", "here", thrice), here.path);
-  ASSERT_EQ(finished.status, 0) << finished.errors;
-  expect_in(finished.output, "strike  sub-impacts");
+  expect_in(run_in(here, run_to("1 ms", "here", thrice)).output, "strike  sub-impacts");
   const Result result = read_results(here.path / "here").result;
   ASSERT_EQ(result.strikes.size(), 3U);
   EXPECT_EQ(result.strikes.back().sub_impacts, result.sub_impacts.size());
   EXPECT_EQ(result.strikes.back().dent, result.sub_impacts.back().residual_indentation);
-  const Finished other = run_program(
-      {"compare", SUBIMPACT_PAPER_CASE, "--methods", "erk", "--set", "repeat.strikes=3"},
-      here.path);
-  EXPECT_EQ(other.status, 2);
-  expect_in(other.errors, "only `subimpact run` strikes more than once");
+  expect_in(run_in(here, paper("compare", {"repeat.strikes=3"}, {"--methods", "erk"}), 2).errors,
+            "only `subimpact run` strikes more than once");
 }
 
 TEST(RepeatedStrikes, AreTheSameByHandFromDirectoryToDirectory) {
   const TemporaryDirectory here;
-  ASSERT_EQ(run_program(run_to("1 ms", "at_once", {"--set", "repeat.strikes=2"}), here.path).status,
-            0);
-  ASSERT_EQ(run_program(run_to("1 ms", "first"), here.path).status, 0);
-  const Finished second = run_program(
-      run_to("1 ms", "second", {"--continue", "first", "--set", "strike.rest=true"}), here.path);
-  ASSERT_EQ(second.status, 0) << second.errors;
+  run_in(here, run_to("1 ms", "at_once", {"--set", "repeat.strikes=2"}));
+  run_in(here, run_to("1 ms", "first"));
+  run_in(here, run_to("1 ms", "second", {"--continue", "first", "--set", "strike.rest=true"}));
   const Result a = read_results(here.path / "at_once").result;
   const Result b = read_results(here.path / "second").result;
   ASSERT_EQ(a.sub_impacts.size(), b.sub_impacts.size());

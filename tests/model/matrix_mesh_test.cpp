@@ -1,12 +1,8 @@
 #include "subimpact/model/matrix_mesh.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-
 #include "model/cell_mesh.h"
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

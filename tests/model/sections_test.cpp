@@ -1,19 +1,12 @@
 // Sections of every shape, with and without hardening: the law of fibres against return maps at the
 // points of a quadrature over the section, and closed forms.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <ostream>
-#include <string>
-#include <vector>
-
 #include "model/hermite_mesh.h"
 #include "model/section_law.h"
 #include "numerics/gauss.h"
 #include "paper_scene.h"
 #include "random_walk.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -1,12 +1,9 @@
 // Contacts of spheres: Thornton's that yields, Hertz's where the surfaces touch in an ellipse, and
 // the door through which a law is its force alone.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "model/contact_laws.h"
 #include "paper_scene.h"
+#include "testing.h"
 
 namespace subimpact {
 namespace {

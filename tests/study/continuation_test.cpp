@@ -1,14 +1,8 @@
 // Runs cut at the end of a step and continued, against runs in one piece.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <ostream>
-
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "print.h"
+#include "runs.h"
 #include "subimpact/study/judgement.h"
 
 namespace subimpact {
@@ -22,12 +16,7 @@ struct Scene {
   double bound = 1e-12;            // relative; 0: the stated errors in time
 
   Case input() const {
-    Case of_scene;
-    of_scene.scene = paper_scene();
-    of_scene.model.segments = 301;
-    of_scene.solver.method = method;
-    of_scene.end_time = end_time;
-    of_scene.output.interval = 0.0;
+    Case of_scene = paper_run(SectionKind::exact, end_time, 301, method);
     set(of_scene);
     return of_scene;
   }
@@ -105,8 +94,7 @@ struct Steps final : Observer {
 Result run_in_two(Case input, double cut) {
   const double end = input.end_time;
   input.end_time = cut;
-  const Result first = simulate(input);
-  EXPECT_TRUE(first.outcome.completed()) << first.outcome.message;
+  const Result first = completed(input);
   input.end_time = end;
   input.parts.start = first.end_state;
   return simulate(input);
