@@ -59,6 +59,7 @@ Outcome check_paper_as_computed();
 Outcome check_repeated_strikes();
 Outcome check_rigid_bodies();
 Outcome check_rigid_plastic();
+Outcome check_scenes();
 Outcome check_sdnl32();
 Outcome check_shear();
 Outcome check_spectral_identity();

@@ -41,6 +41,8 @@ const char* type_name(KeyType type) {
       return "pair";
     case KeyType::numbers:
       return "numbers";
+    case KeyType::placed:
+      return "placed";
   }
   return "";
 }

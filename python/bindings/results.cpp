@@ -102,11 +102,11 @@ double residual_indentation(const Finished& run) {
 }
 
 double restitution(const Finished& run) {
-  return run.result.restitution(run.input.scene.striker.velocity);
+  return run.result.restitution.value_or(NAN);
 }
 
 double striker_energy_share(const Finished& run) {
-  return std::pow(run.result.striker_velocity / run.input.scene.striker.velocity, 2);
+  return std::pow(run.result.striker_velocity / run.input.scene.bodies().velocity_scale(), 2);
 }
 
 // The columns that runs.csv has of a run.

@@ -2,6 +2,10 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
 
 #include "bindings.h"
 
@@ -61,10 +65,35 @@ std::optional<KeyValue> any_value(py::handle value) {
   return is_list ? list(value) : std::nullopt;
 }
 
+// A list of dicts: a position, and a number or a table of pairs.
+std::optional<KeyValue> placed(const CaseKey& key, py::handle value) {
+  PlacedValues values{key.leaf() == "forces" ? "force" : "stiffness", {}};
+  try {
+    for (const py::handle item : py::iter(value)) {
+      const auto entry = py::cast<py::dict>(item);
+      auto& [position, table] = values.entries.emplace_back();
+      position = entry["position"].cast<double>();
+      if (entry.size() != 2) return std::nullopt;
+      if (entry.contains("table") && values.quantity == "force") {
+        table = entry["table"].cast<std::vector<std::pair<double, double>>>();
+      } else {
+        table = {{0.0, entry[values.quantity.c_str()].cast<double>()}};
+      }
+      if (table.empty()) return std::nullopt;
+    }
+  } catch (const py::cast_error&) {
+    return std::nullopt;
+  } catch (const py::error_already_set&) {
+    return std::nullopt;
+  }
+  return values;
+}
+
 }  // namespace
 
 KeyValue key_value(const CaseKey& key, py::handle value) {
-  const std::optional<KeyValue> converted = any_value(value);
+  const bool is_placed = key.type == KeyType::placed && !py::isinstance<py::str>(value);
+  const std::optional<KeyValue> converted = is_placed ? placed(key, value) : any_value(value);
   const auto problem = converted ? problem_with(key, *converted)
                                  : std::optional(refusal(key, py::repr(value).cast<std::string>()));
   if (problem) throw InvalidCase(key.name, key.name + ' ' + *problem);
@@ -84,6 +113,19 @@ py::object to_python(const std::optional<KeyValue>& value) {
           return py::float_(x);
         } else if constexpr (std::is_same_v<Value, std::string>) {
           return py::str(x);
+        } else if constexpr (std::is_same_v<Value, PlacedValues>) {
+          py::list items;
+          for (const auto& [position, table] : x.entries) {
+            py::dict entry;
+            entry["position"] = position;
+            if (table.size() > 1) {
+              entry["table"] = py::cast(table);
+            } else {
+              entry[x.quantity.c_str()] = table.front().second;
+            }
+            items.append(entry);
+          }
+          return items;
         } else {
           py::list items;
           for (const auto& item : x) items.append(py::cast(item));

@@ -53,6 +53,12 @@ inline constexpr Named<NoseShape> choices<NoseShape>[] = {
 };
 
 template <>
+inline constexpr Named<BeamStart> choices<BeamStart>[] = {
+    {BeamStart::straight, "straight", "without displacement"},
+    {BeamStart::equilibrium, "equilibrium", "at rest under the loads of t = 0"},
+};
+
+template <>
 inline constexpr Named<CellSpacing> choices<CellSpacing>[] = {
     {CellSpacing::cells, "cells",
      "length/segments: the cells fill the beam, without the rotary inertia of the outer half cells "

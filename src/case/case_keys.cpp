@@ -67,6 +67,39 @@ struct Member<std::array<T, 2>> {
   }
 };
 
+template <>
+struct Member<std::vector<Spring>> {
+  static constexpr KeyType type = KeyType::placed;
+  static KeyValue to_value(const std::vector<Spring>& x) {
+    PlacedValues value{"stiffness", {}};
+    for (const Spring& one : x) value.entries.push_back({one.position, {{0.0, one.stiffness}}});
+    return value;
+  }
+  static std::vector<Spring> from_value(const KeyValue& v) {
+    std::vector<Spring> springs;
+    for (const auto& [position, table] : std::get<PlacedValues>(v).entries) {
+      springs.push_back({position, table.front().second});
+    }
+    return springs;
+  }
+};
+template <>
+struct Member<std::vector<PointForce>> {
+  static constexpr KeyType type = KeyType::placed;
+  static KeyValue to_value(const std::vector<PointForce>& x) {
+    PlacedValues value{"force", {}};
+    for (const PointForce& one : x) value.entries.push_back({one.position, one.table});
+    return value;
+  }
+  static std::vector<PointForce> from_value(const KeyValue& v) {
+    std::vector<PointForce> forces;
+    for (const auto& [position, table] : std::get<PlacedValues>(v).entries) {
+      forces.push_back({position, table});
+    }
+    return forces;
+  }
+};
+
 template <class T>
 const T* held(const T& member) {
   return &member;
@@ -85,6 +118,7 @@ const Range any_value;
 const Range positive{"finite and above 0", {.exclusive_minimum = 0.0}};
 const Range positive_or_infinite{"above 0, or inf", {.exclusive_minimum = 0.0, .infinity = true}};
 const Range not_negative{"finite, 0 or above", {.minimum = 0.0}};
+const Range finite{"finite", {}};
 const Range positive_share{"above 0, up to 1", {.exclusive_minimum = 0.0, .maximum = 1.0}};
 
 Range between(const char* words, double low, double high) {
@@ -144,6 +178,17 @@ CaseKey not_zero(CaseKey key) {
   key.get = [get = key.get](const Case& from) {
     const std::optional<KeyValue> value = get(from);
     return value && std::get<double>(*value) == 0.0 ? std::nullopt : value;
+  };
+  return key;
+}
+
+// A required key that other keys can take the place of: it is then not given, unless it has a value.
+CaseKey unless(bool (*is_needless)(const Case&), CaseKey key) {
+  key.is_needless = is_needless;
+  key.get = [get = key.get, is_needless](const Case& from) -> std::optional<KeyValue> {
+    const std::optional<KeyValue> value = get(from);
+    if (is_needless(from) && std::get<double>(*value) == 0.0) return std::nullopt;
+    return value;
   };
   return key;
 }
@@ -256,6 +301,15 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.damping.ratio", "", between("from 0 to 1", 0.0, 1.0), "damping ratio of all natural modes of a beam that stays elastic", as_in_case, AT(scene.beam.damping.ratio)),
     row("beam.damping.mass", "1/s", not_negative, "alpha of Rayleigh's damping: force over mass and velocity", as_in_case, AT(scene.beam.damping.mass)),
     row("beam.damping.stiffness", "s", not_negative, "beta of Rayleigh's damping: force over elastic stiffness and velocity", as_in_case, AT(scene.beam.damping.stiffness)),
+    row("beam.load", "N/m", finite, "uniform load along the strike, constant from t = 0", as_in_case, AT(scene.beam.load)),
+    row("beam.forces", "N", finite, "forces at points along the strike, each constant or linear between the points (t, F) of a table", "[]", AT(scene.beam.forces)),
+    row("beam.springs", "N/m", positive, "linear springs between points and the ground", "[]", AT(scene.beam.springs)),
+    row("beam.foundation", "N/m2", not_negative, "elastic bedding: force per length over displacement", as_in_case, AT(scene.beam.foundation)),
+    row("beam.start", "", any_value, "shape from which the beam starts", as_in_case, AT(scene.beam.start)),
+    row("beam.velocity", "m/s", finite, "velocity along the strike at t = 0, of the pivot where the beam turns", as_in_case, AT(scene.beam.velocity)),
+    row("beam.angular_velocity", "rad/s", finite, "angular velocity at t = 0, positive where it turns points beyond the pivot along the strike", as_in_case, AT(scene.beam.angular_velocity)),
+    row("beam.pivot", "", fraction, "point about which the beam turns, as a fraction of the length", "the pinned end; of other beams 0.5", AT(scene.beam.pivot)),
+    row("beam.fixed", "", any_value, "whether a rigid beam does not move, as a plane or wall (mesh = \"rigid\")", as_in_case, AT(scene.beam.fixed)),
 
     row("beam.section.shape", "", any_value, "shape of the cross-section; the dimensions that it needs follow", as_in_case, AT(scene.beam.section.shape)),
     row("beam.section.height", "m", positive, "height in the direction of the strike", none, AT(scene.beam.section.height)),
@@ -265,12 +319,16 @@ std::vector<CaseKey> make_case_keys() {
     row("beam.section.flange", "m", positive, "thickness of the flanges", none, AT(scene.beam.section.flange)),
     row("beam.section.web", "m", positive, "thickness of the web", none, AT(scene.beam.section.web)),
 
-    row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass)),
+    unless([](const Case& c) { return c.scene.striker.fixed; }, row("striker.mass", "kg", positive, "mass of the striker", required, AT(scene.striker.mass))),
     row("striker.nose_radius", "m", positive, "radius of the nose", "none; \"foundation\" and \"sphere\" need one", AT(scene.striker.nose_radius)),
     row("striker.nose", "", any_value, "shape of the nose", "foundation: \"cylinder\"; others: \"sphere\"", AT(scene.striker.nose)),
-    row("striker.velocity", "m/s", positive, "velocity at the first touch", required, AT(scene.striker.velocity)),
-    row("striker.gap", "m", not_negative, "distance of the nose from the beam at t = 0, which the striker crosses at striker.velocity", as_in_case, AT(scene.striker.gap)),
+    unless([](const Case& c) { return c.scene.striker.fixed || c.scene.striker.drop_height; }, row("striker.velocity", "m/s", positive, "velocity at t = 0, without loads that at the first touch", required, AT(scene.striker.velocity))),
+    row("striker.drop_height", "m", positive, "height of a fall from rest that ends at the first touch, in place of velocity: v = sqrt(2 g h) with the size of scene.gravity, or 9.80665 m/s2", "none", AT(scene.striker.drop_height)),
+    row("striker.fixed", "", any_value, "whether a rigid stop takes the striker's place: no mass, no velocity", as_in_case, AT(scene.striker.fixed)),
+    row("striker.gap", "m", not_negative, "distance of the nose from the beam at t = 0", as_in_case, AT(scene.striker.gap)),
     row("striker.position", "", fraction, "struck point, as a fraction of the length", as_in_case, AT(scene.striker.position)),
+
+    row("scene.gravity", "m/s2", finite, "gravity along the strike, on striker and beam", as_in_case, AT(scene.gravity)),
 
     row("contact.law", "", any_value, "relation of contact force and indentation", as_in_case, AT(scene.contact.kind)),
     row("contact.stiffness", "N/m^1.5 or N/m", positive, "stiffness of the laws \"hertz\" (N/m^1.5) and \"linear\" (N/m)", "hertz: from the radius of the sphere and the moduli; linear: none, it needs one", AT(scene.contact.stiffness)),

@@ -295,6 +295,39 @@ void check_shear(const Case& input) {
   }
 }
 
+// What takes the place of striker or beam.
+void check_bodies(const Case& input) {
+  const Striker& striker = input.scene.striker;
+  const Beam& beam = input.scene.beam;
+  const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
+  if (striker.fixed) {
+    const char* why = "is given, but striker.fixed = true is a stop, which has neither mass nor "
+                      "velocity; leave it out, or striker.fixed";
+    if (striker.mass != 0.0) refuse("striker.mass", why);
+    if (striker.velocity != 0.0) refuse("striker.velocity", why);
+    if (striker.drop_height) refuse("striker.drop_height", why);
+    if (beam.fixed) {
+      refuse("striker.fixed", "is true, and beam.fixed too, so that nothing moves; leave one out");
+    }
+  }
+  if (striker.drop_height) {
+    const char* why = "is given, but striker.drop_height sets the velocity, and the run begins at "
+                      "the touch; leave one of them out";
+    if (striker.velocity != 0.0) refuse("striker.velocity", why);
+    if (striker.gap != 0.0) refuse("striker.gap", why);
+  }
+  if (!beam.fixed) return;
+  if (input.parts.mesh || input.model.mesh != MeshKind::rigid) {
+    refuse("beam.fixed",
+           "is true, but only a rigid beam can be a plane or wall; set model.mesh = \"rigid\", or "
+           "hold the ends of a beam that bends with beam.ends");
+  }
+  if (beam.is_sprung()) {
+    refuse(beam.foundation > 0.0 ? "beam.foundation" : "beam.springs",
+           "is given, but beam.fixed = true: the beam does not move; leave it out");
+  }
+}
+
 // Where the scene is symmetric, first derivatives show nothing of a strike that is off its centre.
 void check_scatter(const Case& input) {
   const auto scatter = input.scatter.find("striker.position");
@@ -327,6 +360,7 @@ void check(const Case& input) {
     if (const auto problem = problem_with(key, *value)) throw InvalidCase(key.name, *problem);
   }
   check_section(input);
+  check_bodies(input);
   check_scales(input);
   check_contact(input);
   if (!input.parts.mesh) check_mesh(input);

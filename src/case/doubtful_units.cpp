@@ -178,7 +178,7 @@ class Doubts {
             fmt::format(", {:.3g} times the beam's {:.3g} kg", m / beam_.mass(), beam_.mass()),
             {{"g", 1e-3}});
     }
-    if (case_.scene.striker.velocity > fastest) {
+    if (case_.scene.bodies().striker_velocity() > fastest) {
       doubt("striker.velocity", ", faster than a rifle bullet", {{"mm/s", 1e-3}});
     }
   }

@@ -21,7 +21,8 @@ std::string quoted_list(std::vector<std::string> names) {
 // A value of another type than the key's is shown together with its type.
 std::string typed(const KeyValue& value) {
   static constexpr const char* kinds[] = {"a boolean", "a whole number", "a floating-point number",
-                                          "a text",    "a list",         "a list of numbers"};
+                                          "a text",    "a list",         "a list of numbers",
+                                          "a list of things at points"};
   return fmt::format("{} ({})", kinds[value.index()], to_text(value));
 }
 
@@ -65,6 +66,22 @@ std::optional<std::string> pair_problem(const CaseKey& key, const std::vector<st
   if (names.size() != 2) return refusal(key, to_text(value));
   for (const std::string& name : names) {
     if (!is_choice(key, name)) return choice_problem(key, name);
+  }
+  return std::nullopt;
+}
+
+// Of things at points: the first number that is not allowed.
+std::optional<std::string> placed_problem(const CaseKey& key, const PlacedValues& value) {
+  const auto refuse = [&](const std::string& what) { return refusal(key, "a list with " + what); };
+  for (const auto& [position, table] : value.entries) {
+    if (!(position >= 0.0 && position <= 1.0)) return refuse(fmt::format("position {}", position));
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      const auto [time, number] = table[i];
+      if (!key.limits.hold(number)) return refuse(fmt::format("{} {}", value.quantity, number));
+      if (!(time >= 0.0 && std::isfinite(time)) || (i > 0 && time < table[i - 1].first)) {
+        return refuse(fmt::format("time {} in a table", time));
+      }
+    }
   }
   return std::nullopt;
 }
@@ -128,6 +145,19 @@ std::string to_text(const KeyValue& value) {
     std::string operator()(const std::vector<double>& x) const {
       return fmt::format("[{}]", fmt::join(x, ", "));
     }
+    std::string operator()(const PlacedValues& x) const {
+      std::vector<std::string> entries;
+      for (const auto& [position, table] : x.entries) {
+        std::string amount = fmt::format("{} = {}", x.quantity, table.front().second);
+        if (table.size() > 1) {
+          std::vector<std::string> pairs;
+          for (const auto& [t, f] : table) pairs.push_back(fmt::format("[{}, {}]", t, f));
+          amount = fmt::format("table = [{}]", fmt::join(pairs, ", "));
+        }
+        entries.push_back(fmt::format("{{ position = {}, {} }}", position, amount));
+      }
+      return fmt::format("[{}]", fmt::join(entries, ", "));
+    }
   };
   return std::visit(Writer{}, value);
 }
@@ -150,6 +180,13 @@ std::string allowed_values(const CaseKey& key) {
       return "a list of two out of " + quoted_list(key.choice_names());
     case KeyType::numbers:
       return "a list of numbers" + (range.empty() ? "" : ", each " + key.range) + unit;
+    case KeyType::placed:
+      if (key.leaf() == "forces") {
+        return "a list of { position = x, force = F } or { position = x, table = [[t, F], ...] }, x "
+               "from 0 to 1, F in N, t in s, 0 or above and not descending";
+      }
+      return fmt::format("a list of {{ position = x, stiffness = k }}, x from 0 to 1, k {}{}",
+                         key.range, unit);
   }
   return {};
 }
@@ -175,6 +212,10 @@ std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& valu
   if (const auto* names = std::get_if<std::vector<std::string>>(&value)) {
     if (type == KeyType::pair) return pair_problem(key, *names, value);
     if (type == KeyType::numbers && names->empty()) return std::nullopt;
+    if (type == KeyType::placed && names->empty()) return std::nullopt;
+  }
+  if (const auto* placed = std::get_if<PlacedValues>(&value); placed && type == KeyType::placed) {
+    return placed_problem(key, *placed);
   }
   if (const auto* numbers = std::get_if<std::vector<double>>(&value);
       numbers && type == KeyType::numbers) {

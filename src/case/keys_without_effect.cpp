@@ -14,6 +14,7 @@ namespace subimpact {
 namespace {
 
 bool is_rigid(const Case& c) { return !descriptor_of(c.model.mesh).bends; }
+bool is_fixed(const Case& c) { return c.scene.beam.fixed; }
 bool has_elastic_sections(const Case& c) { return c.model.section == SectionKind::elastic; }
 bool never_yields(const Case& c) { return std::isinf(c.scene.beam.yield_stress); }
 bool does_not_shear(const Case& c) { return !c.scene.beam.shears(); }
@@ -62,6 +63,11 @@ constexpr IdleKey idle_keys[] = {
     {"beam.hardening", "model.mesh", is_rigid},
     {"beam.hardening", "model.section", has_elastic_sections},
     {"beam.hardening", "beam.yield_stress", never_yields},
+    {"beam.pivot", "beam.angular_velocity",
+     [](const Case& c) { return c.scene.beam.angular_velocity == 0.0; }},
+    {"beam.load", "beam.fixed", is_fixed},
+    {"beam.forces", "beam.fixed", is_fixed},
+    {"beam.start", "beam.fixed", is_fixed},
     {"beam.damping.ratio", "model.mesh", is_rigid},
     {"beam.damping.stiffness", "model.mesh", is_rigid},
     {"model.hinges", "model.section", has_elastic_sections},

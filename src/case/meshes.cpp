@@ -101,6 +101,19 @@ void check_cells(const Case& input) {
 
 // What mixed cells are not derived for.
 void check_mixed_model(const Case& input) {
+  const Beam& beam = input.scene.beam;
+  const std::pair<const char*, bool> others[] = {
+      {"scene.gravity", input.scene.gravity != 0.0}, {"beam.load", beam.load != 0.0},
+      {"beam.forces", !beam.forces.empty()},         {"beam.springs", !beam.springs.empty()},
+      {"beam.foundation", beam.foundation != 0.0},   {"beam.velocity", beam.velocity != 0.0},
+      {"beam.angular_velocity", beam.angular_velocity != 0.0}};
+  for (const auto& [key, is_given] : others) {
+    if (!is_given) continue;
+    throw InvalidCase(key,
+                      "is given, but mixed cells, of which masses and step are made for free waves, "
+                      "have no loads, springs or motion at the start; leave it out, or use another "
+                      "mesh");
+  }
   if (input.scene.beam.rotary_inertia() == 0.0) {
     throw InvalidCase("beam.theory",
                       "is \"euler-bernoulli\", but mixed cells need rotary inertia; allowed with "
@@ -188,8 +201,8 @@ Mesh make_rigid_mesh(const Case& input) {
   if (!input.scene.beam.is_free()) {
     throw InvalidCase("model.mesh",
                       "is \"rigid\", but a rigid beam moves only with free ends; set beam.ends = "
-                      "[\"free\", \"free\"] (a heavy beam stands for a fixed one), or use another "
-                      "mesh");
+                      "[\"free\", \"free\"] (with beam.fixed = true it does not move), or use "
+                      "another mesh");
   }
   return std::make_shared<RigidMesh>(input.scene.beam, input.scene.striker.position);
 }

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 
 #include "case/meshes.h"
 #include "numerics/units.h"
+#include "model/sprung_mesh.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
@@ -28,6 +30,33 @@ constexpr SectionDescriptor section_rows[] = {
     {SectionKind::exact, "exact", "the limit of infinitely many layers, in closed form", false,
      [](const ModelOptions&, const Beam& beam) -> Section { return Fibres::continuous(beam); }},
 };
+
+// Whether of things at points each has its like at the mirror image of its point.
+template <class Thing, class Amount>
+bool is_mirrored(const std::vector<Thing>& things, Amount Thing::*amount) {
+  const auto count = [&](double position, const Amount& of) {
+    return std::ranges::count_if(things, [&](const Thing& thing) {
+      return thing.position == position && thing.*amount == of;
+    });
+  };
+  return std::ranges::all_of(things, [&](const Thing& thing) {
+    return count(thing.position, thing.*amount) == count(1.0 - thing.position, thing.*amount);
+  });
+}
+
+// Parts of a quadrature along the beam.
+std::shared_ptr<const BeamMesh> on_springs(const Case& input, std::shared_ptr<const BeamMesh> mesh) {
+  const auto& refinement = descriptor_of(input.model.mesh).refinement;
+  std::size_t n_parts = refinement ? static_cast<std::size_t>(input.model.*refinement->count) : 1;
+  if (input.parts.mesh) n_parts = mesh->n_unknowns();
+  if (!mesh->displacement_at(0.0)) {
+    throw InvalidCase(input.scene.beam.springs.empty() ? "beam.foundation" : "beam.springs",
+                      "is given, but this mesh gives no displacements along the beam; leave it "
+                      "out, or give the mesh displacement_at()");
+  }
+  const bool is_cells = !input.parts.mesh && input.model.mesh == MeshKind::cells;
+  return std::make_shared<SprungMesh>(std::move(mesh), input.scene.beam, n_parts, is_cells);
+}
 
 }  // namespace
 
@@ -60,7 +89,10 @@ bool may_yield(const Case& input) {
 
 bool is_symmetric(const Case& input) {
   const auto& ends = input.scene.beam.ends;
-  return input.scene.striker.position == 0.5 && ends[0] == ends[1];
+  const Beam& beam = input.scene.beam;
+  return input.scene.striker.position == 0.5 && ends[0] == ends[1] &&
+         beam.angular_velocity == 0.0 && is_mirrored(beam.forces, &PointForce::table) &&
+         is_mirrored(beam.springs, &Spring::stiffness);
 }
 
 bool uses_symmetry(const Case& input) {
@@ -97,7 +129,9 @@ Problem problem_of(const Case& input) {
   Problem problem;
   problem.beam = input.scene.beam;
   problem.striker = input.scene.striker;
+  problem.gravity = input.scene.gravity;
   problem.mesh = input.parts.mesh ? input.parts.mesh : descriptor_of(input.model.mesh).make(input);
+  if (input.scene.beam.is_sprung()) problem.mesh = on_springs(input, std::move(problem.mesh));
   problem.contact_law = contact_law_of(input);
   problem.contact_damping = input.scene.contact.damping;
   problem.check_contact_law = input.parts.contact_law != nullptr;

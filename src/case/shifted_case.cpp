@@ -23,7 +23,7 @@ double number_of(const Case& input, const CaseKey& key) {
 bool is_number_of_scene(const CaseKey& key) {
   return key.type == KeyType::number &&
          (key.name.starts_with("beam.") || key.name.starts_with("striker.") ||
-          key.name.starts_with("contact."));
+          key.name.starts_with("contact.") || key.name.starts_with("scene."));
 }
 
 std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key) {
@@ -36,7 +36,7 @@ std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key
   const double x = number_of(input, key);
   const std::string value = fmt::format("is {:g}, ", x);
   if (x == 0.0 || !std::isfinite(x)) {
-    return value + "which has no logarithm to derive by; give a finite value above 0";
+    return value + "which has no logarithm to derive by; give a finite value other than 0";
   }
   if (key.name == "striker.position" && is_symmetric(input)) {
     return value +

@@ -20,6 +20,8 @@ constexpr NamedUnit named_units[] = {
     {"kg/m3", "kg/m3", 0}, {"kg/m3", "g/cm3", 3}, {"1/s", "1/s", 0},  {"s/m", "s/m", 0},
     {"N", "N", 0},         {"N", "mN", -3},       {"N", "kN", 3},     {"N", "MN", 6},
     {"Hz", "Hz", 0},       {"Hz", "kHz", 3},      {"Hz", "MHz", 6},
+    {"N/m", "N/m", 0},     {"N/m", "N/mm", 3},    {"N/m", "kN/m", 3}, {"m/s2", "m/s2", 0},
+    {"rad/s", "rad/s", 0}, {"N/m2", "N/m2", 0},
 };
 
 bool is_space(char c) { return c == ' ' || c == '\t'; }

@@ -17,11 +17,12 @@ void CentralDifference::restart(double t, const State& y) {
   stand_at(t, y);
   origin_ = t;
   steps_from_origin_ = 0;
+  ode_.set_time(t);
   ode_.acceleration({y1_.data(), n_}, a1_);
   ++work_.right_hand_sides;
 }
 
-void CentralDifference::advance(double h, const State& from, const AlignedVector& a_from, State& y,
+void CentralDifference::advance(double t, double h, const State& from, const AlignedVector& a_from, State& y,
                                 AlignedVector& acceleration) {
   const double half = 0.5 * h;
   const double* q0 = from.data();
@@ -33,6 +34,7 @@ void CentralDifference::advance(double h, const State& from, const AlignedVector
   assign_by_lines(v, n_, [=](auto at) { return at(v0) + half * at(a0); });
   assign_by_lines(q, n_, [=](auto at) { return at(q0) + h * at(v); });
   if (constant_force_on_last_) q[n_ - 1] = q0[n_ - 1] + h * v0[n_ - 1];
+  ode_.set_time(t + h);
   ode_.settle({q, n_});
   ode_.acceleration({q, n_}, acceleration);
   ++work_.right_hand_sides;
@@ -43,20 +45,20 @@ void CentralDifference::step() {
   std::swap(y0_, y1_);
   std::swap(a0_, a1_);
   t0_ = t1_;
-  advance(step_, y0_, a0_, y1_, a1_);
+  advance(t0_, step_, y0_, a0_, y1_, a1_);
   t1_ = origin_ + static_cast<double>(++steps_from_origin_) * step_;
   ++work_.steps;
 }
 
 void CentralDifference::state_at(double t, State& y) {
   y.resize(2 * n_);
-  advance(t - t0_, y0_, a0_, y, a_partial_);
+  advance(t0_, t - t0_, y0_, a0_, y, a_partial_);
   ++work_.partial_steps;
 }
 
 void CentralDifference::state_before_end(double t, State& y) {
   y.resize(2 * n_);
-  advance(t - t1_, y1_, a1_, y, a_partial_);
+  advance(t1_, t - t1_, y1_, a1_, y, a_partial_);
   ++work_.partial_steps;
 }
 

@@ -28,7 +28,7 @@ class CentralDifference final : public Integrator {
 
  private:
   // One step of length h, perhaps below 0, from (from, a_from) into y; leaves a(q) there.
-  void advance(double h, const State& from, const AlignedVector& a_from, State& y,
+  void advance(double t, double h, const State& from, const AlignedVector& a_from, State& y,
                AlignedVector& acceleration);
 
   SecondOrderOde& ode_;

@@ -69,6 +69,7 @@ void Exponential::step() {
   std::swap(y0_, y1_);
   y1_.resize(y0_.size());
   t0_ = t1_;
+  if (oscillators_.has_loads()) step_loads_ = oscillators_.loads_from(t0_);
   if (oscillators_.is_free()) {
     free_step();
   } else {
@@ -85,8 +86,16 @@ double Exponential::fourth_derivative_bound() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < n_; ++i) {
     const double w = omega[i];
-    const double wq = w * y0_[i];
-    const double amplitude_w = std::sqrt(wq * wq + y0_[n_ + i] * y0_[n_ + i]);  // A omega
+    double q = y0_[i];
+    double v = y0_[n_ + i];
+    // About the motion that the loads keep up, of which the fourth derivative is 0.
+    if (!step_loads_.value.empty() && w > 0.0) {
+      const double rate = step_loads_.rate[i] / (w * w);
+      q -= step_loads_.value[i] / (w * w) - (decay.empty() ? 0.0 : 2.0 * decay[i] / (w * w)) * rate;
+      v -= rate;
+    }
+    const double wq = w * q;
+    const double amplitude_w = std::sqrt(wq * wq + v * v);  // A omega
     if (decay.empty()) {
       sum += std::abs(c[i]) * amplitude_w * w * w * w;
     } else if (decay[i] > apart * w) {
@@ -94,8 +103,8 @@ double Exponential::fourth_derivative_bound() const {
       const double root = std::sqrt((decay[i] - w) * (decay[i] + w));
       const double fast = decay[i] + root;
       const double slow = w * w / fast;
-      const double of_slow = std::abs(y0_[n_ + i] + fast * y0_[i]) * std::pow(slow, 4);
-      const double of_fast = std::abs(y0_[n_ + i] + slow * y0_[i]) * std::pow(fast, 4);
+      const double of_slow = std::abs(v + fast * q) * std::pow(slow, 4);
+      const double of_fast = std::abs(v + slow * q) * std::pow(fast, 4);
       sum += std::abs(c[i]) * (of_slow + of_fast) / (2.0 * root);
     } else {
       const double rate = decay[i] + std::hypot(w, decay[i]);
@@ -140,6 +149,7 @@ void Exponential::free_step() {
     const double h = trial.length();
     const double uncertainty = h * h * h * h / 384.0 * bound_;
     trial.advance_freely(y0_, y1_);
+    if (!step_loads_.value.empty()) trial.add_loads(step_loads_, y1_);
     lambda1_ = displacement(y1_.data());
     rate1_ = displacement(y1_.data() + n_);
     t1_ = t0_ + h;
@@ -205,7 +215,8 @@ void Exponential::forced_step() {
     }
     const OscillatorStep& trial = table(level_);
     const double h = trial.length();
-    const NodeForces free = trial.free_displacements(y0_);
+    NodeForces free = trial.free_displacements(y0_);
+    if (!step_loads_.value.empty()) trial.add_loads(step_loads_, free);
     NodeForces forces;
     for (std::size_t i = 0; i < n_force_nodes; ++i) {
       forces[i] = start.value + start.slope * rate0 * gauss<n_force_nodes>.points[i] * h;
@@ -214,6 +225,7 @@ void Exponential::forced_step() {
     if (solve(trial, free, forces, lambda)) {
       work_.right_hand_sides += n_force_nodes;
       trial.advance(y0_, forces, y1_);
+      if (!step_loads_.value.empty()) trial.add_loads(step_loads_, y1_);
       lambda1_ = displacement(y1_.data());
       rate1_ = displacement(y1_.data() + n_);
       t1_ = t0_ + h;
@@ -244,7 +256,7 @@ void Exponential::forced_step() {
 }
 
 bool Exponential::integrate_squared_velocities(double t, std::span<double> result) {
-  if (oscillators_.decay_rates().empty()) return false;
+  if (oscillators_.decay_rates().empty() || oscillators_.has_loads()) return false;
   subimpact::integrate_squared_velocities(oscillators_, y0_, force_, force_length_, t - t0_,
                                           result);
   return true;
@@ -253,6 +265,7 @@ bool Exponential::integrate_squared_velocities(double t, std::span<double> resul
 void Exponential::state_at(double t, State& y) {
   y.resize(2 * n_);
   flow(oscillators_, y0_, force_, force_length_, t - t0_, y);
+  add_response(oscillators_, step_loads_, t - t0_, y);
   ++work_.partial_steps;
 }
 

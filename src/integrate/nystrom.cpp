@@ -197,14 +197,15 @@ Nystrom::Nystrom(SecondOrderOde& ode, const IntegratorOptions& options)
   next_step_ = fixed_step_.value_or(1e-3 * ode.scales().position / ode.scales().velocity);
 }
 
-void Nystrom::accelerate(const double* positions, Vector& result) {
+void Nystrom::accelerate(double t, const double* positions, Vector& result) {
+  ode_.set_time(t);
   ode_.acceleration({positions, n_}, result);
   ++work_.right_hand_sides;
 }
 
 void Nystrom::restart(double t, const State& y) {
   stand_at(t, y);
-  accelerate(y1_.data(), end_acceleration_);
+  accelerate(t, y1_.data(), end_acceleration_);
 }
 
 void Nystrom::advance(double h, std::vector<Vector>& stages, State& y) {
@@ -222,10 +223,10 @@ void Nystrom::advance(double h, std::vector<Vector>& stages, State& y) {
   const std::size_t n_inner = table_.n_stages() - (first_same_as_last_ ? 1 : 0);
   for (std::size_t i = 1; i < n_inner; ++i) {
     write_position(table_.c[i] * h, table_.a[i], i);
-    accelerate(q, stages[i]);
+    accelerate(t0_ + table_.c[i] * h, q, stages[i]);
   }
   write_position(h, table_.position, n_inner);
-  if (first_same_as_last_ && &stages == &stages_) accelerate(q, stages.back());
+  if (first_same_as_last_ && &stages == &stages_) accelerate(t0_ + h, q, stages.back());
   // The velocity weights of a table that ends on the next step's first stage leave that stage out.
   VectorSum velocity;
   velocity.add(1.0, v0);
@@ -276,7 +277,7 @@ void Nystrom::step() {
   if (first_same_as_last_) {
     std::copy(stages_.back().begin(), stages_.back().end(), end_acceleration_.begin());
   } else {
-    accelerate(y1_.data(), end_acceleration_);
+    accelerate(t1_, y1_.data(), end_acceleration_);
   }
   ++work_.steps;
 }

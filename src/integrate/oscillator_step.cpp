@@ -153,6 +153,49 @@ OscillatorStep::OscillatorStep(const ForcedOscillators& oscillators, double leng
   } else {
     make_damped(oscillators);
   }
+  if (oscillators.has_loads()) make_loads(oscillators);
+}
+
+void OscillatorStep::make_loads(const ForcedOscillators& oscillators) {
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double w = oscillators.frequencies()[k];
+    const double delta = oscillators.decay_rates().empty() ? 0.0 : oscillators.decay_rates()[k];
+    const DampedOscillator end(w, delta, length_);
+    by_impulse_.push_back(end.response);
+    by_value_.push_back(end.forced[0]);
+    by_rate_.push_back(end.forced[1]);
+    for (std::size_t i = 0; i < s; ++i) {
+      const DampedOscillator node(w, delta, gauss<s>.points[i] * length_);
+      for (std::size_t m = 0; m < 2; ++m) {
+        lambda_by_load_[i][m].push_back(oscillators.displacements()[k] * node.forced[m]);
+      }
+    }
+  }
+}
+
+void OscillatorStep::add_loads(const ForcedOscillators::Loads& loads, std::span<double> end) const {
+  for (std::size_t k = 0; k < n_; ++k) {
+    end[k] += by_value_[k] * loads.value[k] + by_rate_[k] * loads.rate[k];
+    end[n_ + k] += by_impulse_[k] * loads.value[k] + by_value_[k] * loads.rate[k];
+  }
+}
+
+void OscillatorStep::add_loads(const ForcedOscillators::Loads& loads, NodeForces& lambda) const {
+  for (std::size_t i = 0; i < s; ++i) {
+    lambda[i] += dot(lambda_by_load_[i][0].data(), loads.value.data(), n_) +
+                 dot(lambda_by_load_[i][1].data(), loads.rate.data(), n_);
+  }
+}
+
+void add_response(const ForcedOscillators& oscillators, const ForcedOscillators::Loads& loads,
+                  double t, std::span<double> y) {
+  const std::size_t n = oscillators.size();
+  for (std::size_t k = 0; k < n && !loads.value.empty(); ++k) {
+    const double delta = oscillators.decay_rates().empty() ? 0.0 : oscillators.decay_rates()[k];
+    const DampedOscillator at(oscillators.frequencies()[k], delta, t);
+    y[k] += at.forced[0] * loads.value[k] + at.forced[1] * loads.rate[k];
+    y[n + k] += at.response * loads.value[k] + at.forced[0] * loads.rate[k];
+  }
 }
 
 void OscillatorStep::make_damped(const ForcedOscillators& oscillators) {

@@ -41,10 +41,14 @@ class OscillatorStep {
   /// The step's end under the forces, or in free motion.
   void advance(std::span<const double> y, const NodeForces& forces, std::span<double> end) const;
   void advance_freely(std::span<const double> y, std::span<double> end) const;
+  /// What loads from the step's start on add to both, from rest.
+  void add_loads(const ForcedOscillators::Loads& loads, std::span<double> end) const;
+  void add_loads(const ForcedOscillators::Loads& loads, NodeForces& lambda) const;
 
  private:
   void make_undamped(const ForcedOscillators& oscillators);
   void make_damped(const ForcedOscillators& oscillators);
+  void make_loads(const ForcedOscillators& oscillators);
 
   std::size_t n_;
   double length_;
@@ -55,7 +59,14 @@ class OscillatorStep {
   Column cosine_, sine_over_omega_, minus_omega_sine_;
   Column rate_cosine_;  // of q'; empty without damping, where it is cosine_
   std::array<Column, n_force_nodes> position_, velocity_;  // P_j, V_j
+  // Responses to the accelerations 1, t and, as velocity, to their rates 0, 1; empty without loads.
+  Column by_impulse_, by_value_, by_rate_;
+  std::array<std::array<Column, 2>, n_force_nodes> lambda_by_load_;
 };
+
+/// Adds the response to loads, from rest, a time t after they began.
+void add_response(const ForcedOscillators& oscillators, const ForcedOscillators::Loads& loads,
+                  double t, std::span<double> y);
 
 /// The state a time t after y, t within a step of length h over which the force is the polynomial.
 void flow(const ForcedOscillators& oscillators, std::span<const double> y,

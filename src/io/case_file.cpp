@@ -92,8 +92,44 @@ std::optional<std::size_t> too_deep_at(std::string_view toml) {
   return std::nullopt;
 }
 
+// A number, or a text of one with its unit.
+std::optional<double> number_in(const toml::node* node, const std::string& unit) {
+  if (node == nullptr) return std::nullopt;
+  if (const auto* text = node->as_string()) return value_in(unit, text->get());
+  return node->is_number() ? node->value<double>() : std::nullopt;
+}
+
+// A list of things at points, each a position and one other number or, of forces, a table.
+std::optional<KeyValue> placed_in(const toml::array& list, const CaseKey& key) {
+  PlacedValues values{key.leaf() == "forces" ? "force" : "stiffness", {}};
+  for (const toml::node& item : list) {
+    const toml::table* entry = item.as_table();
+    if (entry == nullptr || entry->size() != 2) return std::nullopt;
+    const auto position = number_in(entry->get("position"), "");
+    if (!position) return std::nullopt;
+    values.entries.push_back({*position, {}});
+    auto& table = values.entries.back().table;
+    if (const auto amount = number_in(entry->get(values.quantity), key.unit)) {
+      table.emplace_back(0.0, *amount);
+      continue;
+    }
+    const toml::array* rows = values.quantity == "force" ? (*entry)["table"].as_array() : nullptr;
+    if (rows == nullptr || rows->size() < 2) return std::nullopt;
+    for (const toml::node& row : *rows) {
+      const toml::array* pair = row.as_array();
+      if (pair == nullptr || pair->size() != 2) return std::nullopt;
+      const auto time = number_in(pair->get(0), "s");
+      const auto amount = number_in(pair->get(1), key.unit);
+      if (!time || !amount) return std::nullopt;
+      table.emplace_back(*time, *amount);
+    }
+  }
+  return values;
+}
+
 // Nothing if no key holds such a thing (a date, a table, a mixed list).
-std::optional<KeyValue> to_key_value(const toml::node& node) {
+std::optional<KeyValue> to_key_value(const toml::node& node, const CaseKey& key) {
+  if (key.type == KeyType::placed && node.is_array()) return placed_in(*node.as_array(), key);
   if (const auto* flag = node.as_boolean()) return KeyValue(flag->get());
   if (const auto* whole = node.as_integer()) return KeyValue(whole->get());
   if (const auto* number = node.as_floating_point()) return KeyValue(number->get());
@@ -168,7 +204,7 @@ std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& tex
     if (too_deep_at(line)) return std::nullopt;
     const toml::table parsed = toml::parse(line);
     if (parsed.size() != 1) return std::nullopt;
-    return to_key_value(*parsed.get("value"));
+    return to_key_value(*parsed.get("value"), key);
   } catch (const toml::parse_error&) {
     return std::nullopt;
   }
@@ -246,7 +282,7 @@ class Reader {
       }
     }
     choose_mesh(read);
-    complain_of_missing_keys();
+    complain_of_missing_keys(read);
     LoadedCase loaded(name_, std::move(places));
     loaded.value = std::move(read);
     loaded.given = given_keys();
@@ -278,7 +314,7 @@ class Reader {
   bool is_full() const { return problems_.size() >= most_problems; }
 
   void read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
-    std::optional<KeyValue> value = to_key_value(node);
+    std::optional<KeyValue> value = to_key_value(node, key);
     if (value) {
       given_[key.name] = {in_unit_of(key, std::move(*value)), where, true};
     } else {
@@ -287,11 +323,12 @@ class Reader {
     }
   }
 
-  void complain_of_missing_keys() {
+  void complain_of_missing_keys(const Case& read) {
     std::vector<std::string> missing_tables;
     for (const CaseKey& key : case_keys()) {
       const bool refused = std::find(refused_.begin(), refused_.end(), key.name) != refused_.end();
       if (!key.required || given_.contains(key.name) || refused) continue;
+      if (key.is_needless && key.is_needless(read)) continue;
       const std::string table = key.table();
       const auto present = tables_.find(table);
       if (present != tables_.end()) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/units.h"
+#include "io/key_json.h"
 #include "io/listed_files.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
@@ -27,6 +28,7 @@ std::string toml_text(const std::string& text) {
 }
 
 bool is_empty_list(const KeyValue& value) {
+  if (const auto* placed = std::get_if<PlacedValues>(&value)) return placed->entries.empty();
   const auto* numbers = std::get_if<std::vector<double>>(&value);
   return numbers != nullptr && numbers->empty();
 }
@@ -63,6 +65,25 @@ Json choice_schema(const std::vector<Choice>& choices) {
   return {{"type", "string"}, {"enum", names}, {"x-taplo", {{"docs", {{"enumValues", notes}}}}}};
 }
 
+// A list of objects: a position, and a number or a table of pairs.
+Json placed_schema(const CaseKey& key) {
+  const bool forces = key.leaf() == "forces";
+  Json items = {{"type", "object"},
+                {"properties",
+                 {{"position", number_schema("number", {.minimum = 0.0, .maximum = 1.0})},
+                  {forces ? "force" : "stiffness", number_or_unit_schema(key)}}},
+                {"required", Json::array({"position"})},
+                {"minProperties", 2},
+                {"maxProperties", 2},
+                {"additionalProperties", false}};
+  if (forces) {
+    const Json any = {{"type", Json::array({"number", "string"})}};
+    const Json pair = {{"type", "array"}, {"items", any}, {"minItems", 2}, {"maxItems", 2}};
+    items["properties"]["table"] = {{"type", "array"}, {"items", pair}, {"minItems", 2}};
+  }
+  return {{"type", "array"}, {"items", items}};
+}
+
 Json value_schema(const CaseKey& key) {
   switch (key.type) {
     case KeyType::text:
@@ -82,6 +103,8 @@ Json value_schema(const CaseKey& key) {
               {"maxItems", 2}};
     case KeyType::numbers:
       return {{"type", "array"}, {"items", number_schema("number", key.limits)}};
+    case KeyType::placed:
+      return placed_schema(key);
   }
   return Json::object();
 }
@@ -99,7 +122,7 @@ Json default_value(const CaseKey& key) {
   if (const auto* x = std::get_if<double>(&*value); x != nullptr && !std::isfinite(*x)) {
     return nullptr;
   }
-  return std::visit([](const auto& plain) { return Json(plain); }, *value);
+  return json_of(*value);
 }
 
 Json key_schema(const CaseKey& key) {
@@ -173,7 +196,7 @@ std::string case_schema() {
     Json& object = table.empty() ? schema : object_of(schema, table);
     object["properties"][key.leaf()] = key_schema(key);
     if (!key.required) continue;
-    require(object, key.leaf());
+    if (!key.is_needless) require(object, key.leaf());
     if (!table.empty()) require(schema, table);
   }
   return schema.dump(2) + "\n";

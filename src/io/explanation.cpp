@@ -170,10 +170,15 @@ std::string description(const Case& input, const ResolvedSettings& used,
   line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
                            key_text(input, "beam.ends"), key_text(input, "beam.theory")));
   line("cross-section", cross_section_text(scene.beam));
-  line("striker", fmt::format("{:.6g} kg at {:.6g} m/s, {:.6g} J; struck at {:.6g} of the length",
-                              scene.striker.mass, scene.striker.velocity, used.initial_energy,
-                              scene.striker.position));
-  if (scene.striker.gap > 0.0) {
+  line("striker",
+       (scene.striker.fixed ? fmt::format("a stop; {:.6g} J in the beam", used.initial_energy)
+                            : fmt::format("{:.6g} kg at {:.6g} m/s, {:.6g} J", scene.striker.mass,
+                                          scene.bodies().striker_velocity(), used.initial_energy)) +
+           fmt::format("; struck at {:.6g} of the length", scene.striker.position));
+  if (const std::string others = others_in_scene(scene); !others.empty()) line("besides", others);
+  if (scene.bodies().has_approach_to_compute()) {
+    line("first touch", fmt::format("computed, over a gap of {:.6g} mm", mm * scene.striker.gap));
+  } else if (scene.striker.gap > 0.0) {
     line("first touch",
          fmt::format("at {}, after a gap of {:.6g} mm", duration_text(scene.striker.first_touch()),
                      mm * scene.striker.gap));

@@ -1,3 +1,4 @@
+#include "io/key_json.h"
 #include "io/run_record.h"
 
 #include "subimpact/case/case_keys.h"
@@ -156,7 +157,7 @@ Json json_of_setting(const KeyValue& value) {
   if (const auto* real = std::get_if<double>(&value); real != nullptr && !std::isfinite(*real)) {
     return to_text(value);
   }
-  return std::visit([](const auto& x) { return Json(x); }, value);
+  return json_of(value);
 }
 
 KeyValue setting_of(const CaseKey& key, const Json& json) {
@@ -174,6 +175,8 @@ KeyValue setting_of(const CaseKey& key, const Json& json) {
       return json.get<std::vector<std::string>>();
     case KeyType::numbers:
       return json.get<std::vector<double>>();
+    case KeyType::placed:
+      return placed_of(key, json);
   }
   throw std::logic_error("setting_of: a key of unknown type");
 }
@@ -314,6 +317,7 @@ Record<DescribedRun> make_run_record() {
   using Used = ResolvedSettings;
   const auto outcome = [](auto member) { return result(&Result::outcome, member); };
   const auto energy = [](auto member) { return result(&Result::final_energies, member); };
+  using Velocities = Result::Velocities;
   const auto work = [](auto member) { return result(&Result::work, member); };
   return {
       {"layout", "version of the layout of this file", [](const DescribedRun&) { return summary_layout; }},
@@ -379,13 +383,22 @@ Record<DescribedRun> make_run_record() {
       {"maxima.indentation_m", "largest indentation", result(&Result::max_indentation), Form::finite},
       {"final.striker_velocity_m_per_s", "velocity of the striker at the end", result(&Result::striker_velocity), Form::finite},
       {"final.beam_mean_velocity_m_per_s", "momentum of the beam at the end over its mass", result(&Result::beam_mean_velocity), Form::finite},
-      {"final_energies.striker_J", "at the end; these seven add up to used.initial_energy_J", energy(&Energies::striker)},
+      {"first_touch.time_s", "when striker and beam first met; these three are 0 if they never did", result(&Result::first_touch, &Velocities::time), Form::finite},
+      {"first_touch.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::first_touch, &Velocities::striker), Form::finite},
+      {"first_touch.beam_mean_velocity_m_per_s", "momentum of the beam then over its mass", result(&Result::first_touch, &Velocities::beam), Form::finite},
+      {"parting.time_s", "the last separation; without one the end", result(&Result::parting, &Velocities::time), Form::finite},
+      {"parting.striker_velocity_m_per_s", "velocity of the striker then", result(&Result::parting, &Velocities::striker), Form::finite},
+      {"parting.beam_mean_velocity_m_per_s", "momentum of the beam then over its mass", result(&Result::parting, &Velocities::beam), Form::finite},
+      {"restitution", "of these velocities: of both bodies, of the striker on a held beam, of a beam on a stop", result(&Result::restitution), Form::finite},
+      {"rests_since_s", "start of a contact in which loads hold striker and beam together to the end and beyond", result(&Result::rests_since), Form::finite},
+      {"final_energies.striker_J", "at the end; these seven less work_J add up to used.initial_energy_J", energy(&Energies::striker)},
       {"final_energies.beam_kinetic_J", "of the beam's motion", energy(&Energies::beam_kinetic)},
       {"final_energies.bending_elastic_J", "stored in bending", energy(&Energies::bending_elastic)},
       {"final_energies.bending_plastic_J", "dissipated by bending", energy(&Energies::bending_plastic)},
       {"final_energies.contact_elastic_J", "stored in the contact", energy(&Energies::contact_elastic)},
       {"final_energies.contact_plastic_J", "dissipated by the contact, with its damping", energy(&Energies::contact_plastic)},
       {"final_energies.beam_damping_J", "dissipated by the damping of the beam", energy(&Energies::beam_damping)},
+      {"final_energies.work_J", "work of gravity and loads since the start", energy(&Energies::work)},
       {"dissipated_by_damping.contact_J", "energy dissipated by the damping of the contact", result(&Result::contact_damping_loss)},
       {"dissipated_by_damping.beam_J", "energy dissipated by the damping of the beam", result(&Result::beam_damping_loss)},
       {"rest", "the beam after the run", &beam_at_rest, rest_record, &read_rest},

@@ -54,6 +54,42 @@ std::string count_text(const Total& total) {
                      : fmt::format("{:.0f}", total.value);
 }
 
+}  // namespace
+
+std::string others_in_scene(const Scene& scene) {
+  const Beam& beam = scene.beam;
+  std::vector<std::string> words;
+  const auto add = [&](bool is_there, std::string what) {
+    if (is_there) words.push_back(std::move(what));
+  };
+  add(scene.gravity != 0.0, fmt::format("gravity {:.6g} m/s2", scene.gravity));
+  add(scene.gravity == 0.0 && scene.striker.drop_height,
+      "gravity sets the velocity and does not act in the run");
+  add(beam.load != 0.0, fmt::format("load {:.6g} N/m", beam.load));
+  add(!beam.forces.empty(), counted(beam.forces.size(), "force"));
+  add(!beam.springs.empty(), counted(beam.springs.size(), "spring"));
+  add(beam.foundation > 0.0, fmt::format("bedding {:.6g} N/m2", beam.foundation));
+  add(beam.start == BeamStart::equilibrium, "beam in equilibrium at the start");
+  add(beam.velocity != 0.0, fmt::format("beam moving at {:.6g} m/s", beam.velocity));
+  add(beam.angular_velocity != 0.0,
+      fmt::format("beam turning at {:.6g} rad/s about {:.6g} of its length", beam.angular_velocity,
+                  beam.used_pivot()));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+namespace {
+
+std::string striker_words(const Scene& scene, const std::string& contact) {
+  const Striker& striker = scene.striker;
+  const std::string law = contact.empty() ? "" : " (" + contact + ")";
+  if (striker.fixed) return "a stop" + law;
+  return fmt::format("{}{} at {:.4g} m/s{}", mass_text(striker.mass), law,
+                     scene.bodies().striker_velocity(),
+                     striker.drop_height
+                         ? fmt::format(" after a fall of {:.4g} m", *striker.drop_height)
+                         : "");
+}
+
 Answer strike(const Case& input, const Result& result) {
   const Scene& scene = input.scene;
   const double x = scene.striker.position;
@@ -64,23 +100,44 @@ Answer strike(const Case& input, const Result& result) {
   const std::string contact = contact_words(input);
   const std::string reached = duration_text(result.outcome.time);
   const std::string end = duration_text(input.end_time);
-  return {"strike",
-          fmt::format("{}{} at {:.4g} m/s, at {} of a {}-{} beam of {}",
-                      mass_text(scene.striker.mass), contact.empty() ? "" : " (" + contact + ")",
-                      scene.striker.velocity, where, name_of(scene.beam.ends[0]),
-                      name_of(scene.beam.ends[1]), mass_text(scene.beam.mass())),
-          fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
-                      result.work.all_seconds)};
+  const std::string others = others_in_scene(scene);
+  return {
+      "strike",
+      fmt::format("{}, at {} of a {} beam of {}{}", striker_words(scene, contact), where,
+                  scene.beam.fixed ? std::string("fixed")
+                                   : fmt::format("{}-{}", name_of(scene.beam.ends[0]),
+                                                 name_of(scene.beam.ends[1])),
+                  mass_text(scene.beam.mass()), others.empty() ? "" : "; " + others),
+      fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
+                  result.work.all_seconds)};
 }
 
 Answer restitution(const Case& input, const Result& result) {
-  const double value = result.restitution(input.scene.striker.velocity);
-  return {"restitution", total_text(result, "restitution", value, 1.0, 6, ""),
-          fmt::format("striker {}, beam {} (mean) at the end",
-                      total_text(result, "striker_velocity_m_per_s", result.striker_velocity, 1.0,
-                                 6, "m/s"),
-                      total_text(result, "beam_mean_velocity_m_per_s", result.beam_mean_velocity,
-                                 1.0, 6, "m/s"))};
+  if (!result.restitution) return {"restitution", "none", "striker and beam never touched"};
+  const Scene& scene = input.scene;
+  // Without loads and stops both keep their velocities after they part.
+  const bool until_end =
+      scene.gravity == 0.0 && !scene.beam.has_loads() && !scene.striker.fixed;
+  const auto [time, striker, beam] = result.parting;
+  std::string words;
+  if (until_end) {
+    words = "striker " + total_text(result, "striker_velocity_m_per_s", result.striker_velocity,
+                                    1.0, 6, "m/s");
+    if (scene.beam.is_unsupported()) {
+      words += ", beam " + total_text(result, "beam_mean_velocity_m_per_s",
+                                      result.beam_mean_velocity, 1.0, 6, "m/s") + " (mean)";
+    }
+    words += " at the end";
+  } else {
+    words = scene.striker.fixed ? fmt::format("beam {:.4g} m/s (mean)", beam)
+            : scene.beam.is_unsupported()
+                ? fmt::format("striker {:.4g} m/s, beam {:.4g} m/s (mean)", striker, beam)
+                : fmt::format("striker {:.4g} m/s, against its own of the first touch", striker);
+    words += result.sub_impacts.front().end
+                 ? fmt::format("; at the last separation, {:.6g} us", us * time)
+                 : std::string("; at the end, without a separation");
+  }
+  return {"restitution", total_text(result, "restitution", *result.restitution, 1.0, 6, ""), words};
 }
 
 Answer largest_force(const Result& result) {
@@ -195,7 +252,8 @@ Answer dent(const Result& result) {
 Answer energy(const Result& result) {
   const Energies& end = result.final_energies;
   const double initial = result.used.initial_energy;
-  const int digits_before = 1 + static_cast<int>(std::floor(std::log10(initial)));
+  const double size = std::max(initial, end.work == 0.0 ? 0.0 : end.taken_up());
+  const int digits_before = 1 + static_cast<int>(std::floor(std::log10(size)));
   const auto error_of = [&](const char* name) {
     return error_of_total(result, name).value_or(0.0);
   };
@@ -223,7 +281,10 @@ Answer energy(const Result& result) {
     words +=
         fmt::format("{}{} {}", words.empty() ? "" : " + ", with_decimals(printed, decimals), name);
   }
-  return {"energy", with_decimals(initial, decimals) + " J", words + ", at the end"};
+  const std::string work =
+      end.work == 0.0 ? "" : fmt::format("{} work of loads = ", with_decimals(end.work, decimals));
+  return {"energy", with_decimals(initial, decimals) + " J",
+          (work.empty() ? "" : "+ " + work) + words + ", at the end"};
 }
 
 // How far shear, which bending theory leaves out, moves the end of the first contact.
@@ -289,9 +350,12 @@ std::string contact_over_words(const Result& result) {
     return fmt::format("proven{}, striker and beam never touch again",
                        result.error_estimate ? "" : " on this mesh");
   }
-  if (result.sub_impacts.empty() || !result.sub_impacts.back().end) {
-    return "striker and beam are still in contact";
+  if (result.sub_impacts.empty()) return "striker and beam have not touched yet";
+  if (result.rests_since) {
+    return fmt::format("loads hold striker and beam together since {:.6g} us: a contact without end",
+                       us * *result.rests_since);
   }
+  if (!result.sub_impacts.back().end) return "striker and beam are still in contact";
   const std::optional<ClosestApproach>& closest = result.closest_approach;
   if (!closest) return "the gap grows until the run ends, but no proof excludes a later contact";
   const Total gap{closest->gap, closest->error};
@@ -314,7 +378,7 @@ std::vector<Answer> answers(const Case& input, const Result& result) {
     all.push_back(dent(result));
   }
   if (result.used.section != "rigid") all.push_back(permanent_set(input, result));
-  if (result.used.initial_energy > 0.0) all.push_back(energy(result));
+  if (result.final_energies.taken_up() > 0.0) all.push_back(energy(result));
   all.push_back({"contact over",
                  result.contact_over ? "yes"
                  : is_in_contact     ? "no"

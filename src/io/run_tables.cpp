@@ -138,15 +138,16 @@ const RunTable<HistoryRow>& run_table() {
        {"stress_back_Pa", "stress of the outer fibre behind the struck point, positive in tension", &HistoryRow::back_stress},
        {"U_m_J", "kinetic energy of the striker", &HistoryRow::striker_energy},
        {"U_k_J", "kinetic energy of the beam", &HistoryRow::beam_kinetic_energy},
-       {"U_e_J", "elastic energy of bending", &HistoryRow::bending_elastic},
+       {"U_e_J", "elastic energy of bending, shear, springs and bedding", &HistoryRow::bending_elastic},
        {"U_p_J", "energy dissipated by bending", &HistoryRow::bending_plastic},
        {"U_c_J", "elastic energy of the contact", &HistoryRow::contact_elastic},
        {"D_c_J", "energy dissipated by the contact", &HistoryRow::contact_plastic},
-       {"energy_error", "relative error of the sum of these six and D_b_J", &HistoryRow::energy_error},
+       {"energy_error", "relative error of the sum of these six and D_b_J less W_J", &HistoryRow::energy_error},
        {"momentum_error", "relative error of the momentum; empty where supports take momentum up", &HistoryRow::momentum_error},
        {"D_b_J", "energy dissipated by the damping of the beam", &HistoryRow::beam_damping},
        {"R_0_N", "force of the support at x = 0 on the beam, positive in the direction of the strike; empty: free end", &HistoryRow::first_reaction},
-       {"R_l_N", "the same at x = length", &HistoryRow::last_reaction}},
+       {"R_l_N", "the same at x = length", &HistoryRow::last_reaction},
+       {"W_J", "work of gravity and loads on striker and beam since the start", &HistoryRow::work}},
       &Result::history, one, n_history_rows, {&HistoryRow::force, &HistoryRow::indentation, &HistoryRow::struck_deflection, &HistoryRow::striker_relative, &HistoryRow::back_stress}};
   return table;
 }

@@ -74,16 +74,7 @@ void BeamMesh::moment_weights(std::span<const double> unknowns, std::span<double
 std::unique_ptr<MassSolver> BeamMesh::make_mass_solver() const { return nullptr; }
 
 void BeamMesh::add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const {
-  const std::size_t n = shear_stiffness_.size();
-  const std::size_t bandwidth = shear_stiffness_.half_bandwidth();
-  for (std::size_t i = 0; i < n; ++i) {
-    forces[i] -= shear_stiffness_.at(i, i) * unknowns[i];
-    for (std::size_t k = 1; k <= bandwidth && i + k < n; ++k) {
-      const double entry = shear_stiffness_.at(i, i + k);
-      forces[i] -= entry * unknowns[i + k];
-      forces[i + k] -= entry * unknowns[i];
-    }
-  }
+  shear_stiffness_.subtract_product(unknowns, forces);
 }
 
 double BeamMesh::shear_energy(std::span<const double> unknowns) const {

@@ -50,10 +50,17 @@ ModalMesh::ModalMesh(std::shared_ptr<const BeamMesh> physical, double bending_st
   }
   momentum_functional_.resize(n);
   if (!physical_->moment_functional().empty()) moment_functional_.resize(n);
+  if (is_sprung()) {
+    for (auto* functional : {&ground_force_, &ground_moment_}) functional->resize(n);
+  }
   for (std::size_t k = 0; k < n; ++k) {
     const double* shape = modes_.shape(k).data();
     momentum_functional_[k] = dot(physical_->momentum_functional().data(), shape, n);
     struck_curvature_.push_back(physical_->curvature(struck_section_, modes_.shape(k)));
+    if (is_sprung()) {
+      ground_force_[k] = dot(physical_->ground_force().data(), shape, n);
+      ground_moment_[k] = dot(physical_->ground_moment().data(), shape, n);
+    }
     if (moment_functional_.empty()) continue;
     moment_functional_[k] = dot(physical_->moment_functional().data(), shape, n);
   }

@@ -28,6 +28,7 @@ class ModalMesh final : public BeamMesh {
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   SectionStencil section_stencil(std::size_t section) const override;
   bool shears() const override { return physical_->shears(); }
+  bool is_sprung() const override { return physical_->is_sprung(); }
   void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const override;
   double shear_energy(std::span<const double> unknowns) const override;
   double curvature(std::size_t section, std::span<const double> unknowns) const override;

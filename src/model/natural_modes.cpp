@@ -77,6 +77,16 @@ Eigen::MatrixXd scaled_curvatures(const BeamMesh& mesh, double bending_stiffness
   return scaled;
 }
 
+// K_s phi for every mode.
+Eigen::MatrixXd sprung(const BeamMesh& mesh, const Eigen::MatrixXd& shapes) {
+  const auto n = static_cast<std::size_t>(shapes.rows());
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(shapes.rows(), shapes.cols());
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    mesh.add_shear_forces({shapes.col(k).data(), n}, {forces.col(k).data(), n});
+  }
+  return -forces;
+}
+
 Eigen::MatrixXd inertia_of(const BeamMesh& mesh, const Eigen::MatrixXd& shapes) {
   const auto n = static_cast<std::size_t>(shapes.rows());
   Eigen::MatrixXd product(shapes.rows(), shapes.cols());
@@ -95,6 +105,7 @@ double correct_shapes(const BeamMesh& mesh, double bending_stiffness, Eigen::Mat
   Eigen::MatrixXd energies = Eigen::MatrixXd::Zero(n, n);  // lower halves only
   energies.selfadjointView<Eigen::Lower>().rankUpdate(
       scaled_curvatures(mesh, bending_stiffness, shapes).transpose());
+  if (mesh.is_sprung()) energies.triangularView<Eigen::Lower>() += shapes.transpose() * sprung(mesh, shapes);
   Eigen::MatrixXd products(n, n);
   products.triangularView<Eigen::Lower>() = shapes.transpose() * inertia_of(mesh, shapes);
   const Eigen::VectorXd eigenvalues = energies.diagonal().cwiseQuotient(products.diagonal());
@@ -173,7 +184,7 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
   modes.frequencies.resize(mesh.n_unknowns());
   {
     Eigen::MatrixXd shapes = decomposed_shapes(mesh, bending_stiffness);
-    const int corrections = mesh.shears() ? 0 : most_corrections;
+    const int corrections = mesh.shears() && !mesh.is_sprung() ? 0 : most_corrections;
     for (int i = 0; i < corrections; ++i) {
       if (correct_shapes(mesh, bending_stiffness, shapes) < small_correction) break;
     }

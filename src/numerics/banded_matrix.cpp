@@ -18,6 +18,17 @@ void BandedMatrix::multiply(std::span<const double> x, std::span<double> result)
   }
 }
 
+void BandedMatrix::subtract_product(std::span<const double> x, std::span<double> result) const {
+  for (std::size_t i = 0; i < size_; ++i) {
+    result[i] -= at(i, i) * x[i];
+    for (std::size_t k = 1; k <= half_bandwidth_ && i + k < size_; ++k) {
+      const double entry = at(i, i + k);
+      result[i] -= entry * x[i + k];
+      result[i + k] -= entry * x[i];
+    }
+  }
+}
+
 double BandedMatrix::quadratic_form(std::span<const double> x) const {
   assert(x.size() == size_);
   const double* at = x.data();

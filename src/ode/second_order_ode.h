@@ -26,6 +26,8 @@ class SecondOrderOde {
   /// that have been settled.
   virtual void settle(std::span<double> /*positions*/) {}
   virtual bool depends_on_velocity() const { return false; }
+  /// Called before each evaluation with its time, s: for accelerations that depend on it.
+  virtual void set_time(double /*t*/) {}
   /// a(q, v) at y = [q, v], of any ODE.
   virtual void acceleration_at(std::span<const double> y, std::span<double> result) {
     acceleration(y.first(n_positions()), result);
@@ -72,7 +74,7 @@ class MechanicalSystem : public SecondOrderOde {
 
 /// Independent oscillators that share one scalar force, which depends on one scalar displacement:
 ///
-///     q_i'' + 2 delta_i q_i' + omega_i^2 q_i = b_i F(lambda),   lambda = sum c_i q_i.
+///     q_i'' + 2 delta_i q_i' + omega_i^2 q_i = b_i F(lambda) + p_i(t),   lambda = sum c_i q_i.
 ///
 /// omega_i = 0 is a body moving freely, or slowed down by delta_i. Between events F is smooth; it
 /// may be zero throughout.
@@ -91,6 +93,13 @@ class ForcedOscillators {
     double value;  ///< F, N
     double slope;  ///< dF/dlambda, N/m
   };
+  /// Further accelerations that are linear in time between restarts, a + b (t - t0) on each
+  /// oscillator: a (m/s2 per unit of q) and b at a time t0; empty: there are none.
+  struct Loads {
+    std::span<const double> value, rate;
+  };
+  virtual bool has_loads() const { return false; }
+  virtual Loads loads_from(double /*t0*/) { return {}; }
   /// The force of the mode in force, continued beyond its range.
   virtual Force force(double lambda) const = 0;
   /// Whether F is zero throughout: free motion.

@@ -120,8 +120,11 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
       {"title", run.input.title.empty() ? "A strike" : run.input.title},
       // Of the answers the first, who struck whom, stands above.
       {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
-      {"striker_kg", fmt::format("{:.4g}", scene.striker.mass)},
-      {"speed_m_per_s", fmt::format("{:.4g}", scene.striker.velocity)},
+      {"meeting", scene.striker.fixed
+                      ? std::string("on a stop")
+                      : fmt::format("struck by {:.4g} kg at {:.4g} m/s", scene.striker.mass,
+                                    scene.bodies().striker_velocity())},
+      {"besides", others_in_scene(scene).empty() ? "" : " (" + others_in_scene(scene) + ")"},
       {"outcome", to_string(result.outcome.kind)},
       {"end", in_print(duration_text(result.outcome.time))},
       {"toml", case_file_text(run.input)},

@@ -36,11 +36,11 @@ class Audit {
   Audit(const StruckBeam& beam, const State& initial, AuditLimits limits = {});
 
   /// Judges the accepted state y at time t (s).
-  void check(double t, const State& y) { check(t, y, accounts_.energies(y)); }
+  void check(double t, const State& y) { check(t, y, accounts_.energies(y, t)); }
   void check(double t, const State& y, const Energies& energies);
   /// The accounts of a run that goes on.
   void exchange(Snapshot& snapshot) {
-    snapshot(initial_energy_, initial_momentum_, largest_speed_, last_good_, max_energy_error_,
+    snapshot(initial_energy_, initial_momentum_, energy_scale_, momentum_scale_, last_good_, max_energy_error_,
              max_momentum_error_, max_impulse_error_);
   }
   /// A cheap look at the struck point, for every step: throws if its indentation (m) or rate (m/s)
@@ -51,9 +51,9 @@ class Audit {
   /// Relative to the initial energy.
   double tolerated_energy() const { return limits_.energy; }
   /// By how much the energy that damping dissipates in a step may be off, J.
-  double tolerated_loss() const { return share_of_losses * limits_.energy * initial_energy_; }
+  double tolerated_loss() const { return share_of_losses * limits_.energy * energy_scale_; }
   /// By how much impulse and integrated force may differ, N s.
-  double tolerated_impulse() const { return limits_.energy * initial_momentum_; }
+  double tolerated_impulse() const { return limits_.energy * momentum_scale_; }
   [[noreturn]] void fail(double t, OutcomeKind kind, const std::string& what) const;
 
   /// Whether the last check found the energy above what is tolerated.
@@ -66,10 +66,11 @@ class Audit {
     return copy;
   }
 
+  /// Relative to the initial energy, or to the largest that loads have made of it.
   double energy_error(const Energies& energies) const {
-    return (energies.total() - initial_energy_) / initial_energy_;
+    return (energies.total() - initial_energy_) / energy_scale_;
   }
-  std::optional<double> momentum_error(const State& y) const;
+  std::optional<double> momentum_error(double t, const State& y) const;
 
   /// Largest errors over all checks, including those that failed.
   double max_energy_error() const { return max_energy_error_; }
@@ -83,7 +84,8 @@ class Audit {
   AuditLimits limits_;
   double initial_energy_;
   double initial_momentum_;
-  double largest_speed_;  // of the striker, m/s, that the energy allows
+  double energy_scale_ = 0.0;    // J: the initial energy, or that of the strike if it is larger
+  double momentum_scale_ = 0.0;  // N s: m v0 of a beam at rest
   double last_good_ = 0.0;
   double latest_energy_error_ = 0.0;
   double max_energy_error_ = 0.0;

@@ -30,6 +30,9 @@ void exchange(Snapshot& snapshot, SubImpact& s) {
   snapshot(s.start, s.end, s.peak_force, s.peak_time, s.impulse, s.force_integral,
            s.max_indentation, s.residual_indentation, s.striker_velocity, s.start_rate, s.end_rate);
 }
+void exchange(Snapshot& snapshot, Result::Velocities& at) {
+  snapshot(at.time, at.striker, at.beam);
+}
 void exchange(Snapshot& snapshot, Transition& event) {
   snapshot(event.time, event.kind, event.section, event.value);
 }
@@ -57,7 +60,7 @@ void Recorder::exchange(Snapshot& snapshot, double time) {
   if (fields_) envelope = fields_->envelope();
   snapshot(result_.sub_impacts, result_.transitions, result_.near_misses,
            result_.first_section_yield, result_.first_contact_yield, result_.largest_rotation,
-           result_.largest_displacement, in_contact_, velocity_at_start_, largest_force_,
+           result_.largest_displacement, result_.first_touch, result_.parting, in_contact_, velocity_at_start_, largest_force_,
            steps_in_contact_, near_misses_, envelope);
   snapshot.require(steps_in_contact_.size() == result_.sub_impacts.size() &&
                    (!in_contact_ || !steps_in_contact_.empty()));
@@ -69,13 +72,23 @@ void Recorder::exchange(Snapshot& snapshot, double time) {
 
 bool goes_on(const RunState* start, const Striker& striker, const std::optional<bool>& at_rest) {
   return start != nullptr && !at_rest && start->striker.mass == striker.mass &&
-         start->striker.velocity == striker.velocity && start->striker.gap == striker.gap;
+         start->striker.velocity == striker.velocity && start->striker.gap == striker.gap &&
+         start->striker.drop_height == striker.drop_height;
 }
 
 void check_continuation(const Problem& problem, const Options& options,
                         const ResolvedSettings& used) {
   if (!problem.start) return;
   const RunState& start = *problem.start;
+  const Beam& beam = problem.beam;
+  const std::pair<const char*, bool> others[] = {
+      {"scene.gravity", problem.gravity != 0.0}, {"beam.load", beam.load != 0.0},
+      {"beam.forces", !beam.forces.empty()},     {"beam.velocity", beam.velocity != 0.0},
+      {"striker.fixed", problem.striker.fixed},  {"beam.angular_velocity", beam.angular_velocity != 0.0}};
+  for (const auto& [key, is_given] : others) {
+    if (is_given) refuse(key, "is given, but runs with loads, stops or moving beams do not go on; "
+                              "leave it out, or run to the later time at once");
+  }
   check_same("model.mesh", used.mesh.substr(0, used.mesh.find(modal_description)), start.mesh);
   check_same("model.section", used.section, start.section);
   check_same("contact.law", used.contact_law, start.contact_law);

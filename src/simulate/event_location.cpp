@@ -124,6 +124,7 @@ bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {
   const double top = find_rise(
       [&](double t) {
         integrator_.state_at(t, trial_);
+        beam_.set_time(t);
         return beam_.evaluate(reversal, trial_);
       },
       step.t0, step.t1, crossing.guess, to_rounding(step.t1));
@@ -141,6 +142,7 @@ double EventLocator::locate(const Crossing& crossing, const StepEnds& step) {
   }
   const auto value_at = [&](double t) {
     integrator_.state_at(t, trial_);
+    beam_.set_time(t);
     return beam_.evaluate(crossing.function, trial_);
   };
   double lower = crossing.t_lower;
@@ -169,6 +171,7 @@ bool EventLocator::relocate(const EventFunction& function, const StepEnds& step,
     corrector_.correct({step.t0, t, step.y0, end_}, correction);
     trial_ = end_;
     correction.add_to(trial_);
+    beam_.set_time(t);
     return beam_.evaluate(function, trial_);
   };
   // The method's own state: a root of the library lies on the library's dense output.

@@ -50,6 +50,7 @@ void EventLoop::start() {
   end_state_ = y;
   state_ = &end_state_;
   beam_.commit(y);
+  if (options_.begins_apart) return start_from(y);
   if (options_.first_touch > 0.0) observer_->on_approach(options_.first_touch, beam_);
   report({EventKind::contact_begins}, options_.first_touch, y, true);
   start_from(y);
@@ -95,6 +96,8 @@ void EventLoop::advance() {
 }
 
 void EventLoop::check_step_end() {
+  // Of a flight as long as it may be, only the part before the touch counts.
+  if (!beam_.contact().is_closed() && options_.events != EventHandling::interpolated) return;
   if (!(indentation_.lambda1 >= options_.largest_indentation)) return;
   audit_->check(integrator_.time(), integrator_.state());  // a blow-up is called by its name
   throw RunStopped(OutcomeKind::left_validity,
@@ -127,7 +130,8 @@ bool EventLoop::energy_keeps_growing() {
 }
 
 StepEnds EventLoop::step_to_end_time() {
-  const double end = std::min(integrator_.time(), options_.end_time);
+  const double end =
+      std::min({integrator_.time(), options_.end_time, beam_.loads().next_corner()});
   const State* y1 = &integrator_.state();
   if (end < integrator_.time()) {
     integrator_.state_at(end, end_state_);
@@ -156,7 +160,7 @@ void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
   const IndentationStep indentation = indentation_of(piece);
   const ObservedStep step(piece, indentation, integrator_, corrector_, from_end);
   observer_->on_step(step, beam_);
-  if (beam_.depends_on_velocity()) {
+  if (beam_.has_losses()) {
     beam_.add_losses(losses_.over(step, step.t1(), step.y1(), beam_));
   }
 }
@@ -181,11 +185,18 @@ void EventLoop::locate_events() {
     report(*event, t1, *y1, true);
   } else {
     beam_.commit(*y1);
-    if (!is_corrected && t1 == whole.t1) return;
   }
+  const bool at_corner = pass_corner(t1, *y1);
+  if (!event && !is_corrected && !at_corner && t1 == whole.t1) return;
   integrator_.restart(t1, *y1);
   state_ = &integrator_.state();
   read_indentation();
+}
+
+bool EventLoop::pass_corner(double t, const State& y) {
+  if (!(t >= beam_.loads().next_corner())) return false;
+  beam_.begin_loads(y, t);
+  return true;
 }
 
 void EventLoop::report_reversals() {
@@ -226,6 +237,7 @@ void EventLoop::report(const EventFunction& function, double time, const State& 
 }
 
 void EventLoop::check_root(const EventFunction& function, double time, const State& y) {
+  beam_.set_time(time);
   const EventValue at = beam_.evaluate(function, y);
   double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
   if (const auto root = integrator_.root()) tolerated += std::abs(at.rate) * root->tolerance;
@@ -300,6 +312,10 @@ void EventLoop::interpolate_events() {
   }
   time_ = step.t1;
   state_ = &step.y1;
+  if (!pass_corner(time_, *state_)) return;
+  integrator_.restart(time_, *state_);
+  state_ = &integrator_.state();
+  read_indentation();
 }
 
 }  // namespace subimpact

@@ -50,6 +50,8 @@ struct LoopOptions {
   bool double_roots = true;
   /// s: when striker and beam first touch. Until then the striker moves uniformly, the beam rests.
   double first_touch = 0.0;
+  /// Whether the run begins apart, at t = 0, and looks for the first touch as for any other.
+  bool begins_apart = false;
 };
 
 /// The loop of all methods: take a step, end it at its first event, change the equations, continue.
@@ -58,7 +60,7 @@ class EventLoop {
   EventLoop(StruckBeam& beam, Integrator& integrator, RunObserver& observer, Audit& audit,
             LoopOptions options);
 
-  /// Puts the beam at the first touch, with the contact just begun.
+  /// Puts the beam at the first touch, with the contact just begun, or at t = 0 apart.
   void start();
   /// Goes on from the state that a run ended in, with contact and sections as they are.
   void resume(double time, const State& y);
@@ -79,9 +81,11 @@ class EventLoop {
   long n_correction_solves() const { return corrector_.n_mass_solves(); }
 
  private:
-  // The last step, cut short where it passes the end time.
+  // The last step, cut short where it passes the end time or a corner of a load.
   StepEnds step_to_end_time();
   void locate_events();
+  // Where the step has ended at a corner of a load: goes on with the next piece.
+  bool pass_corner(double t, const State& y);
   void interpolate_events();
   void show_piece(const StepEnds& piece, bool from_end = false);
   void report_reversals();

@@ -114,7 +114,7 @@ void FieldRecorder::widen_envelope(double time) {
 
 void FieldRecorder::add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const {
   if (!reactions_) return;
-  const SupportReactions::Forces forces = reactions_->at(y, accounts);
+  const SupportReactions::Forces forces = reactions_->at(row.time, y, accounts);
   row.first_reaction = forces[0];
   row.last_reaction = forces[1];
 }

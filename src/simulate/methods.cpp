@@ -27,6 +27,8 @@ constexpr double nystrom_radians = 0.22;
 // Where the beam may yield only free flight has a closed form; nystrom does the rest.
 IntegratorPointer make_exponential(StruckBeam& beam, const IntegratorOptions& options) {
   if (beam.sections().can_yield()) {
+    // Under loads free flight is no motion of free oscillators.
+    if (!beam.loads().is_empty()) return std::make_unique<Nystrom>(beam, options);
     return std::make_unique<FreeFlight>(
         std::make_unique<Nystrom>(beam, options), beam,
         options.max_step.value_or(std::numeric_limits<double>::infinity()));

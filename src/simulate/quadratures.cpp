@@ -115,6 +115,7 @@ double ForceQuadrature::roughly_over(const ObservedStep& step, const StruckBeam&
 
 void LossQuadrature::read_acceleration(Node& node, StruckBeam& beam) {
   node.acceleration.resize(beam.n_positions());
+  beam.set_time(node.time);
   beam.acceleration_at(node.y, node.acceleration);
 }
 
@@ -137,6 +138,9 @@ Losses LossQuadrature::between(const Node& a, const Node& b, bool quintic, Struc
       state_[n + i] = at(w.velocity);
     }
     const double weight = h * gauss<n_points>.weights[k];
+    if (beam.loads().varies()) {
+      sum.of_change += weight * beam.loads().power_of_change(beam.beam_positions(state_));
+    }
     if (contact.is_closed()) {
       sum.contact +=
           weight * contact.damping_power(beam.indentation(state_), beam.indentation_rate(state_));
@@ -153,7 +157,9 @@ Losses LossQuadrature::halved(const Node& a, const Node& b, const ObservedStep& 
   const Losses whole = between(a, b, true, beam);
   const Losses rough = between(a, b, false, beam);
   if (depth == most_halvings_of_loss || !(needs_halving(whole.contact, rough.contact, tolerance_) ||
-                                          needs_halving(whole.beam, rough.beam, tolerance_))) {
+                                          needs_halving(whole.beam, rough.beam, tolerance_) ||
+                                          needs_halving(whole.of_change, rough.of_change,
+                                                        tolerance_))) {
     return whole;
   }
   Node middle{0.5 * (a.time + b.time), {}, {}};
@@ -161,7 +167,8 @@ Losses LossQuadrature::halved(const Node& a, const Node& b, const ObservedStep& 
   read_acceleration(middle, beam);
   const Losses first = halved(a, middle, step, beam, depth + 1);
   const Losses second = halved(middle, b, step, beam, depth + 1);
-  return {first.contact + second.contact, first.beam + second.beam};
+  return {first.contact + second.contact, first.beam + second.beam,
+          first.of_change + second.of_change};
 }
 
 Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, StruckBeam& beam) {
@@ -169,10 +176,11 @@ Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, 
   if (!(t > step.t0())) return sum;
   const std::span<const double> damping = beam.modal_damping();
   squares_.resize(beam.n_positions());
-  const bool has_closed_form = !damping.empty() && step.integrate_squared_velocities(t, squares_);
+  const bool has_closed_form = !damping.empty() && !beam.damping().is_none() && step.integrate_squared_velocities(t, squares_);
   beam_by_quadrature_ = !beam.damping().is_none() && !has_closed_form;
   const ContactState& contact = beam.contact();
-  if (beam_by_quadrature_ || (contact.is_damped() && contact.is_closed())) {
+  const bool damped_contact = contact.is_damped() && contact.is_closed();
+  if (beam_by_quadrature_ || damped_contact || beam.loads().varies()) {
     Node start{step.t0(), step.y0(), {}};
     Node end{t, y, {}};
     read_acceleration(start, beam);

@@ -132,25 +132,17 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
       continue;
     }
     step.corrected_state_at(t, state_, correction_);
-    if (beam.depends_on_velocity()) {
-      add_damped_rows(t, row, shape, step, beam);
-    } else if (correction_.is_empty()) {
+    const Losses before = beam.losses();
+    if (beam.has_losses()) beam.add_losses(losses_.over(step, t, state_, beam));
+    if (correction_.is_empty()) {
       add_rows(t, row, shape, state_, accounts_);
     } else {
       const SectionField reached = correction_.reversed(beam.sections());
       Accounts accounts(beam, reached);
       add_rows(t, row, shape, state_, accounts);
     }
+    beam.set_losses(before);
   }
-}
-
-void Recorder::add_damped_rows(double time, bool row, bool shape, const ObservedStep& step,
-                               StruckBeam& beam) {
-  const Losses before = beam.losses();
-  const State y = state_;
-  beam.add_losses(losses_.over(step, time, y, beam));
-  add_rows(time, row, shape, y, accounts_);
-  beam.set_losses(before);
 }
 
 void Recorder::add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts) {
@@ -242,6 +234,7 @@ void Recorder::look_for_peak(const ObservedStep& step, StruckBeam& beam) {
     time = find_rise(
         [&](double t) {
           step.state_at(t, state_);
+          beam.set_time(t);
           return beam.evaluate({EventKind::contact_unloads}, state_);
         },
         rate0 > 0.0 ? t0 : t0 + path.first_extremum() * h,
@@ -258,6 +251,8 @@ void Recorder::before_event(const Transition& event, const State& y, StruckBeam&
   if (event.kind == EventKind::contact_begins) {
     in_contact_ = true;
     velocity_at_start_ = y.back();
+    beam_impulse_at_start_ = accounts_.beam_impulse(y, event.time);
+    if (result_.sub_impacts.empty()) result_.first_touch = velocities(event.time, y);
     result_.sub_impacts.push_back({});
     steps_in_contact_.push_back(0);
     result_.sub_impacts.back().start = event.time;
@@ -278,7 +273,8 @@ void Recorder::after_event(const Transition& event, const State& y, StruckBeam& 
     ended.end = event.time;
     ended.end_rate = beam.indentation_rate(y);
     begin(NearMissKind::closing, beam);
-    close_sub_impact(y, beam);
+    close_sub_impact(event.time, y, beam);
+    result_.parting = velocities(event.time, y);
     in_contact_ = false;
     audit_.check_impulse(event.time, ended.impulse, ended.force_integral);
     if (!(ended.peak_force > 0.0)) {
@@ -321,9 +317,16 @@ void Recorder::add_event_row(const Transition& event, const State& y) {
   keep(row, y, accounts_);
 }
 
-void Recorder::close_sub_impact(const State& y, const StruckBeam& beam) {
+void Recorder::close_sub_impact(double time, const State& y, const StruckBeam& beam) {
   SubImpact& closed = result_.sub_impacts.back();
-  closed.impulse = striker_mass_ * (velocity_at_start_ - y.back());
+  if (!beam.has_stop()) {
+    const double fallen = beam.striker_load() * (time - closed.start);
+    closed.impulse = striker_mass_ * (velocity_at_start_ - y.back() + fallen);
+  } else if (!beam.mesh().translation().empty()) {
+    closed.impulse = accounts_.beam_impulse(y, time) - beam_impulse_at_start_;
+  } else {
+    closed.impulse = closed.force_integral;
+  }
   closed.residual_indentation = beam.contact().residual_indentation();
   closed.striker_velocity = y.back();
 }
@@ -333,7 +336,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
   if (fields_) fields_->finish(time, y, accounts_, is_good);
   follow_deformation(y);
   if (in_contact_) {
-    close_sub_impact(y, beam);
+    close_sub_impact(time, y, beam);
   } else if (const NearMiss* nearest = near_misses_.nearest()) {
     result_.closest_approach = {nearest->time, nearest->margin, {}};
   }
@@ -342,7 +345,18 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     result_.max_force = std::max(result_.max_force, sub_impact.peak_force);
     result_.max_indentation = std::max(result_.max_indentation, sub_impact.max_indentation);
   }
-  result_.final_energies = accounts_.energies(y);
+  result_.final_energies = accounts_.energies(y, time);
+  if (result_.sub_impacts.empty() || !result_.sub_impacts.front().end) {
+    result_.parting = velocities(time, y);
+  }
+  if (!result_.sub_impacts.empty()) {
+    const auto& [first, before_striker, before_beam] = result_.first_touch;
+    const auto& [last, after_striker, after_beam] = result_.parting;
+    const bool is_held = beam.mesh().translation().empty();
+    result_.restitution = beam.has_stop() ? -after_beam / before_beam
+                          : is_held       ? -after_striker / before_striker
+                                          : (after_beam - after_striker) / (before_striker - before_beam);
+  }
   result_.n_yielded_sections = beam.n_yielded_sections();
   result_.striker_velocity = y.back();
   result_.beam_mean_velocity = accounts_.beam_momentum(y) / beam.mesh().beam_mass();
@@ -391,8 +405,13 @@ void Recorder::add_section_rows(double time, const State& y, Accounts& accounts)
   }
 }
 
+Result::Velocities Recorder::velocities(double time, const State& y) const {
+  const StruckBeam& beam = accounts_.beam();
+  return {time, y.back(), accounts_.beam_momentum(y) / beam.mesh().beam_mass()};
+}
+
 HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
-  const Energies energies = accounts.energies(y);
+  const Energies energies = accounts.energies(y, time);
   audit_.check(time, y, energies);
   const Accounts::Displacements at = accounts.displacements(y);
   follow_displacement(at.struck);
@@ -415,8 +434,9 @@ HistoryRow Recorder::make_row(double time, const State& y, Accounts& accounts) {
   row.contact_elastic = energies.contact_elastic;
   row.contact_plastic = energies.contact_plastic;
   row.energy_error = audit_.energy_error(energies);
-  row.momentum_error = audit_.momentum_error(y);
+  row.momentum_error = audit_.momentum_error(time, y);
   row.beam_damping = energies.beam_damping;
+  row.work = energies.work;
   if (fields_) fields_->add_reactions(row, y, accounts);
   return row;
 }

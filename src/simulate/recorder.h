@@ -65,7 +65,7 @@ class Recorder final : public RunObserver {
   // How far the beam leaves its straight shape, at separations, rows and the end.
   void follow_deformation(const State& y);
   void follow_displacement(double of_struck_point);
-  void close_sub_impact(const State& y, const StruckBeam& beam);
+  void close_sub_impact(double time, const State& y, const StruckBeam& beam);
   void add_row_of_force(const ObservedStep& step, const StruckBeam& beam);
   void add_rows_within(const ObservedStep& step, StruckBeam& beam);
   void add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts);
@@ -74,9 +74,6 @@ class Recorder final : public RunObserver {
   void follow_force(double time, double force);
   // The peak of a damped force, which comes before that of the indentation.
   void follow_damped_force(const ObservedStep& step, const StruckBeam& beam);
-  // The state within the step, in state_, with what is lost up to there.
-  void add_damped_rows(double time, bool row, bool shape, const ObservedStep& step,
-                       StruckBeam& beam);
   void look_for_peak(const ObservedStep& step, StruckBeam& beam);
   // Contact only pushes: a force below zero by no more than the tolerance is none.
   void check_push(double time, double force) const;
@@ -85,6 +82,7 @@ class Recorder final : public RunObserver {
   // `accounts`: of the histories that hold at y.
   void add_row(double time, const State& y, Accounts& accounts);
   void keep(const HistoryRow& row, const State& y, Accounts& accounts);
+  Result::Velocities velocities(double time, const State& y) const;
   HistoryRow make_row(double time, const State& y, Accounts& accounts);
   void add_section_rows(double time, const State& y, Accounts& accounts);
 
@@ -106,6 +104,7 @@ class Recorder final : public RunObserver {
   HistoryRow last_row_{};
   bool in_contact_ = false;
   double velocity_at_start_ = 0.0;
+  double beam_impulse_at_start_ = 0.0;
   double largest_force_ = 0.0;  // of all contacts so far, N
   State state_;
   SectionCorrection correction_;           // of a state within a step

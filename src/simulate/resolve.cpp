@@ -13,6 +13,8 @@
 #include "simulate/method_settings.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
+#include "simulate/start.h"
+#include "system/accounts.h"
 #include "system/beam_field.h"
 #include "system/contact_events.h"
 #include "system/contact_resonance.h"
@@ -31,8 +33,7 @@ constexpr double most_tolerated_energy = 1e-3;
 constexpr std::size_t most_modes_before_run = 600;
 
 // Numbers that are possible one by one may overflow or vanish together.
-void check_scales(const Striker& striker, const StruckBeam& beam) {
-  const double energy = 0.5 * striker.mass * striker.velocity * striker.velocity;
+void check_scales(double energy, const StruckBeam& beam) {
   const SecondOrderOde::Scales scales = beam.scales();
   const double smallest = std::min({energy, scales.position, scales.velocity});
   const double largest = std::max({energy, scales.position, scales.velocity});
@@ -43,7 +44,7 @@ void check_scales(const Striker& striker, const StruckBeam& beam) {
           "is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: "
           "beyond what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; "
           "check the units of striker and contact",
-          striker.velocity, energy, scales.position));
+          scales.velocity, energy, scales.position));
 }
 
 double energy_tolerance(const Options& options, const ResolvedSettings& used) {
@@ -70,7 +71,7 @@ double outer_stiffness(const Problem& problem) {
 }
 
 std::string section_name(const Problem& problem, const StruckBeam& beam) {
-  if (beam.mesh().highest_frequency(beam.sections().stiffness()) == 0.0) return "rigid";
+  if (beam.mesh().n_sections() == 1) return "rigid";
   std::string name = problem.section ? problem.section->name() : Fibres::continuous().name();
   if (beam.sections().can_yield()) return name;
   return problem.section ? name + ", elastic" : "elastic";
@@ -95,7 +96,9 @@ void check(const Problem& problem, const Options& options) {
   if (!problem.mesh) refuse("model.mesh", "is missing; give Problem::mesh a mesh");
   if (!problem.contact_law) refuse("contact.law", "is missing; give Problem::contact_law a law");
   if (!positive(options.end_time)) refuse("time.end", "is not a time; allowed: above 0 s");
-  if (const double touch = problem.striker.first_touch(); !(touch < options.end_time)) {
+  check_start(problem, options);
+  const bool uniform = !problem.bodies().has_approach_to_compute();
+  if (const double touch = problem.striker.first_touch(); uniform && !(touch < options.end_time)) {
     throw InvalidCase("striker.gap",
                       fmt::format("is {:g} m, which takes the striker {:.6g} s at {:g} m/s, but "
                                   "time.end is {:g} s; allowed: below {:g} m; reduce it, or set a "
@@ -133,7 +136,8 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.largest_contact_slope = resonance.largest_slope;
   used.joined_frequency = resonance.highest_frequency;
   used.contact_time = resonance.contact_time;
-  used.contact_mass_share = resonance.effective_mass / problem.striker.mass;
+  const double mass = problem.striker.fixed ? beam.mesh().beam_mass() : problem.striker.mass;
+  used.contact_mass_share = resonance.effective_mass / mass;
   used.critical_step = 2.0 / used.joined_frequency;
   const ContactLaw& law = beam.contact().law();
   used.contact_law = law.name();
@@ -143,9 +147,8 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.section = section_name(problem, beam);
   used.yield_curvature = problem.beam.yield_curvature();
   used.first_period = first_period(problem);
-  used.initial_energy =
-      0.5 * problem.striker.mass * problem.striker.velocity * problem.striker.velocity;
-  check_scales(problem.striker, beam);
+  check_scales(0.5 * mass * beam.scales().velocity * beam.scales().velocity, beam);
+  used.initial_energy = Accounts(beam).energies(beam.initial_state()).total();
   used.table = table_used(options);
   used.events = events_of(options);
   used.reversals = reversals_used(problem, options, beam.sections().can_yield());
@@ -201,10 +204,14 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
     mesh = std::make_shared<ModalMesh>(std::move(mesh), sections.stiffness());
   }
   std::unique_ptr<MassSolver> solver = make_mass_solver(problem, options, *mesh);
-  return StruckBeam(StruckBeamParts{std::move(mesh), std::move(sections), problem.contact_law,
-                                    problem.striker.mass, problem.striker.velocity,
-                                    outer_stiffness(problem), std::move(solver),
-                                    problem.contact_damping, problem.beam.damping});
+  Loads loads(*mesh, problem.beam, problem.gravity);
+  StruckBeam beam(StruckBeamParts{
+      std::move(mesh), std::move(sections), problem.contact_law, problem.striker.inertia(),
+      problem.bodies().striker_velocity(), outer_stiffness(problem), std::move(solver),
+      problem.contact_damping, problem.beam.damping, std::move(loads),
+      problem.bodies().velocity_scale()});
+  set_start(problem, beam);
+  return beam;
 }
 
 RunParts::RunParts(const Problem& of, const Options& options, StruckBeam struck_beam)

@@ -24,6 +24,9 @@ constexpr long fewest_steps_in_contact = 8;
 
 constexpr double tolerated_momentum = 1e-9;
 
+// A contact under loads that lasts so many times as long as one without does not end by itself.
+constexpr double contacts_of_rest = 20.0;
+
 // How far the section correction of a step may be off, as part of the striker's velocity. At rtol
 // the error is a third of what the integrator may add, root mean square over the steps of the
 // paper's beam. A smaller tolerance cuts steps at section events, some thousand in 8 ms, however
@@ -149,7 +152,10 @@ void add_remedy(Outcome& outcome, const RunParts& parts) {
 std::optional<std::string> rule_broken_by_law(const RunParts& parts) {
   if (!parts.problem.check_contact_law) return std::nullopt;
   const ContactLaw& law = parts.beam.contact().law();
-  const double deepest = law.indentation_at(parts.settings.initial_energy);
+  const double mass = parts.problem.bodies().moving_mass();
+  const double speed = parts.problem.bodies().velocity_scale();
+  const double deepest =
+      law.indentation_at(std::max(parts.settings.initial_energy, 0.5 * mass * speed * speed));
   return broken_rule(law, std::min(deepest, parts.problem.beam.height()));
 }
 
@@ -160,12 +166,13 @@ LoopOptions loop_options(const RunParts& parts) {
   const ResolvedSettings& used = parts.settings;
   LoopOptions loop;
   loop.end_time = given.end_time;
-  loop.first_touch = parts.problem.striker.first_touch();
+  loop.begins_apart = parts.problem.bodies().has_approach_to_compute();
+  if (!loop.begins_apart) loop.first_touch = parts.problem.striker.first_touch();
   loop.events = used.events;
   loop.double_roots = given.study.pair_detection;
   if (used.reversals == ReversalHandling::located) {
     loop.correction_tolerance =
-        correction_tolerance(given.solver.rtol) * parts.problem.striker.velocity;
+        correction_tolerance(given.solver.rtol) * parts.beam.scales().velocity;
   }
   loop.largest_indentation = parts.problem.beam.height();
   loop.audit_interval = descriptor_of(given.solver.method).audit_interval;
@@ -211,6 +218,11 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
     result.end_state = end_state(parts, loop.time(), loop.state(), audit, recorder);
   }
   recorder.finish(loop.time(), loop.state(), beam, !result.outcome.first_failure);
+  const auto& contacts = result.sub_impacts;
+  if (!contacts.empty() && !contacts.back().end && !beam.loads().is_empty() &&
+      loop.time() - contacts.back().start > contacts_of_rest * used.contact_time) {
+    result.rests_since = contacts.back().start;
+  }
   assign_zones(result.sub_impacts, output.zone_gap * used.first_period,
                output.subzone_gap * used.first_period);
 

@@ -149,7 +149,7 @@ EventErrors event_errors(const std::vector<SubImpact>& run,
 
 EventErrors event_errors(const Result& run, const Reference& reference) {
   EventErrors errors = event_errors(run.sub_impacts, reference.sub_impacts);
-  const double unit = reference.input.scene.striker.velocity;
+  const double unit = reference.input.scene.bodies().velocity_scale();
   errors.striker_velocity =
       std::abs(run.striker_velocity - reference.result.striker_velocity) / unit;
   errors.beam_velocity =

@@ -102,11 +102,12 @@ class Judge {
   }
 
   double time_error(std::size_t event) const {
-    if (event == 0) return 0.0;  // the first touch is given
+    const bool is_given = !input_.scene.bodies().has_approach_to_compute();
+    if (event == 0 && is_given) return 0.0;  // the first touch
     const Event& here = events_[event];
     if (!here.known) return unknown;
     const double least = here.rate > 0.0 ? deltas_[event] / here.rate : here.error;
-    const double since_touch = here.time - input_.scene.striker.first_touch();
+    const double since_touch = here.time - run_.sub_impacts.front().start;
     const double of_ends =
         of_mesh(beside_) ? free_end_error(input_, run_.used.contact_time, since_touch) : 0.0;
     return std::max(time_safety * of_runs_ * std::max(here.error, least), end_safety * of_ends);
@@ -410,7 +411,7 @@ ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const R
 // Whether it is proven for this run and for those beside it that no contact follows, and they end
 // alike.
 bool is_over(const Case& input, const Result& run, std::span<const RunBeside> beside) {
-  const double tolerated = alike * input.scene.striker.velocity;
+  const double tolerated = alike * input.scene.bodies().velocity_scale();
   return run.no_more_contact && std::ranges::all_of(beside, [&](const RunBeside& other) {
            const double difference = other.result.striker_velocity - run.striker_velocity;
            return !other.of.of_existence ||

@@ -69,7 +69,7 @@ double mass_met_without_mesh(const Case& input) {
 // What the mesh adds to it, kg.
 double mass_of_mesh(const Case& input, const ResolvedSettings& used) {
   const double share = used.contact_mass_share;
-  const double met = input.scene.striker.mass * share / (1.0 - share);
+  const double met = input.scene.bodies().moving_mass() * share / (1.0 - share);
   return std::max(met - mass_met_without_mesh(input), 0.0);
 }
 
@@ -85,7 +85,7 @@ double parts_beside_striker(const Case& input, const ResolvedSettings& used) {
   const double without_mesh = mass_met_without_mesh(input);
   const auto size = [&](double mass) { return std::sqrt(mass * (mass + 2.0 * without_mesh)); };
   return 1.05 * mesh_count(input) * size(mass_of_mesh(input, used)) /
-         size(largest_mass_ratio * input.scene.striker.mass);
+         size(largest_mass_ratio * input.scene.bodies().moving_mass());
 }
 
 // Of the strike, m; infinite without a free end.
@@ -161,7 +161,7 @@ int parts_at_first(const Case& input, const ResolvedSettings& used) {
 
 std::string mesh_doubt(const Case& input, const ResolvedSettings& used) {
   if (!mesh_order(input)) return {};
-  const double mass_ratio = mass_of_mesh(input, used) / input.scene.striker.mass;
+  const double mass_ratio = mass_of_mesh(input, used) / input.scene.bodies().moving_mass();
   if (mass_ratio > largest_mass_ratio) {
     return fmt::format("the part of the mesh under the striker is {:.2g} times as heavy as it",
                        mass_ratio);

@@ -140,10 +140,10 @@ std::optional<Limit> limit_of(const Deviations& deviation) {
 std::optional<double> impulse_deviation(const Deviations& deviation, std::size_t first,
                                         std::size_t last) {
   const Sensitivity& study = deviation.study();
-  const double mass = study.input.scene.striker.mass;
+  const double mass = study.input.scene.bodies().moving_mass();
   const ByKey* after = deviation.derivatives(EventQuantity::striker_velocity, last);
   if (after == nullptr) return std::nullopt;
-  const double v0 = study.input.scene.striker.velocity;
+  const double v0 = study.input.scene.bodies().velocity_scale();
   const double v_before = first > 0 ? study.base.sub_impacts[first - 1].striker_velocity : v0;
   const double v_after = study.base.sub_impacts[last].striker_velocity;
   ByKey before(study.keys.size());
@@ -229,7 +229,7 @@ void set_predictability(Result& result, const Sensitivity& study, const Scatter&
   if (!study.base.sub_impacts.empty()) {
     found.striker_velocity_scatter = within_range(
         deviation.of(EventQuantity::striker_velocity, study.base.sub_impacts.size() - 1),
-        2.0 * study.input.scene.striker.velocity);
+        2.0 * study.input.scene.bodies().velocity_scale());
   }
   result.predictability = std::move(found);
 }

@@ -147,7 +147,7 @@ StrikeRow row_of(int strike, const WithinRun& run) {
   StrikeRow row;
   row.strike = strike;
   row.sub_impacts = result.sub_impacts.size();
-  row.restitution = result.restitution(run.input.scene.striker.velocity);
+  row.restitution = result.restitution.value_or(NAN);
   row.striker_velocity = result.striker_velocity;
   row.peak_force = result.max_force;
   row.impulse = result.impulse();

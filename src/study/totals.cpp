@@ -52,7 +52,7 @@ struct Quantity {
 
   std::optional<double> of(const Case& input, const Result& run) const {
     if (from == From::shapes && run.envelope.empty()) return std::nullopt;
-    return value(run, input.scene.striker.velocity);
+    return value(run, input.scene.bodies().velocity_scale());
   }
 };
 
@@ -63,7 +63,7 @@ const Quantity quantities[] = {
     {"zones", [](Run run, double) { return run.sub_impacts.empty() ? 0.0 : run.sub_impacts.back().zone; }, of_count},
     {"striker_velocity_m_per_s", [](Run run, double) { return run.striker_velocity; }},
     {"beam_mean_velocity_m_per_s", [](Run run, double) { return run.beam_mean_velocity; }, safety_of_beam_velocity},
-    {"restitution", [](Run run, double v0) { return run.restitution(v0); }},
+    {"restitution", [](Run run, double) { return run.restitution.value_or(NAN); }},
     {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
     {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
     {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},

@@ -8,11 +8,11 @@ namespace subimpact {
 Accounts::Accounts(const StruckBeam& beam, const SectionField& sections)
     : beam_(beam), sections_(sections), curvatures_(sections.size()), moments_(sections.size()) {}
 
-Energies Accounts::energies(const State& y) {
+Energies Accounts::energies(const State& y, double t) {
   const BeamMesh& mesh = beam_.mesh();
   const std::span<const double> modal = beam_.modal_stiffness();
   Energies sum;
-  sum.striker = 0.5 * beam_.striker_mass() * y.back() * y.back();
+  if (!beam_.has_stop()) sum.striker = 0.5 * beam_.striker_mass() * y.back() * y.back();
   const MixedSections* mixed = beam_.mixed_at(y);
   sum.beam_kinetic = mixed != nullptr ? mixed->kinetic_energy(beam_.beam_velocities(y))
                                       : 0.5 * mesh.mass().quadratic_form(beam_.beam_velocities(y));
@@ -35,11 +35,18 @@ Energies Accounts::energies(const State& y) {
   sum.beam_damping = beam_.losses().beam;
   sum.bending_plastic -= beam_.spent().bending;
   sum.contact_plastic -= beam_.spent().contact;
+  sum.work = beam_.work_of_loads(y, t);
   return sum;
 }
 
-double Accounts::momentum(const State& y) const {
-  const double sum = beam_.striker_mass() * y.back() + beam_momentum(y);
+double Accounts::momentum(const State& y, double t) const {
+  const Loads& loads = beam_.loads();
+  return beam_.striker_mass() * (y.back() - loads.gravity() * t) + beam_impulse(y, t);
+}
+
+double Accounts::beam_impulse(const State& y, double t) const {
+  double sum = beam_momentum(y);
+  if (!beam_.loads().is_empty()) sum -= beam_.loads().impulse(t);
   const double alpha = beam_.damping().mass;
   if (alpha == 0.0) return sum;
   const std::span<const double> positions = beam_.beam_positions(y);

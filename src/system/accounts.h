@@ -25,13 +25,19 @@ class Accounts {
 
   const StruckBeam& beam() const { return beam_; }
 
-  Energies energies(const State& y);
-  /// kg m/s, of beam and striker, with what the damping by mass has taken since the beam, at rest,
-  /// was first touched: alpha times the integral of the beam's momentum.
-  double momentum(const State& y) const;
+  /// At a time (s), which only loads that change make a difference to.
+  Energies energies(const State& y, double t = 0.0);
+  /// kg m/s, of beam and striker, without the impulse of gravity and loads since t = 0, and with
+  /// what the damping by mass has taken since then: alpha times the integral of the beam's momentum.
+  double momentum(const State& y, double t = 0.0) const;
   double beam_momentum(const State& y) const;  ///< kg m/s
-  /// Whether the striker is the only body that acts on the beam: no supports.
-  bool conserves_momentum() const { return !beam_.mesh().translation().empty(); }
+  /// N s, up to a constant: the impulse of the contact force on a beam without supports or springs,
+  /// from its own momentum.
+  double beam_impulse(const State& y, double t) const;
+  /// Whether striker and loads alone act on the beam: no supports, springs or stop.
+  bool conserves_momentum() const {
+    return !beam_.mesh().translation().empty() && !beam_.has_stop();
+  }
 
   struct Displacements {
     double struck, striker, first_end;  ///< m

@@ -106,7 +106,7 @@ double largest_eigenvalue(JoinedBodies& bodies) {
 ContactResonance contact_resonance(const StruckBeam& beam, double largest_indentation) {
   const ContactLaw& law = beam.contact().law();
   const auto [stiffness, exponent] = law.scales();
-  const double mass = beam.striker_mass();
+  const double mass = beam.has_stop() ? beam.mesh().beam_mass() : beam.striker_mass();
   const double velocity = beam.scales().velocity;
   ContactResonance result;
   result.largest_slope = law.largest_slope(

@@ -6,6 +6,7 @@
 
 #include "model/slow_motion.h"
 #include "numerics/lanes.h"
+#include "system/equilibrium.h"
 
 namespace subimpact {
 
@@ -39,7 +40,7 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
   for (std::size_t k = 0; k < motion->size(); ++k) {
     const double omega = motion->frequencies[k];
     const double share = mesh.struck_point()(motion->shapes[k]);
-    modes_.push_back({omega, share, std::vector<double>(n_)});
+    modes_.push_back({omega, share, motion->shapes[k], std::vector<double>(n_)});
     mesh.mass().multiply(motion->shapes[k], modes_.back().inertia);
     if (omega == 0.0) continue;
     frequencies.push_back(omega);
@@ -61,14 +62,49 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
                         material.yield_stress * sections.law().fibres().extent();
 }
 
+bool NoMoreContact::allow_loads(const StruckBeam& beam) {
+  const Loads& loads = beam.loads();
+  if (loads.is_empty()) return true;
+  if (loads.will_change()) return false;
+  if (loads.start() == loads_begun_) return loads_allow_;
+  loads_begun_ = loads.start();
+  loads_allow_ = false;
+  about_.clear();
+  std::vector<double> rest(loads.value().begin(), loads.value().end());
+  const double size = std::sqrt(dot(rest.data(), rest.data(), n_));
+  double apart = -beam.striker_load();  // acceleration of the struck point less that of the striker
+  bool is_held = true;
+  for (const Mode& mode : modes_) {
+    if (mode.frequency != 0.0) continue;
+    is_held = false;
+    const double amount = dot(mode.shape.data(), loads.value().data(), n_);
+    apart += mode.share * amount;
+    for (std::size_t i = 0; i < n_; ++i) rest[i] -= amount * mode.inertia[i];
+  }
+  if (apart < -rounding * std::abs(beam.striker_load())) return false;
+  if (std::sqrt(dot(rest.data(), rest.data(), n_)) > rounding * size) {
+    if (!is_held || beam.sections().can_yield()) return false;
+    const auto at_rest = equilibrium(beam);
+    if (!at_rest) return false;
+    about_ = *at_rest;
+  }
+  return loads_allow_ = true;
+}
+
 bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
-  if (!can_prove_ || beam.contact().is_closed()) return false;
-  const std::span<const double> w{y.data(), n_};
+  if (!can_prove_ || beam.contact().is_closed() || !allow_loads(beam)) return false;
+  std::vector<double> w(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n_));
   const std::span<const double> v{y.data() + n_ + 1, n_};
   const Energies energies = accounts_.energies(y);
   // The striker against the rigid motion; the modes that follow.
   std::vector<double> z{y[n_]}, rates{y.back()};
   double energy = energies.beam_kinetic + energies.bending_elastic;
+  if (!about_.empty()) {
+    const std::span<const double> load = beam.loads().value();
+    energy += 0.5 * dot(load.data(), about_.data(), n_) - dot(load.data(), w.data(), n_);
+    for (std::size_t i = 0; i < n_; ++i) w[i] -= about_[i];
+    z[0] -= beam.mesh().struck_point()(about_);
+  }
   double energy_of_modes = 0.0;
   for (const Mode& mode : modes_) {
     const double amount = dot(mode.inertia.data(), w.data(), n_);

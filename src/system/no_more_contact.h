@@ -39,6 +39,12 @@ namespace subimpact {
 /// leaves the rigid motion alone, but for damping by mass: R' then falls to zero, and v_m <= 0 is
 /// needed too.
 ///
+/// Under loads that stay as they are, bodies that these press together meet again, and nothing is
+/// proven. Gravity on a beam that nothing holds moves both bodies alike and leaves all of the above
+/// as it is. A held beam that stays elastic moves as without loads about its equilibrium w_s: w - w_s
+/// takes the place of w, and the striker's uniform motion is above its own where loads pull it away.
+/// Nothing is proven of beams that other loads bend and that may yield, or that nothing holds.
+///
 /// A beam that is elastic and undamped is followed beyond that: its lowest modes move freely
 /// (EventFreeHorizon), and the rest of d stays below sqrt(2 C' E'), with the compliance and the
 /// energy of the other modes. It is followed until the gap exceeds all that d can be.
@@ -53,12 +59,18 @@ class NoMoreContact {
   struct Mode {
     double frequency;             // rad/s; 0: rigid
     double share;                 // S phi
+    std::vector<double> shape;    // phi
     std::vector<double> inertia;  // Mass phi
   };
+  // Whether loads leave room for a proof; about_ is then the state of rest.
+  bool allow_loads(const StruckBeam& beam);
   // Whether z0 + rate0 t - sum share z_k(t) stays below a limit (m) for all t.
   bool stays_below(double limit, std::span<const double> z, std::span<const double> rates);
 
   std::size_t n_;
+  std::vector<double> about_;          // w_s; empty: straight
+  double loads_begun_ = -1.0;          // s: the piece of the loads for which it holds
+  bool loads_allow_ = true;
   std::vector<Mode> modes_;  // the lowest
   std::vector<double> bar_;  // W kbar; empty where the sections cannot yield
   bool can_prove_ = false;

@@ -57,8 +57,8 @@ SectionCorrector::SectionCorrector(const StruckBeam& beam, double tolerance)
       influence_(beam.mesh(), beam.mass_solver()),
       finder_(beam.sections(), influence_),
       end_(beam.sections().size()),
-      start_loads_(beam.mesh()),
-      end_loads_(beam.mesh()),
+      start_loads_(beam.mesh(), !beam.loads().is_empty()),
+      end_loads_(beam.mesh(), !beam.loads().is_empty()),
       curvatures_(beam.sections().size()),
       moments_(beam.sections().size()),
       forces_(beam.mesh().n_unknowns()) {}
@@ -78,8 +78,8 @@ void SectionCorrector::correct(const StepEnds& step, SectionCorrection& correcti
     correction.valid_until = cut_at(step.t0 + *finder_.cut() * step.length(), step);
     return;
   }
-  read_loads(step.y0, start, start_loads_);
-  read_loads(step.y1, end_, end_loads_);
+  read_loads(step.t0, step.y0, start, start_loads_);
+  read_loads(step.t1, step.y1, end_, end_loads_);
   finder_.find({start, start_loads_}, {end_, end_loads_}, step.t0, step.t1, correction.events);
   if (correction.events.empty()) return;
   read_response(step, correction);
@@ -112,7 +112,7 @@ void SectionCorrector::read_response(const StepEnds& step, SectionCorrection& co
   correction.valid_until = cut_at(std::max(start, step.t0) + cut_safety * tolerable, step);
 }
 
-void SectionCorrector::read_loads(const State& y, const SectionMotion& motion,
+void SectionCorrector::read_loads(double t, const State& y, const SectionMotion& motion,
                                   SectionLoads& loads) {
   const std::span<const double> weights = beam_.mesh().section_weights();
   beam_.sections().smooth_moments(motion.curvatures, loads.weighted_moments);
@@ -130,6 +130,11 @@ void SectionCorrector::read_loads(const State& y, const SectionMotion& motion,
   std::fill(loads.shear_force_rates.begin(), loads.shear_force_rates.end(), 0.0);
   beam_.mesh().add_shear_forces(beam_.beam_positions(y), loads.shear_forces);
   beam_.mesh().add_shear_forces(beam_.beam_velocities(y), loads.shear_force_rates);
+  if (beam_.loads().is_empty()) return;
+  beam_.loads().add_to(loads.shear_forces, t);
+  for (std::size_t i = 0; i < loads.shear_force_rates.size(); ++i) {
+    loads.shear_force_rates[i] += beam_.loads().rate()[i];
+  }
 }
 
 void SectionCorrector::linear_moments(std::span<const double> changes,

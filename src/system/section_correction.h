@@ -42,7 +42,7 @@ class SectionCorrector {
  private:
   // Where a step that is to be cut at a time ends: no sooner than the shortest step.
   double cut_at(double time, const StepEnds& step) const;
-  void read_loads(const State& y, const SectionMotion& motion, SectionLoads& loads);
+  void read_loads(double t, const State& y, const SectionMotion& motion, SectionLoads& loads);
   void read_response(const StepEnds& step, SectionCorrection& correction);
   // Tangents of the smooth pieces, taken at the step's end, times changes of curvature.
   void linear_moments(std::span<const double> changes, std::span<const double> curvatures,

@@ -166,15 +166,15 @@ std::optional<SectionEvent> follow_section(const SectionField& sections,
 
 /// The loads on the sections at one end of a step: W_j times the moments M of the smooth pieces and
 /// their rates (N m2, N m2/s), one entry per section, the contact force with its rate (N, N/s), and
-/// the shear forces with theirs, one entry per unknown; empty where sections do not shear.
+/// the forces of shear, springs and loads with theirs, one entry per unknown; empty without any.
 struct SectionLoads {
   std::vector<double> weighted_moments, weighted_moment_rates;
   double force = 0.0, force_rate = 0.0;
   std::vector<double> shear_forces, shear_force_rates;
-  explicit SectionLoads(const BeamMesh& mesh)
+  SectionLoads(const BeamMesh& mesh, bool has_loads)
       : weighted_moments(mesh.n_sections()),
         weighted_moment_rates(mesh.n_sections()),
-        shear_forces(mesh.shears() ? mesh.n_unknowns() : 0),
+        shear_forces(mesh.shears() || has_loads ? mesh.n_unknowns() : 0),
         shear_force_rates(shear_forces.size()) {}
 };
 

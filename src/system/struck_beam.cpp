@@ -28,6 +28,7 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       striker_mass_(parts.striker_mass),
       striker_velocity_(parts.striker_velocity),
       outer_stiffness_(parts.outer_stiffness),
+      loads_(std::move(parts.loads)),
       damping_(parts.damping),
       depends_on_velocity_(parts.contact_damping > 0.0 || !parts.damping.is_none()),
       shears_(mesh_->shears()),
@@ -37,10 +38,11 @@ StruckBeam::StruckBeam(StruckBeamParts parts)
       trial_(n_ + 1),
       committed_(mesh_->n_sections()) {
   const auto [stiffness, exponent] = contact_.law().scales();
+  const double velocity = parts.velocity_scale > 0.0 ? parts.velocity_scale : striker_velocity_;
+  const double mass = has_stop() ? mesh_->beam_mass() : striker_mass_;
   const double contact_time =
-      std::pow(striker_mass_ / (stiffness * std::pow(striker_velocity_, exponent - 1.0)),
-               1.0 / (exponent + 1.0));
-  scales_ = {striker_velocity_ * contact_time, striker_velocity_};
+      std::pow(mass / (stiffness * std::pow(velocity, exponent - 1.0)), 1.0 / (exponent + 1.0));
+  scales_ = {velocity * contact_time, velocity};
   if (!sections_.can_yield()) use_modes();
   if (const auto* mesh = dynamic_cast<const MixedMesh*>(mesh_.get())) {
     mixed_ = std::make_unique<MixedSections>(
@@ -91,6 +93,23 @@ void StruckBeam::use_modes() {
   }
 }
 
+void StruckBeam::set_start(State start) {
+  start_ = std::move(start);
+  potential_before_ = 0.0;
+  if (!loads_.is_empty()) potential_before_ = load_potential(start_, loads_.start());
+}
+
+double StruckBeam::load_potential(const State& y, double t) const {
+  const double of_striker = has_stop() ? 0.0 : striker_mass_ * loads_.gravity() * y[n_];
+  return loads_.potential(beam_positions(y), t) + of_striker;
+}
+
+void StruckBeam::begin_loads(const State& y, double t) {
+  const double before = load_potential(y, t);
+  loads_.begin_piece(t);
+  potential_before_ += load_potential(y, t) - before;
+}
+
 State StruckBeam::initial_state() const {
   if (!start_.empty()) return start_;
   State y(2 * n_positions(), 0.0);
@@ -137,12 +156,22 @@ void StruckBeam::acceleration(std::span<const double> positions, std::span<doubl
     double* a = forces.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < n_; ++i) a[i] = contact * load[i] - squared[i] * q[i];
+    if (!loads_.is_empty()) add_modal_loads(result);
     return;
   }
   bend(unknowns, forces);
   mesh_->struck_point().add_to(forces, contact);
+  if (!loads_.is_empty()) loads_.add_to(forces, time_);
   mass_solver_->solve(forces);
-  result[n_] = -contact / striker_mass_;
+  result[n_] = -contact / striker_mass_ + striker_load();
+}
+
+void StruckBeam::add_modal_loads(std::span<double> accelerations) const {
+  const double since = time_ - loads_.start();
+  for (std::size_t i = 0; i < n_; ++i) {
+    accelerations[i] += (loads_.value()[i] + since * loads_.rate()[i]) / mesh_->mass().at(i, i);
+  }
+  accelerations[n_] += striker_load();
 }
 
 void StruckBeam::acceleration_at(std::span<const double> y, std::span<double> result) {
@@ -158,13 +187,16 @@ void StruckBeam::acceleration_at(std::span<const double> y, std::span<double> re
       forces[i] = contact * modal_loads_[i] - modal_frequencies_squared_[i] * unknowns[i] -
                   modal_damping_[i] * velocities[i];
     }
+    if (!loads_.is_empty()) add_modal_loads(result);
     return;
   }
   bend(unknowns, forces);
   if (damping_.stiffness > 0.0) add_stiffness_damping(velocities, forces);
   mesh_->struck_point().add_to(forces, contact);
+  if (!loads_.is_empty()) loads_.add_to(forces, time_);
   mass_solver_->solve(forces);
   for (std::size_t i = 0; i < n_; ++i) forces[i] -= damping_.mass * velocities[i];
+  result[n_] += striker_load();
 }
 
 void StruckBeam::add_stiffness_damping(std::span<const double> velocities,
@@ -218,7 +250,8 @@ void StruckBeam::force(std::span<const double> y, Part part, std::span<double> r
   if (part == Part::stiff) return;
   const double contact = contact_force(y);
   mesh_->struck_point().add_to(forces, contact);
-  result[n_] = -contact;
+  if (!loads_.is_empty()) loads_.add_to(forces, time_);
+  result[n_] = has_stop() ? 0.0 : striker_mass_ * striker_load() - contact;
 }
 
 void StruckBeam::stiffness_entries(std::span<const double> y, Part part, std::span<double> values) {
@@ -319,7 +352,8 @@ BeamJacobian::BeamJacobian(const BeamMesh& mesh, double striker_mass)
   }
   gradient[n_] = 1.0;
   const auto add = [&](std::size_t i, std::size_t j) {
-    const double coefficient = gradient[i] * gradient[j];
+    const bool of_stop = i == n_ && std::isinf(striker_mass_);
+    const double coefficient = of_stop ? 0.0 : gradient[i] * gradient[j];
     if (coefficient != 0.0) contact_entries_.push_back({pattern_.n_entries(), coefficient});
     pattern_.rows.push_back(i);
   };
@@ -349,7 +383,7 @@ void BeamJacobian::copy_band(const BandedMatrix& band, std::span<double> values)
 
 void BeamJacobian::mass_entries(std::span<double> values) const {
   copy_band(mesh_.mass(), values);
-  values[pattern_.n_entries() - 1] = striker_mass_;
+  values[pattern_.n_entries() - 1] = std::isinf(striker_mass_) ? 1.0 : striker_mass_;
 }
 
 void BeamJacobian::stiffness_entries(std::span<const double> tangents, double contact_slope,
@@ -378,8 +412,22 @@ ModalBeam::ModalBeam(const StruckBeam& beam) : beam_(beam) {
     decay_rates_.push_back(0.0);  // the striker
   }
   frequencies_.push_back(0.0);
-  loads_.push_back(-1.0 / beam.striker_mass());
+  loads_.push_back(-1.0 / beam.striker_mass());  // 0 of a stop
   displacements_.push_back(1.0);
+}
+
+ForcedOscillators::Loads ModalBeam::loads_from(double t0) {
+  const subimpact::Loads& loads = beam_.loads();
+  if (loads.is_empty()) return {};
+  const std::size_t n = beam_.mesh().n_unknowns();
+  accelerations_.assign(n + 1, beam_.striker_load());
+  rates_.assign(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double mass = beam_.mesh().mass().at(i, i);
+    rates_[i] = loads.rate()[i] / mass;
+    accelerations_[i] = loads.value()[i] / mass + (t0 - loads.start()) * rates_[i];
+  }
+  return {accelerations_, rates_};
 }
 
 ForcedOscillators::Force ModalBeam::force(double lambda) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "subimpact/model/beam_mesh.h"
 #include "subimpact/model/scene.h"
 #include "system/contact_state.h"
+#include "system/loads.h"
 
 namespace subimpact {
 
@@ -21,18 +23,22 @@ struct StruckBeamParts {
   std::shared_ptr<const BeamMesh> mesh;
   SectionField sections;
   std::shared_ptr<const ContactLaw> contact_law;
-  double striker_mass;      ///< kg
-  double striker_velocity;  ///< v0, m/s
+  double striker_mass;      ///< kg; infinite: a stop
+  double striker_velocity;  ///< v0, m/s, at the start
   double outer_stiffness;   ///< E h/2 of the outermost fibre, N/m, for sections that never yield
   std::unique_ptr<MassSolver> mass_solver;
   double contact_damping = 0.0;  ///< chi, s/m
   BeamDamping damping = {};      ///< its ratio for natural modes only
+  Loads loads = {};
+  double velocity_scale = 0.0;  ///< m/s, of the strike; 0: striker_velocity
 };
 
-/// Energy (J) that velocity-dependent forces have dissipated since the run began.
+/// What is integrated over time since the run began: energy (J) that velocity-dependent forces have
+/// dissipated, and what changing loads leave of their potential, the integral of (df/dt) q.
 struct Losses {
   double contact = 0.0;
   double beam = 0.0;
+  double of_change = 0.0;
 };
 
 /// Curvatures (1/m) and their rates (1/(m s)) of all sections, one entry per section.
@@ -46,6 +52,7 @@ struct SectionMotion {
 ///
 ///     Mass = [beam's mass, 0; 0, m],   K = [B^T W diag(tangent) B, 0; 0, 0] + dF/dlambda g g^T,
 ///
+/// of a stop with 1 in place of m and without the striker's row of g g^T, so that it stays at rest;
 /// with g = [-S; 1] the gradient of the indentation. The pattern is the beam's band, a row and a
 /// column that couple the striker to the unknowns under it, and the striker's diagonal entry.
 class BeamJacobian {
@@ -80,10 +87,12 @@ class BeamJacobian {
 ///
 /// State y = [w_1..w_n, w_m, v_1..v_n, v_m] (m, m/s): the mesh's unknowns, then the striker.
 ///
-///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F,   m w_m'' = -F,   F = F(lambda, history),
-///     kappa = B w,   lambda = w_m - S.w,
+///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F + f(t),   m w_m'' = -F + m g,
+///     F = F(lambda, history),   kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) of the sign of the curvature and K_s the stiffness of shear, if any. With damping
+/// with M (N m) of the sign of the curvature, K_s the stiffness of shear and springs, if any, and
+/// the loads f (Loads). In place of a striker of infinite mass there is a stop: w_m'' = 0. With
+/// damping
 /// the forces depend on velocities too (docs/theory.md, "Beam"). Other classes treat changes of
 /// branch within a step: ContactState and find_crossing for the contact, SectionCorrector for the
 /// sections. Accounts computes energies and momenta.
@@ -100,6 +109,7 @@ class StruckBeam final : public MechanicalSystem {
   void acceleration(std::span<const double> positions, std::span<double> result) override;
   bool depends_on_velocity() const override { return depends_on_velocity_; }
   void acceleration_at(std::span<const double> y, std::span<double> result) override;
+  void set_time(double t) override { time_ = t; }
   Scales scales() const override { return scales_; }
 
   /// Stiff part: the bending forces; the rest: the contact force.
@@ -119,7 +129,21 @@ class StruckBeam final : public MechanicalSystem {
   const ContactState& contact() const { return contact_; }
   ContactState& contact() { return contact_; }
   const MassSolver& mass_solver() const { return *mass_solver_; }
-  double striker_mass() const { return striker_mass_; }        ///< kg
+  double striker_mass() const { return striker_mass_; }        ///< kg; infinite: a stop
+  bool has_stop() const { return std::isinf(striker_mass_); }
+  const Loads& loads() const { return loads_; }
+  /// Acceleration of the striker but for the contact force, m/s2.
+  double striker_load() const { return has_stop() ? 0.0 : loads_.gravity(); }
+  /// Whether anything is lost or left to integrate over time (Losses).
+  bool has_losses() const { return depends_on_velocity_ || loads_.varies(); }
+  /// What the state y at time t has in the loads' potential, J.
+  double load_potential(const State& y, double t) const;
+  /// The work of loads since the start, J.
+  double work_of_loads(const State& y, double t) const {
+    return loads_.is_empty() ? 0.0 : load_potential(y, t) - losses_.of_change - potential_before_;
+  }
+  /// At the corner t of a load, in the state y, or before the start: goes on to the next piece.
+  void begin_loads(const State& y, double t);
   double outer_stiffness() const { return outer_stiffness_; }  ///< E h/2, N/m
   /// Of the beam without contact, rad/s.
   double highest_frequency() const { return highest_frequency_; }
@@ -128,9 +152,10 @@ class StruckBeam final : public MechanicalSystem {
   /// Damping force over velocity and mass of each of these modes, 1/s.
   std::span<const double> modal_damping() const { return modal_damping_; }
 
-  /// At the first touch: beam at rest, displacements zero; or what resume() or begin_strike() was
-  /// given last.
+  /// At the start: of displacements zero and a beam at rest, unless set_start(), resume() or
+  /// begin_strike() has given it. Energies and momenta of accounts are those since then.
   State initial_state() const;
+  void set_start(State start);
   /// Histories and the accepted state y that they hold at, in the unknowns of the mesh, in natural
   /// modes too.
   void exchange(Snapshot& snapshot, State& y);
@@ -167,6 +192,7 @@ class StruckBeam final : public MechanicalSystem {
   void add_losses(const Losses& more) {
     losses_.contact += more.contact;
     losses_.beam += more.beam;
+    losses_.of_change += more.of_change;
   }
   /// Rounding of the indentation at y, m.
   double displacement_rounding(std::span<const double> y) const;
@@ -200,6 +226,7 @@ class StruckBeam final : public MechanicalSystem {
   // Adds the forces of the beam's damping, all or those of beta.
   void add_stiffness_damping(std::span<const double> velocities, std::span<double> forces);
   void add_damping(std::span<const double> velocities, std::span<double> forces);
+  void add_modal_loads(std::span<double> accelerations) const;
   void use_modes();
   void come_to_rest(std::span<double> w, double first_frequency);
   BeamJacobian& jacobian() const;
@@ -214,6 +241,9 @@ class StruckBeam final : public MechanicalSystem {
   double striker_mass_;
   double striker_velocity_;
   double outer_stiffness_;
+  Loads loads_;
+  double time_ = 0.0;              // of the next evaluation
+  double potential_before_ = 0.0;  // of the loads at the start, and what corners have changed
   BeamDamping damping_;
   bool depends_on_velocity_;
   Losses losses_;
@@ -249,6 +279,8 @@ class ModalBeam final : public ForcedOscillators {
   std::span<const double> loads() const override { return loads_; }
   std::span<const double> displacements() const override { return displacements_; }
   Force force(double lambda) const override;
+  bool has_loads() const override { return !beam_.loads().is_empty(); }
+  Loads loads_from(double t0) override;
   bool is_free() const override { return !beam_.contact().is_closed(); }
   double critical_displacement() const override { return beam_.contact().residual_indentation(); }
   SecondOrderOde::Scales scales() const override { return beam_.scales(); }
@@ -256,6 +288,7 @@ class ModalBeam final : public ForcedOscillators {
  private:
   const StruckBeam& beam_;
   std::vector<double> frequencies_, decay_rates_, loads_, displacements_;
+  std::vector<double> accelerations_, rates_;  // of loads_from()
 };
 
 }  // namespace subimpact

@@ -32,6 +32,7 @@ SupportReactions::Eliminated SupportReactions::eliminated(
   beam_.mass_solver().solve(g);
   Eliminated result;
   result.of_force = mesh.struck_point()(g);
+  if (!beam_.loads().is_empty()) result.of_loads = g;
   if (in_modes()) {
     for (std::size_t k = 0; k < g.size(); ++k) {
       result.of_unknowns.push_back(-beam_.modal_stiffness()[k] * g[k]);
@@ -91,27 +92,37 @@ void SupportReactions::add_damping(Eliminated& to) const {
   for (double& coefficient : to.of_velocities) coefficient *= damping.stiffness;
 }
 
-double SupportReactions::value(const Eliminated& of, const State& y,
+double SupportReactions::value(const Eliminated& of, double t, const State& y,
                                std::span<const double> moments) const {
   const auto sum = [](const std::vector<double>& coefficients, std::span<const double> values) {
     return std::inner_product(coefficients.begin(), coefficients.end(), values.begin(), 0.0);
   };
   double value = beam_.contact_force(y) * of.of_force;
   value += sum(of.of_moments, moments);
+  if (!of.of_loads.empty()) value += beam_.loads().potential(of.of_loads, t);
   value += sum(of.of_unknowns, beam_.beam_positions(y));
   return value + sum(of.of_velocities, beam_.beam_velocities(y));
 }
 
-SupportReactions::Forces SupportReactions::at(const State& y, Accounts& accounts) const {
+SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts& accounts) const {
   const double force = beam_.contact_force(y);
+  // Of loads, springs and bedding.
+  const std::span<const double> unknowns = beam_.beam_positions(y);
+  const auto of_ground = [&](std::span<const double> functional) {
+    return std::inner_product(functional.begin(), functional.end(), unknowns.begin(), 0.0);
+  };
+  const auto [load, load_moment] = beam_.loads().resultant(t);
+  const double others = load - of_ground(beam_.mesh().ground_force());
+  const double other_moments = load_moment - of_ground(beam_.mesh().ground_moment());
   std::span<const double> moments;
   if (!in_modes()) moments = accounts.bending(y).moments;
-  const double sum = value(momentum_, y, moments) - force;
+  const double sum = value(momentum_, t, y, moments) - force - others;
   if (beam_.mesh().symmetric()) return {0.5 * sum, 0.5 * sum};
   if (!held_[1]) return {sum, std::nullopt};
   if (!held_[0]) return {std::nullopt, sum};
   if (!moment_) return {};
-  const double last = (value(*moment_, y, moments) - force * struck_at_) / length_;
+  const double moment = value(*moment_, t, y, moments) - force * struck_at_ - other_moments;
+  const double last = moment / length_;
   return {sum - last, last};
 }
 

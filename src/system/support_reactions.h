@@ -19,9 +19,9 @@ class SupportReactions {
   /// Whether any end is held, on a mesh that gives displacements at the ends.
   bool exist() const { return held_[0] || held_[1]; }
 
-  /// At x = 0 and x = l; none at a free end, or without a moment functional to distinguish the two.
+  /// At time t (s), x = 0 and x = l; none at a free end, or without a moment functional to distinguish the two.
   using Forces = std::array<std::optional<double>, 2>;
-  Forces at(const State& y, Accounts& accounts) const;
+  Forces at(double t, const State& y, Accounts& accounts) const;
 
  private:
   // A functional of the accelerations, as one of moments, unknowns, velocities and contact force.
@@ -29,10 +29,12 @@ class SupportReactions {
     std::vector<double> of_moments;     // -W_j (B g)_j; none in modes
     std::vector<double> of_unknowns;    // -K_s g, in modes -stiffness g; none where neither exists
     std::vector<double> of_velocities;  // -C g; none without damping inside the beam
+    std::vector<double> of_loads;       // g
     double of_force = 0.0;              // S.g
   };
   Eliminated eliminated(std::span<const double> functional) const;
-  double value(const Eliminated& of, const State& y, std::span<const double> moments) const;
+  double value(const Eliminated& of, double t, const State& y,
+               std::span<const double> moments) const;
   // Adds sign times the moment at a clamped end.
   void add_end_moment(double sign, double x, bool first, Eliminated& to) const;
   void add_damping(Eliminated& to) const;

@@ -120,7 +120,7 @@ TEST(HistoryCsv, HasTheAgreedColumnsAndAsManyInEveryRow) {
                 "f_c_m",  "u_mf_m",       "v_c_m_per_s",    "v_m_m_per_s", "stress_back_Pa",
                 "U_m_J",  "U_k_J",        "U_e_J",          "U_p_J",       "U_c_J",
                 "D_c_J",  "energy_error", "momentum_error", "D_b_J",       "R_0_N",
-                "R_l_N"}));
+                "R_l_N",  "W_J"}));
   EXPECT_EQ(rows[1].size(), rows[0].size());
   EXPECT_EQ(number(rows[1][0]), 1e-6 / 3.0);
   EXPECT_EQ(number(rows[1][1]), 1822.9000000000001);

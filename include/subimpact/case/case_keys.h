@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,9 +18,22 @@
 
 namespace subimpact {
 
+/// Things at points of the beam, each with a position and a number or a table of pairs (t, F) under
+/// the name `quantity`: [{ position = 0.5, stiffness = 100 }].
+struct PlacedValues {
+  std::string quantity;  ///< "stiffness", "force"
+  struct Entry {
+    double position = 0.0;
+    std::vector<std::pair<double, double>> table;  ///< one pair: a number, the second of it
+    bool operator==(const Entry&) const = default;
+  };
+  std::vector<Entry> entries;
+  bool operator==(const PlacedValues&) const = default;
+};
+
 /// What a key can hold, independent of any file format.
 using KeyValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>,
-                              std::vector<double>>;
+                              std::vector<double>, PlacedValues>;
 
 enum class KeyType {
   text,    ///< any text
@@ -28,7 +42,8 @@ enum class KeyType {
   flag,    ///< true or false
   choice,  ///< one of the key's choices
   pair,    ///< two of the key's choices
-  numbers  ///< a list of finite numbers
+  numbers,  ///< a list of finite numbers
+  placed    ///< a list of things at points of the beam (PlacedValues)
 };
 
 /// A name a key accepts, with a line on what it stands for.
@@ -56,6 +71,8 @@ struct CaseKey {
   Limits limits;                ///< the same, to check and to write schemas with
   std::vector<Choice> choices;  ///< for choice and pair
   bool required;                ///< has no default
+  /// Whether a required key is not needed beside others of the case; empty: always needed.
+  std::function<bool(const Case&)> is_needless;
   std::string default_text;     ///< in words or as it would be written; empty if required
   std::string meaning;          ///< a noun phrase
   /// The case's present value; nothing if it is left open there.

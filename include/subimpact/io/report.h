@@ -57,6 +57,10 @@ std::string finer_meshes_words(const Result& result);
 /// The error of each source by itself, with the runs that show it: "mesh error" and its words.
 std::vector<std::pair<std::string, std::string>> error_part_words(const Result& result);
 
+/// What acts on the bodies besides the strike, and how the beam starts: "gravity 9.81 m/s2, 1
+/// spring"; empty for a beam at rest without loads and springs.
+std::string others_in_scene(const Scene& scene);
+
 /// What is asked of a strike first: a line of the summary, a tile of the page.
 struct Answer {
   std::string name;   ///< "largest force"

@@ -76,7 +76,7 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
 ///     Mass q'' = -B^T W M(kappa) - K_s q + S F,
 ///
 /// with the bending moments M, of the sign of the curvature, the functional S of the struck point
-/// and the elastic stiffness K_s of shear, where the mesh has any. Bending work is sum W M dkappa
+/// and the elastic stiffness K_s of shear and of springs to the ground, where the mesh has any. Bending work is sum W M dkappa
 /// and contact work F d(S q), so the discretisation in space neither produces nor loses energy.
 /// Where symmetry halves the unknowns, the mirrored half is folded into Mass and W, so all forces,
 /// energies and momenta are those of the whole beam.
@@ -117,7 +117,13 @@ class BeamMesh {
   /// rho A x w_t + J phi_t, with the rotation phi of sections. Empty where a mesh does not give it,
   /// and on one half of a beam.
   std::span<const double> moment_functional() const { return moment_functional_; }
+  /// Force (N) and moment about x = 0 (N m) of springs and bedding on the ground for 1 m of each
+  /// unknown; empty where is_sprung() does not hold.
+  std::span<const double> ground_force() const { return ground_force_; }
+  std::span<const double> ground_moment() const { return ground_moment_; }
   double beam_mass() const { return beam_mass_; }  ///< kg, of the whole beam
+  /// Whether springs or a bedding hold the beam (SprungMesh).
+  virtual bool is_sprung() const { return false; }
   /// Whether only one half is stored.
   bool symmetric() const { return symmetric_; }
 
@@ -133,7 +139,7 @@ class BeamMesh {
   /// By default the row that add_stencil() has stored.
   virtual SectionStencil section_stencil(std::size_t section) const;
 
-  /// Whether sections shear: K_s is not zero.
+  /// Whether K_s is not zero: sections shear, or springs hold the beam.
   virtual bool shears() const { return shear_stiffness_.size() > 0; }
   /// forces -= K_s q, N; nothing where sections do not shear.
   virtual void add_shear_forces(std::span<const double> unknowns, std::span<double> forces) const;
@@ -190,7 +196,7 @@ class BeamMesh {
   void add_stencil(std::size_t first, std::span<const double> coefficients);
 
   BandedMatrix mass_;
-  BandedMatrix shear_stiffness_{0, 0};  ///< K_s, N/m; of size zero where sections do not shear
+  BandedMatrix shear_stiffness_{0, 0};  ///< K_s, N/m; of size zero where it is zero
   std::vector<double> weights_;
   std::vector<double> positions_;
   SparseFunctional struck_point_;
@@ -199,6 +205,7 @@ class BeamMesh {
   std::vector<double> translation_;
   std::vector<double> momentum_functional_;
   std::vector<double> moment_functional_;
+  std::vector<double> ground_force_, ground_moment_;
   double beam_mass_ = 0.0;
   bool symmetric_;
 

@@ -3,10 +3,13 @@
 /// The scene as plain data: a uniform beam, at rest, struck sideways by a rigid mass with a round
 /// nose. SI units. Nothing here depends on discretisation or time stepping.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace subimpact {
 
@@ -29,6 +32,26 @@ struct BeamDamping {
   double stiffness = 0.0;  ///< beta, s
 
   bool is_none() const { return ratio == 0.0 && mass == 0.0 && stiffness == 0.0; }
+};
+
+/// A force on one point of the beam, positive along the strike.
+struct PointForce {
+  double position = 0.0;  ///< as a fraction of the length
+  /// Times (s, from 0 on, not descending) and forces (N): linear between them, constant after the
+  /// last, and before the first; a time given twice is a jump. One entry: a constant force.
+  std::vector<std::pair<double, double>> table = {};
+};
+
+/// A linear spring between one point of the beam and the ground.
+struct Spring {
+  double position = 0.0;   ///< as a fraction of the length
+  double stiffness = 0.0;  ///< N/m
+};
+
+/// The shape from which a beam starts.
+enum class BeamStart {
+  straight,    ///< no displacement
+  equilibrium  ///< at rest under the loads of t = 0
 };
 
 enum class SectionShape {
@@ -76,6 +99,29 @@ struct Beam {
   /// E_t/E of linear kinematic hardening: fibres that yield keep this share of their stiffness.
   double hardening = 0.0;
 
+  double load = 0.0;                    ///< p, N/m: uniform, constant, positive along the strike
+  std::vector<PointForce> forces = {};
+  std::vector<Spring> springs = {};
+  double foundation = 0.0;              ///< k_f, N/m2: force per length over displacement
+  BeamStart start = BeamStart::straight;
+  double velocity = 0.0;                ///< m/s at t = 0, of the pivot, positive along the strike
+  double angular_velocity = 0.0;        ///< rad/s at t = 0, about the pivot
+  std::optional<double> pivot = {};     ///< as a fraction of the length
+  bool fixed = false;                   ///< a rigid beam that does not move: a plane or a wall
+
+  /// By default the pinned end, else the middle.
+  double used_pivot() const {
+    if (pivot) return *pivot;
+    if ((ends[0] == EndSupport::pinned) == (ends[1] == EndSupport::pinned)) return 0.5;
+    return ends[0] == EndSupport::pinned ? 0.0 : 1.0;
+  }
+  bool moves_at_start() const { return velocity != 0.0 || angular_velocity != 0.0; }
+  bool has_loads() const { return load != 0.0 || !forces.empty(); }
+  bool is_sprung() const { return foundation > 0.0 || !springs.empty(); }
+  /// At t = 0, of a point (a fraction of the length), m/s.
+  double velocity_at(double position) const {
+    return velocity + angular_velocity * length * (position - used_pivot());
+  }
   CrossSection::Solid outer_solid() const;  ///< the section without its gaps
   CrossSection::Solid gap() const;          ///< what is taken out of it; of no area in solid ones
   /// Of the section in the direction of the strike, m.
@@ -95,8 +141,10 @@ struct Beam {
   /// Y I/(h/2), N m: the moment at which the outermost fibre yields.
   double yield_moment() const;
   double radius_of_gyration() const { return std::sqrt(second_moment() / area()); }  ///< r, m
-  /// Whether nothing holds the beam, so that it conserves momentum.
+  /// Whether both ends are free.
   bool is_free() const { return ends[0] == EndSupport::free && ends[1] == EndSupport::free; }
+  /// Whether nothing but striker and loads acts on the beam.
+  bool is_unsupported() const { return is_free() && !fixed && !is_sprung(); }
   /// J = rho I (kg m), or zero in Euler-Bernoulli theory.
   double rotary_inertia() const {
     return theory == BeamTheory::euler_bernoulli ? 0.0 : density * second_moment();
@@ -117,17 +165,50 @@ enum class NoseShape {
   cylinder  ///< its axis lies across the beam
 };
 
-/// Rigid mass with a round nose, moving freely but for the contact force.
+/// Rigid mass with a round nose, moving freely but for the contact force and gravity; or a rigid
+/// stop at rest.
 struct Striker {
   double mass = 0.0;                  ///< m, kg
   std::optional<double> nose_radius;  ///< R, m
   double velocity = 0.0;              ///< v0, m/s, towards the beam
+  std::optional<double> drop_height;  ///< m: v0 is that of a fall from rest (Bodies)
+  bool fixed = false;                 ///< a stop: without mass and velocity
   double position = 0.5;              ///< struck point as a fraction of the length
   double gap = 0.0;                   ///< m, between nose and beam at t = 0
   /// By default that which the contact law is for: a cylinder for `foundation`, else a sphere.
   std::optional<NoseShape> nose = {};
 
   double first_touch() const { return gap > 0.0 ? gap / velocity : 0.0; }  ///< s
+  /// m; infinite for a stop.
+  double inertia() const { return fixed ? std::numeric_limits<double>::infinity() : mass; }
+};
+
+constexpr double standard_gravity = 9.80665;  ///< m/s2
+
+/// What a strike is made of but for its discretisation and its contact law.
+struct Bodies {
+  const Beam& beam;
+  const Striker& striker;
+  double gravity;  ///< g, m/s2, along the strike
+
+  /// Whether striker or beam move otherwise than uniformly before the first touch.
+  bool has_approach_to_compute() const {
+    const bool forced = gravity != 0.0 || beam.has_loads();
+    return striker.gap > 0.0 && (forced || beam.moves_at_start() || striker.fixed);
+  }
+  /// v0, m/s: given, or of a fall by the size of gravity, or of its standard value.
+  double striker_velocity() const {
+    if (!striker.drop_height) return striker.velocity;
+    const double g = gravity != 0.0 ? std::abs(gravity) : standard_gravity;
+    return std::sqrt(2.0 * g * *striker.drop_height);
+  }
+  /// Of the body that moves towards the other: the striker, or a beam on a stop, kg.
+  double moving_mass() const { return striker.fixed ? beam.mass() : striker.mass; }
+  /// Velocity at which striker and struck point approach at t = 0, m/s.
+  double approach() const { return striker_velocity() - beam.velocity_at(striker.position); }
+  /// A typical velocity of the strike, m/s: that of the first touch, but for the deformation of the
+  /// beam before it and the direction of the forces.
+  double velocity_scale() const;
 };
 
 enum class ContactKind {
@@ -155,7 +236,9 @@ struct Scene {
   Beam beam;
   Striker striker;
   Contact contact;
+  double gravity = 0.0;  ///< g, m/s2, along the strike, on striker and beam
 
+  Bodies bodies() const { return {beam, striker, gravity}; }
   /// nu of the beam, which theory and contact share.
   std::optional<double> beam_poisson() const {
     return beam.poisson ? beam.poisson : contact.beam_poisson;
@@ -165,5 +248,19 @@ struct Scene {
                                                                          : NoseShape::sphere);
   }
 };
+
+inline double Bodies::velocity_scale() const {
+  const double at_start = std::abs(approach());
+  if (striker.gap == 0.0) return at_start;
+  double force = std::abs(beam.load) * beam.length;
+  for (const PointForce& one : beam.forces) {
+    double largest = 0.0;
+    for (const auto& [time, value] : one.table) largest = std::max(largest, std::abs(value));
+    force += largest;
+  }
+  const double acceleration = std::abs(gravity) + force / beam.mass();
+  if (acceleration == 0.0) return at_start;
+  return std::sqrt(at_start * at_start + 2.0 * acceleration * striker.gap);
+}
 
 }  // namespace subimpact

@@ -30,6 +30,8 @@ class BandedMatrix {
 
   /// result = A x.
   void multiply(std::span<const double> x, std::span<double> result) const;
+  /// result -= A x.
+  void subtract_product(std::span<const double> x, std::span<double> result) const;
   /// L of A = L L^T, lower triangular, by at(i, j), i >= j; nothing if A is not positive definite.
   std::optional<BandedMatrix> cholesky_factor() const;
   /// Overwrites b by the solution x of L L^T x = b, this matrix being such an L.

@@ -39,6 +39,7 @@ struct HistoryRow {
   /// take momentum up.
   std::optional<double> momentum_error;
   double beam_damping = 0.0;  ///< D_b
+  double work = 0.0;          ///< W
   /// N, of the supports on the beam, positive in the direction of the strike; none at a free end.
   std::optional<double> first_reaction, last_reaction;
 };
@@ -335,6 +336,19 @@ struct Result {
   double largest_displacement = 0.0;   ///< m, of the struck point, as seen there and at rows
   double striker_velocity = 0.0;       ///< m/s, at the end
   double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
+  /// Velocities (m/s) of the striker and of the beam, its mean, at a time (s).
+  struct Velocities {
+    double time = 0.0, striker = 0.0, beam = 0.0;
+  };
+  Velocities first_touch;  ///< as they first met
+  Velocities parting;      ///< at the last separation, or at the end where there was none
+  /// Coefficient of restitution, of these: of a beam that nothing holds (beam - striker) after over
+  /// (striker - beam) before; of a held one - striker after over striker before; of a beam on a stop
+  /// - beam after over beam before. None of bodies that never touched.
+  std::optional<double> restitution;
+  /// s: the start of a contact in which gravity holds the striker on the beam to the end of the run
+  /// and beyond.
+  std::optional<double> rests_since;
   Energies final_energies;             ///< J, at the end
   double max_energy_error = 0.0;       ///< largest relative error over all checks
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
@@ -361,8 +375,6 @@ struct Result {
   double end_of(const SubImpact& s) const { return s.end.value_or(outcome.time); }
   /// Of all sub-impacts, N s.
   double impulse() const;
-  /// Velocity at which the bodies part at the end over that at which they met, `v0`.
-  double restitution(double v0) const { return (beam_mean_velocity - striker_velocity) / v0; }
   /// How many sub-impacts are certain. None without an error estimate.
   std::optional<std::size_t> n_certain() const;
   /// Whether it is certain that there are these sub-impacts and no others.

@@ -19,11 +19,12 @@ namespace subimpact {
 /// Several runs may share the parts, at the same time too: nothing in a run changes them.
 struct Problem {
   /// Dimensions, material and damping: E I, the yield stress and E h/2 of the sections, the first
-  /// period, the validity of the contact law (an indentation up to the thickness). Mass, ends and
-  /// theory are in the mesh.
+  /// period, the validity of the contact law (an indentation up to the thickness); loads, start and
+  /// motion at the start. Mass, ends, theory and springs are in the mesh.
   Beam beam;
   /// Mass, velocity and gap. Where the striker hits is in the mesh, its nose in the contact law.
   Striker striker;
+  double gravity = 0.0;  ///< g, m/s2, along the strike, on striker and beam
   std::shared_ptr<const BeamMesh> mesh;
   std::shared_ptr<const ContactLaw> contact_law;
   /// chi, s/m: of a contact with the force F (1 + chi lambda'), F that of a law that never yields.
@@ -40,6 +41,8 @@ struct Problem {
   /// has come to rest in its residual shape before. A new striker's nose lies on the dent, its
   /// velocity must exceed that of the struck point.
   std::optional<bool> at_rest;
+
+  Bodies bodies() const { return {beam, striker, gravity}; }
 };
 
 struct RunParts;

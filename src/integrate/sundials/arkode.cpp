@@ -110,7 +110,7 @@ class ArkSolver final : public SolverFrame {
   }
 
  private:
-  static int implicit_rate(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
+  static int implicit_rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
     auto& self = static_cast<ArkSolver&>(of(frame));
     const std::size_t n = self.n_positions_;
     const auto in = entries(y);
@@ -118,16 +118,18 @@ class ArkSolver final : public SolverFrame {
     ++self.right_hand_sides_;
     return self.guarded([&] {
       std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
+      self.system_.set_time(t);
       self.system_.force(in, self.implicit_part_, out.subspan(n));
     });
   }
 
-  static int rate_of_rest(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
+  static int rate_of_rest(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
     auto& self = static_cast<ArkSolver&>(of(frame));
     const std::size_t n = self.n_positions_;
     const auto out = entries(rate);
     return self.guarded([&] {
       std::fill_n(out.begin(), n, 0.0);
+      self.system_.set_time(t);
       self.system_.force(entries(y), Part::rest, out.subspan(n));
     });
   }

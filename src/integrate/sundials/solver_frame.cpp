@@ -165,7 +165,7 @@ void SolverFrame::add_counts(WorkCounts& counts) const {
   counts.right_hand_sides += right_hand_sides_;
 }
 
-int SolverFrame::rate(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
+int SolverFrame::rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
   SolverFrame& self = of(frame);
   const std::size_t n = self.n_positions_;
   const auto in = entries(y);
@@ -173,6 +173,7 @@ int SolverFrame::rate(sunrealtype, N_Vector y, N_Vector rate, void* frame) {
   ++self.right_hand_sides_;
   return self.guarded([&] {
     std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
+    self.ode_.set_time(t);
     self.ode_.acceleration_at(in, out.subspan(n));
   });
 }

@@ -1,0 +1,159 @@
+#include "simulate/start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "subimpact/simulate/error.h"
+#include "system/equilibrium.h"
+
+namespace subimpact {
+namespace {
+
+// The motion of a mesh may differ by rounding from a rigid one.
+constexpr double rounding = 1e-9;
+
+// Displacements and rotations that supports, springs and bedding hold, of the two of a rigid body.
+std::size_t n_held(const Beam& beam) {
+  if (beam.foundation > 0.0) return 2;
+  std::set<double> points;
+  for (const int end : {0, 1}) {
+    if (beam.ends[end] == EndSupport::clamped) return 2;
+    if (beam.ends[end] == EndSupport::pinned) points.insert(end);
+  }
+  for (const Spring& spring : beam.springs) points.insert(spring.position);
+  return std::min<std::size_t>(points.size(), 2);
+}
+
+void check_motion(const Beam& beam) {
+  if (!beam.moves_at_start()) return;
+  const bool turns = beam.angular_velocity != 0.0;
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidCase(turns ? "beam.angular_velocity" : "beam.velocity",
+                      fmt::format("is {:g}, but {}", turns ? beam.angular_velocity : beam.velocity,
+                                  why));
+  };
+  if (beam.fixed) refuse("beam.fixed = true: the beam does not move; leave it out");
+  if (beam.start == BeamStart::equilibrium) {
+    refuse("beam.start = \"equilibrium\" is a state of rest; leave one of them out");
+  }
+  for (const int end : {0, 1}) {
+    if (beam.ends[end] == EndSupport::clamped) {
+      refuse("a clamped end lets the beam neither move nor turn; allowed: 0; leave it out");
+    }
+    if (beam.ends[end] == EndSupport::free) continue;
+    const double speed = std::abs(beam.angular_velocity) * beam.length + std::abs(beam.velocity);
+    if (std::abs(beam.velocity_at(end)) <= rounding * speed) continue;
+    refuse(fmt::format("with it the pinned end at x = {} would move at {:g} m/s; allowed: a motion "
+                       "about that end: beam.velocity = 0, and beam.pivot = {} (its default where "
+                       "the other end is free)",
+                       end == 0 ? "0" : "length", beam.velocity_at(end), end));
+  }
+}
+
+void check_equilibrium(const Problem& problem) {
+  const Beam& beam = problem.beam;
+  if (beam.start != BeamStart::equilibrium) return;
+  const auto refuse = [](const char* why) {
+    throw InvalidCase("beam.start", fmt::format("is \"equilibrium\", but {}", why));
+  };
+  if (problem.gravity == 0.0 && !beam.has_loads()) {
+    refuse("no load acts on the beam; give scene.gravity, beam.load or beam.forces, or leave it out");
+  }
+  if (!beam.fixed && n_held(beam) < 2) {
+    refuse("nothing holds the beam against its loads; allowed with a clamped end, two pinned ends, "
+           "two springs at different points or a bedding; leave it out, or add such supports");
+  }
+}
+
+void check_approach(const Problem& problem) {
+  const Bodies bodies = problem.bodies();
+  const bool forced = bodies.gravity != 0.0 || problem.beam.has_loads();
+  const bool apart = problem.striker.gap > 0.0;
+  if (bodies.approach() > 0.0 || (apart && forced)) return;
+  const double of_beam = problem.beam.velocity_at(problem.striker.position);
+  const char* key = problem.beam.moves_at_start() ? "beam.velocity" : "striker.velocity";
+  throw InvalidCase(
+      key, fmt::format("gives the struck point {:g} m/s, and the {} {:g} m/s, so that they do not "
+                       "approach each other; allowed: a velocity of the striker minus that of the "
+                       "beam above 0 (a beam that moves towards a stop has a negative velocity){}",
+                       of_beam, problem.striker.fixed ? "stop has" : "striker has",
+                       bodies.striker_velocity(),
+                       forced ? ", or a striker.gap above 0 that gravity and loads close" : ""));
+}
+
+void check_elastic(const StruckBeam& beam, std::span<const double> q) {
+  const SectionField& sections = beam.sections();
+  if (!sections.can_yield()) return;
+  std::vector<double> kappa(sections.size());
+  beam.mesh().curvatures(q, kappa);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < kappa.size(); ++i) {
+    const double limit = kappa[i] > 0.0 ? sections.window_high()[i] : -sections.window_low()[i];
+    largest = std::max(largest, std::abs(kappa[i]) / limit);
+  }
+  if (largest < 1.0) return;
+  throw InvalidCase("beam.start",
+                    fmt::format("is \"equilibrium\", but under its loads the beam would be bent to "
+                                "{:.3g} times its yield curvature; allowed: loads that leave it "
+                                "elastic; reduce them, or start straight",
+                                largest));
+}
+
+std::vector<double> rigid_velocities(const Problem& problem, const StruckBeam& beam) {
+  const BeamMesh& mesh = beam.mesh();
+  const Beam& of = problem.beam;
+  const double at_zero = of.velocity_at(0.0);
+  std::vector<double> v(mesh.momentum_functional().begin(), mesh.momentum_functional().end());
+  const bool turns = of.angular_velocity != 0.0;
+  const auto moment = mesh.moment_functional();
+  const auto refuse = [&] {
+    throw InvalidCase(turns ? "beam.angular_velocity" : "beam.velocity",
+                      "is given, but this mesh cannot move as a rigid body; use another model.mesh");
+  };
+  if (turns && moment.empty()) refuse();
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    v[i] = turns ? at_zero * v[i] + of.angular_velocity * moment[i] : of.velocity * v[i];
+  }
+  beam.mass_solver().solve(v);
+  const double expected = of.velocity_at(problem.striker.position);
+  const double speed = std::abs(of.angular_velocity) * of.length + std::abs(of.velocity);
+  if (!(std::abs(mesh.struck_point()(v) - expected) <= 1e-6 * speed)) refuse();
+  return v;
+}
+
+}  // namespace
+
+void check_start(const Problem& problem, const Options& /*options*/) {
+  check_motion(problem.beam);
+  check_equilibrium(problem);
+  check_approach(problem);
+}
+
+void set_start(const Problem& problem, StruckBeam& beam) {
+  const Bodies bodies = problem.bodies();
+  const bool apart = bodies.has_approach_to_compute();
+  if (!apart && beam.loads().is_empty() && !problem.beam.moves_at_start()) return;
+  const std::size_t n = beam.mesh().n_unknowns();
+  State y(2 * (n + 1), 0.0);
+  if (problem.beam.start == BeamStart::equilibrium && !problem.beam.fixed) {
+    const auto q = equilibrium(beam);
+    if (!q) {
+      throw InvalidCase("beam.start",
+                        "is \"equilibrium\", but on this mesh the stiffness of the held beam is not "
+                        "positive definite; use a coarser mesh");
+    }
+    check_elastic(beam, *q);
+    std::ranges::copy(*q, y.begin());
+  }
+  if (problem.beam.moves_at_start()) {
+    std::ranges::copy(rigid_velocities(problem, beam), y.begin() + static_cast<long>(n) + 1);
+  }
+  y[n] = beam.mesh().struck_point()(beam.beam_positions(y)) - (apart ? problem.striker.gap : 0.0);
+  y.back() = problem.striker.fixed ? 0.0 : bodies.striker_velocity();
+  beam.set_start(std::move(y));
+}
+
+}  // namespace subimpact

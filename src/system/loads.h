@@ -1,0 +1,76 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "subimpact/model/beam_mesh.h"
+#include "subimpact/model/scene.h"
+
+namespace subimpact {
+
+/// The loads on a beam that do not depend on its motion, as generalised forces of a mesh (N):
+///
+///     f(t) = (g + p/(rho A)) m + sum_j S_j F_j(t),
+///
+/// with the functional m of the beam's momentum, so that gravity g and the uniform load p do the
+/// work that their densities do, and the displacements S_j of the points that the forces F_j act
+/// on. Between two corners of the tables f is linear in t; it is continued linearly beyond the
+/// piece in force, and begin_piece() goes on to the next one.
+class Loads {
+ public:
+  Loads() = default;
+  /// Throws std::invalid_argument for a mesh without displacements where a force acts.
+  Loads(const BeamMesh& mesh, const Beam& beam, double gravity);
+
+  bool is_empty() const { return value_.empty(); }
+  /// Whether f changes within the piece in force.
+  bool varies() const { return varies_; }
+  /// Whether f changes after the piece in force.
+  bool will_change() const;
+  /// g, m/s2.
+  double gravity() const { return gravity_; }
+  /// Chooses the piece that holds from t on.
+  void begin_piece(double t);
+  /// The end of the piece in force, s; infinite for the last.
+  double next_corner() const { return next_corner_; }
+
+  std::span<const double> value() const { return value_; }  ///< f at start(), N
+  std::span<const double> rate() const { return rate_; }    ///< df/dt, N/s
+  double start() const { return start_; }                   ///< of the piece in force, s
+  /// forces += f(t).
+  void add_to(std::span<double> forces, double t) const;
+  /// f(t) times q, J.
+  double potential(std::span<const double> unknowns, double t) const;
+  /// (df/dt) times q, W.
+  double power_of_change(std::span<const double> unknowns) const;
+
+  /// Force (N) and moment about x = 0 (N m) of all loads.
+  struct Resultant {
+    double force = 0.0, moment = 0.0;
+  };
+  Resultant resultant(double t) const;
+  /// Integral of the force from 0 to t, N s; t within the piece in force.
+  double impulse(double t) const;
+
+ private:
+  struct Point {
+    double x;                        // m
+    std::vector<double> functional;  // S, of every unknown
+    std::vector<std::pair<double, double>> table;
+    std::size_t next = 0;  // of the table, the first entry after the piece's start
+    double value = 0.0, rate = 0.0;  // at the piece's start
+  };
+
+  double gravity_ = 0.0;
+  double uniform_force_ = 0.0, length_ = 0.0;
+  std::vector<double> uniform_;
+  std::vector<Point> points_;
+  std::vector<double> value_, rate_;
+  bool varies_ = false;
+  double start_ = 0.0, next_corner_ = std::numeric_limits<double>::infinity();
+  double impulse_before_ = 0.0;  // the piece
+};
+
+}  // namespace subimpact

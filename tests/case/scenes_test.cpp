@@ -1,0 +1,438 @@
+// Scenes with gravity, loads, springs, stops and beams that move at the start: closed forms of rigid
+// bodies and of elastic beams, accounts, agreement of methods, refusals.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "case/problem.h"
+#include "paper_case.h"
+#include "simulate/run_parts.h"
+#include "subimpact/case/case_keys.h"
+
+namespace subimpact {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+Case elastic_case() {
+  Case input;
+  input.scene = paper_scene();
+  input.scene.beam.yield_stress = infinite;
+  input.scene.contact.kind = ContactKind::linear;
+  input.scene.contact.stiffness = 2e6;
+  input.scene.striker.nose_radius.reset();
+  input.model.section = SectionKind::elastic;
+  input.output.interval = 0.0;
+  input.solver.method = Method::nystrom;
+  input.solver.rtol = 1e-12;
+  return input;
+}
+
+Case rigid_case() {
+  Case input = elastic_case();
+  input.model.mesh = MeshKind::rigid;
+  return input;
+}
+
+class ASceneByAMethod : public testing::TestWithParam<Method> {
+ protected:
+  Case with_method(Case input) const {
+    input.solver.method = GetParam();
+    const bool is_low = GetParam() == Method::dirk || GetParam() == Method::imex;
+    input.solver.rtol = is_low ? 1e-11 : 1e-13;
+    return input;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(, ASceneByAMethod,
+                         testing::Values(Method::erk, Method::nystrom, Method::exponential,
+                                         Method::dirk, Method::imex, Method::adams, Method::bdf),
+                         [](const auto& info) { return std::string(to_string(info.param)); });
+
+TEST_P(ASceneByAMethod, DropsAMassOnAPlaneAgainAndAgain) {
+  Case input = with_method(rigid_case());
+  input.scene.beam.fixed = true;
+  input.scene.gravity = 9.81;
+  input.scene.striker.velocity = 0.3;
+  input.scene.striker.gap = 2e-3;
+  input.end_time = 0.16;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_EQ(result.sub_impacts.size(), 3u);
+  const double g = input.scene.gravity;
+  const double v1 = std::sqrt(0.3 * 0.3 + 2.0 * g * 2e-3);
+  const double first = (v1 - 0.3) / g;
+  const double w = std::sqrt(2e6 / input.scene.striker.mass);
+  const double lasts = 2.0 * (M_PI - std::atan(v1 * w / g)) / w;
+  const double deepest = g / (w * w) + std::hypot(g / (w * w), v1 / w);
+  for (std::size_t n = 0; n < 3; ++n) {
+    const SubImpact& contact = result.sub_impacts[n];
+    const double start = first + static_cast<double>(n) * (lasts + 2.0 * v1 / g);
+    EXPECT_NEAR(contact.start, start, 1e-9 * start) << n;
+    EXPECT_NEAR(*contact.end - contact.start, lasts, 1e-9 * start) << n;
+    EXPECT_NEAR(contact.max_indentation, deepest, 1e-8 * deepest) << n;
+    EXPECT_NEAR(contact.impulse, input.scene.striker.mass * (2.0 * v1 + g * lasts), 1e-8) << n;
+    EXPECT_NEAR(contact.striker_velocity, -v1, 1e-8) << n;
+  }
+  EXPECT_NEAR(*result.restitution, 1.0, 1e-8);
+  EXPECT_LT(result.max_energy_error, 1e-8);
+}
+
+TEST_P(ASceneByAMethod, LetsGravityOnTwoFreeBodiesDropOutOfTheirContact) {
+  Case input = with_method(rigid_case());
+  input.scene.gravity = 50.0;
+  input.scene.striker.velocity = 0.5;
+  input.scene.striker.gap = 1e-3;
+  input.end_time = 5e-3;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_EQ(result.sub_impacts.size(), 1u);
+  const double m = input.scene.striker.mass, beam = input.scene.beam.mass();
+  const double lasts = M_PI / std::sqrt(2e6 * (1.0 / m + 1.0 / beam));
+  EXPECT_NEAR(result.sub_impacts[0].start, 2e-3, 1e-11);
+  EXPECT_NEAR(*result.sub_impacts[0].end, 2e-3 + lasts, 1e-11);
+  EXPECT_NEAR(*result.restitution, 1.0, 1e-9);
+  ASSERT_TRUE(result.max_momentum_error);
+  EXPECT_LT(*result.max_momentum_error, 1e-11);
+  EXPECT_TRUE(result.no_more_contact);
+}
+
+TEST_P(ASceneByAMethod, ThrowsABeamOnASpringAgainstAStop) {
+  Case input = with_method(rigid_case());
+  const double spring = 4e4, v = 2.0, gap = 3e-3, k = 2e6;
+  input.scene.striker = {};
+  input.scene.striker.fixed = true;
+  input.scene.striker.gap = gap;
+  input.scene.beam.velocity = -v;
+  input.scene.beam.springs = {{0.5, spring}};
+  const double mass = input.scene.beam.mass();
+  const double slow = std::sqrt(spring / mass), fast = std::sqrt((spring + k) / mass);
+  const double touch = std::asin(gap * slow / v) / slow;
+  const double v1 = std::sqrt(v * v - slow * slow * gap * gap);
+  const double lasts = 2.0 / fast * std::atan(v1 / (fast * gap * spring / (k + spring)));
+  // From the stop to the other side and back.
+  const double away = (M_PI + 2.0 * std::asin(gap * slow / v)) / slow;
+  input.end_time = touch + lasts + away + 0.5 * lasts;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  ASSERT_EQ(result.sub_impacts.size(), 2u);
+  EXPECT_NEAR(result.sub_impacts[0].start, touch, 1e-9 * touch);
+  EXPECT_NEAR(*result.sub_impacts[0].end, touch + lasts, 1e-9 * (touch + lasts));
+  const double second = touch + lasts + away;
+  EXPECT_NEAR(result.sub_impacts[1].start, second, 1e-9 * second);
+  EXPECT_LT(result.max_energy_error, 1e-9);
+  EXPECT_NEAR(*result.restitution, 1.0, 1e-8);
+}
+
+TEST_P(ASceneByAMethod, AccountsForALoadThatRisesAndIsTakenAway) {
+  Case input = with_method(rigid_case());
+  input.scene.striker.velocity = 1e-3;
+  input.scene.striker.gap = 1.0;
+  const double t1 = 1e-3, force = 30.0;
+  input.scene.beam.forces = {{0.5, {{0.0, 0.0}, {t1, force}, {t1, 0.0}}}};
+  input.end_time = 3e-3;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_TRUE(result.sub_impacts.empty());
+  EXPECT_FALSE(result.restitution);
+  const double v = 0.5 * force * t1 / input.scene.beam.mass();
+  EXPECT_NEAR(result.beam_mean_velocity, v, 1e-10 * v);
+  EXPECT_NEAR(result.final_energies.work, 0.5 * input.scene.beam.mass() * v * v, 1e-10);
+  EXPECT_LT(result.max_energy_error, 1e-9);
+  EXPECT_LT(*result.max_momentum_error, 1e-11);
+}
+
+// A pinned beam, struck while a load rises, on springs and a bedding, under gravity.
+Case full_scene() {
+  Case input = elastic_case();
+  Beam& beam = input.scene.beam;
+  beam.ends = {EndSupport::pinned, EndSupport::free};
+  beam.springs = {{0.7, 3e4}, {1.0, 1e4}};
+  beam.foundation = 2e4;
+  beam.load = 40.0;
+  beam.forces = {{0.3, {{1e-4, 0.0}, {7e-4, 60.0}, {1.1e-3, -20.0}, {1.1e-3, 10.0}}}};
+  beam.angular_velocity = -0.4;
+  input.scene.gravity = 9.81;
+  input.scene.striker.gap = 1e-4;
+  input.scene.striker.velocity = 1.5;
+  input.scene.striker.position = 0.6;
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 20;
+  input.end_time = 3e-3;
+  return input;
+}
+
+TEST_P(ASceneByAMethod, AgreesWithOthersOnEverythingAtOnce) {
+  const Result reference = simulate(full_scene());
+  ASSERT_TRUE(reference.outcome.completed()) << reference.outcome.message;
+  ASSERT_GE(reference.sub_impacts.size(), 2u);
+  Case input = full_scene();
+  input.solver.method = GetParam();
+  const bool is_slow = descriptor_of(GetParam()).implicit || GetParam() == Method::bdf;
+  input.solver.rtol = is_slow ? 1e-9 : 1e-12;
+  if (is_slow) input.end_time = 1.1 * *reference.sub_impacts[0].end;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  const double tolerance = is_slow ? 3e-7 : 1e-9;
+  EXPECT_NEAR(result.sub_impacts[0].start, reference.sub_impacts[0].start, tolerance * 1e-1);
+  ASSERT_TRUE(result.sub_impacts[0].end);
+  EXPECT_NEAR(*result.sub_impacts[0].end, *reference.sub_impacts[0].end, tolerance);
+  EXPECT_LT(result.max_energy_error, is_slow ? 1e-3 : 1e-8);
+  if (input.end_time < 3e-3) return;
+  ASSERT_EQ(result.sub_impacts.size(), reference.sub_impacts.size());
+  for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
+    EXPECT_NEAR(result.sub_impacts[i].start, reference.sub_impacts[i].start, 1e-9) << i;
+  }
+}
+
+class ASceneOnAMesh : public testing::TestWithParam<MeshKind> {
+ protected:
+  Case on_mesh(Case input) const {
+    input.model.mesh = GetParam();
+    input.model.segments = 101;
+    input.model.elements = 20;
+    if (GetParam() == MeshKind::spectral) {
+      input.scene.beam.theory = BeamTheory::timoshenko;
+      input.scene.beam.poisson = 0.3;
+    }
+    return input;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(, ASceneOnAMesh,
+                         testing::Values(MeshKind::cells, MeshKind::hermite, MeshKind::spectral),
+                         [](const auto& info) {
+                           return std::string(descriptor_of(info.param).name);
+                         });
+
+TEST_P(ASceneOnAMesh, HasTheFrequenciesOfABeddedBeam) {
+  Case input = on_mesh(elastic_case());
+  Beam& beam = input.scene.beam;
+  if (GetParam() == MeshKind::spectral) return;  // no closed form with shear here
+  beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  beam.foundation = 5e6;
+  const Problem problem = problem_of(input);
+  const NaturalModes modes = problem.mesh->natural_modes(beam.bending_stiffness());
+  const double size = beam.length / (GetParam() == MeshKind::cells ? 101.0 : 20.0);
+  for (int n = 1; n <= 3; ++n) {  // of the half model: 1, 3, 5
+    const double b = (2 * n - 1) * M_PI / beam.length;
+    const double squared = (beam.bending_stiffness() * std::pow(b, 4) + beam.foundation) /
+                           (beam.mass_per_length() + beam.rotary_inertia() * b * b);
+    // Orders 2 and 4.
+    const double tolerance = GetParam() == MeshKind::cells ? 0.1 * std::pow(b * size, 2)
+                                                           : 1e-3 * std::pow(b * size, 4);
+    EXPECT_NEAR(modes.frequencies[static_cast<std::size_t>(n - 1)], std::sqrt(squared),
+                tolerance * std::sqrt(squared));
+  }
+}
+
+TEST_P(ASceneOnAMesh, StartsFromTheEquilibriumOfItsWeight) {
+  Case input = on_mesh(elastic_case());
+  Beam& beam = input.scene.beam;
+  beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  beam.start = BeamStart::equilibrium;
+  input.scene.gravity = 9.81;
+  input.scene.striker.gap = 1e-3;
+  input.scene.striker.velocity = 0.5;
+  input.output.interval = 1e-4;
+  input.end_time = 3e-3;
+  const double q = beam.mass_per_length() * input.scene.gravity;
+  double expected = 5.0 * q * std::pow(beam.length, 4) / (384.0 * beam.bending_stiffness());
+  if (beam.shears()) expected += q * beam.length * beam.length / (8.0 * beam.shear_stiffness());
+  const double tolerance = GetParam() == MeshKind::cells ? 1e-3 : 1e-9;
+  for (const Method method : {Method::nystrom, Method::exponential}) {
+    input.solver.method = method;
+    const Result result = simulate(input);
+    ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+    ASSERT_FALSE(result.sub_impacts.empty());
+    int n_before = 0;
+    for (const HistoryRow& row : result.history) {
+      if (row.time >= result.sub_impacts[0].start) break;
+      ++n_before;
+      EXPECT_NEAR(row.struck_displacement, expected, tolerance * expected) << row.time;
+      EXPECT_NEAR(*row.first_reaction, -0.5 * q * beam.length, 2e-2 * q * beam.length);
+    }
+    EXPECT_GE(n_before, 10);
+    const double touch = (std::sqrt(0.25 + 2.0 * 9.81 * 1e-3) - 0.5) / 9.81;
+    EXPECT_NEAR(result.sub_impacts[0].start, touch, 1e-9 * touch);
+  }
+}
+
+TEST_P(ASceneOnAMesh, TurnsAsARigidBodyUntilItMeetsAStop) {
+  Case input = on_mesh(elastic_case());
+  Beam& beam = input.scene.beam;
+  beam.ends = {EndSupport::pinned, EndSupport::free};
+  beam.angular_velocity = -3.0;
+  input.scene.striker = {};
+  input.scene.striker.fixed = true;
+  input.scene.striker.position = 0.8;
+  input.scene.striker.gap = 2e-3;
+  input.end_time = 6e-3;
+  const double touch = 2e-3 / (3.0 * 0.8 * beam.length);
+  std::vector<double> ends;
+  for (const Method method : {Method::nystrom, Method::erk, Method::exponential}) {
+    input.solver.method = method;
+    const Result result = simulate(input);
+    ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+    ASSERT_FALSE(result.sub_impacts.empty());
+    EXPECT_NEAR(result.sub_impacts[0].start, touch, 1e-9 * touch);
+    ends.push_back(*result.sub_impacts[0].end);
+    EXPECT_NEAR(ends.back(), ends.front(), 1e-10);
+    EXPECT_LT(result.max_energy_error, 1e-8);
+  }
+}
+
+TEST(AScene, OfAFreeBeamOnAStopBalancesItsImpulseAndItsForce) {
+  Case input = elastic_case();
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 30;
+  input.scene.striker = {};
+  input.scene.striker.fixed = true;
+  input.scene.beam.velocity = -2.0;
+  input.scene.gravity = -9.81;
+  input.end_time = 4e-3;
+  const Result result = simulate(input);
+  ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+  EXPECT_LT(result.max_impulse_error, 1e-9);
+  EXPECT_GT(result.impulse(), 0.5 * input.scene.beam.mass() * 2.0);
+  EXPECT_FALSE(result.max_momentum_error);
+}
+
+TEST(AScene, OfAYieldingBeamUnderLoadsAgreesBetweenMethods) {
+  Case input = full_scene();
+  input.scene.beam.yield_stress = 20e6;
+  input.model.section = SectionKind::exact;
+  input.scene.striker.velocity = 4.0;
+  input.end_time = 1.5e-3;
+  std::vector<Result> results;
+  for (const Method method : {Method::nystrom, Method::erk, Method::exponential}) {
+    input.solver.method = method;
+    input.solver.rtol = 1e-11;
+    results.push_back(simulate(input));
+    ASSERT_TRUE(results.back().outcome.completed()) << results.back().outcome.message;
+    EXPECT_LT(results.back().max_energy_error, 1e-6);
+  }
+  EXPECT_GT(results[0].final_energies.bending_plastic, 0.01);
+  for (const Result& result : results) {
+    ASSERT_EQ(result.sub_impacts.size(), results[0].sub_impacts.size());
+    EXPECT_NEAR(*result.sub_impacts[0].end, *results[0].sub_impacts[0].end, 1e-9);
+  }
+}
+
+TEST(AScene, ByCentralDifferencesConvergesToTheLocatedOne) {
+  const Result reference = simulate(full_scene());
+  Case input = full_scene();
+  input.solver.method = Method::central_difference;
+  double before = 0.0;
+  for (const double step : {4e-8, 2e-8, 1e-8}) {
+    input.solver.step = step;
+    const Result result = simulate(input);
+    ASSERT_TRUE(result.outcome.completed()) << result.outcome.message;
+    const double error = std::abs(*result.sub_impacts[0].end - *reference.sub_impacts[0].end);
+    if (before > 0.0) {
+      EXPECT_LT(error, 0.5 * before);
+    }
+    before = error;
+  }
+  EXPECT_LT(before, 2e-9);
+}
+
+TEST(AScene, ProvesNoMoreContactUnderGravityOnlyWhereItMayBe) {
+  Case input = elastic_case();
+  input.model.mesh = MeshKind::hermite;
+  input.model.elements = 20;
+  input.scene.striker.velocity = 2.0;
+  input.scene.striker.mass = 0.01;
+  input.end_time = 2e-2;
+  input.scene.gravity = 9.81;
+  EXPECT_TRUE(simulate(input).no_more_contact) << "a free beam falls as the striker does";
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  EXPECT_FALSE(simulate(input).no_more_contact) << "the striker falls back on a held beam";
+  input.scene.gravity = -9.81;
+  EXPECT_TRUE(simulate(input).no_more_contact) << "the striker falls away from a held beam";
+  input.scene.beam.forces = {{0.5, {{0.0, 0.0}, {1.0, 1.0}}}};
+  EXPECT_FALSE(simulate(input).no_more_contact) << "the load still changes";
+}
+
+TEST(AScene, SaysThatABodyAtRestOnAnotherIsAContactWithoutEnd) {
+  Case input = rigid_case();
+  input.scene.beam.fixed = true;
+  input.scene.gravity = 9.81;
+  input.scene.striker.velocity = 1e-4;
+  input.scene.contact.damping = 100.0;
+  input.solver.method = Method::erk;
+  input.end_time = 0.1;
+  EXPECT_TRUE(simulate(input).rests_since);
+}
+
+struct Refused {
+  const char* name;
+  const char* key;
+  const char* words;
+  std::function<void(Case&)> change;
+};
+
+TEST(AScene, ThatCannotBeIsRefusedWithItsReason) {
+  const std::vector<Refused> refused = {
+      {"mass of a stop", "striker.mass", "stop", [](Case& c) { c.scene.striker.fixed = true; }},
+      {"drop and velocity", "striker.velocity", "drop_height",
+       [](Case& c) { c.scene.striker.drop_height = 1.0; }},
+      {"fixed beam that bends", "beam.fixed", "rigid", [](Case& c) { c.scene.beam.fixed = true; }},
+      {"clamped beam that moves", "beam.velocity", "clamped",
+       [](Case& c) {
+         c.scene.beam.velocity = -1.0;
+         c.scene.beam.ends[0] = EndSupport::clamped;
+       }},
+      {"pinned end that moves", "beam.velocity", "pinned end",
+       [](Case& c) {
+         c.scene.beam.velocity = -1.0;
+         c.scene.beam.ends[1] = EndSupport::pinned;
+       }},
+      {"equilibrium without supports", "beam.start", "nothing holds",
+       [](Case& c) {
+         c.scene.gravity = 9.81;
+         c.scene.beam.start = BeamStart::equilibrium;
+       }},
+      {"equilibrium without loads", "beam.start", "no load",
+       [](Case& c) { c.scene.beam.start = BeamStart::equilibrium; }},
+      {"equilibrium that yields", "beam.start", "yield curvature",
+       [](Case& c) {
+         c.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
+         c.scene.beam.yield_stress = 1e6;
+         c.model.section = SectionKind::exact;
+         c.scene.beam.load = 1e3;
+         c.scene.beam.start = BeamStart::equilibrium;
+       }},
+      {"bodies that part", "beam.velocity", "do not approach",
+       [](Case& c) { c.scene.beam.velocity = 1000.0; }},
+      {"loads on mixed cells", "scene.gravity", "mixed cells",
+       [](Case& c) {
+         c.scene.gravity = 9.81;
+         c.model.mesh = MeshKind::mixed;
+         c.model.segments = 100;
+         c.solver.method = Method::central_difference;
+       }},
+  };
+  for (const Refused& one : refused) {
+    Case input = elastic_case();
+    input.end_time = 1e-3;
+    one.change(input);
+    try {
+      simulate(input);
+      ADD_FAILURE() << one.name << " is not refused";
+    } catch (const InvalidCase& error) {
+      EXPECT_EQ(error.key, one.key) << one.name << ": " << error.what();
+      EXPECT_NE(std::string(error.what()).find(one.words), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace subimpact
