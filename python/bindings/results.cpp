@@ -101,9 +101,7 @@ double residual_indentation(const Finished& run) {
   return all.empty() ? 0.0 : all.back().residual_indentation;
 }
 
-double restitution(const Finished& run) {
-  return run.result.restitution.value_or(NAN);
-}
+double restitution(const Finished& run) { return run.result.restitution.value_or(NAN); }
 
 double striker_energy_share(const Finished& run) {
   return std::pow(run.result.striker_velocity / run.input.scene.bodies().velocity_scale(), 2);

@@ -182,7 +182,8 @@ CaseKey not_zero(CaseKey key) {
   return key;
 }
 
-// A required key that other keys can take the place of: it is then not given, unless it has a value.
+// A required key that other keys can take the place of: it is then not given, unless it has a
+// value.
 CaseKey unless(bool (*is_needless)(const Case&), CaseKey key) {
   key.is_needless = is_needless;
   key.get = [get = key.get, is_needless](const Case& from) -> std::optional<KeyValue> {

@@ -301,8 +301,9 @@ void check_bodies(const Case& input) {
   const Beam& beam = input.scene.beam;
   const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
   if (striker.fixed) {
-    const char* why = "is given, but striker.fixed = true is a stop, which has neither mass nor "
-                      "velocity; leave it out, or striker.fixed";
+    const char* why =
+        "is given, but striker.fixed = true is a stop, which has neither mass nor "
+        "velocity; leave it out, or striker.fixed";
     if (striker.mass != 0.0) refuse("striker.mass", why);
     if (striker.velocity != 0.0) refuse("striker.velocity", why);
     if (striker.drop_height) refuse("striker.drop_height", why);
@@ -311,8 +312,9 @@ void check_bodies(const Case& input) {
     }
   }
   if (striker.drop_height) {
-    const char* why = "is given, but striker.drop_height sets the velocity, and the run begins at "
-                      "the touch; leave one of them out";
+    const char* why =
+        "is given, but striker.drop_height sets the velocity, and the run begins at "
+        "the touch; leave one of them out";
     if (striker.velocity != 0.0) refuse("striker.velocity", why);
     if (striker.gap != 0.0) refuse("striker.gap", why);
   }

@@ -20,9 +20,9 @@ std::string quoted_list(std::vector<std::string> names) {
 
 // A value of another type than the key's is shown together with its type.
 std::string typed(const KeyValue& value) {
-  static constexpr const char* kinds[] = {"a boolean", "a whole number", "a floating-point number",
-                                          "a text",    "a list",         "a list of numbers",
-                                          "a list of things at points"};
+  static constexpr const char* kinds[] = {
+      "a boolean", "a whole number",    "a floating-point number",   "a text",
+      "a list",    "a list of numbers", "a list of things at points"};
   return fmt::format("{} ({})", kinds[value.index()], to_text(value));
 }
 
@@ -182,7 +182,8 @@ std::string allowed_values(const CaseKey& key) {
       return "a list of numbers" + (range.empty() ? "" : ", each " + key.range) + unit;
     case KeyType::placed:
       if (key.leaf() == "forces") {
-        return "a list of { position = x, force = F } or { position = x, table = [[t, F], ...] }, x "
+        return "a list of { position = x, force = F } or { position = x, table = [[t, F], ...] }, "
+               "x "
                "from 0 to 1, F in N, t in s, 0 or above and not descending";
       }
       return fmt::format("a list of {{ position = x, stiffness = k }}, x from 0 to 1, k {}{}",

@@ -103,16 +103,20 @@ void check_cells(const Case& input) {
 void check_mixed_model(const Case& input) {
   const Beam& beam = input.scene.beam;
   const std::pair<const char*, bool> others[] = {
-      {"scene.gravity", input.scene.gravity != 0.0}, {"beam.load", beam.load != 0.0},
-      {"beam.forces", !beam.forces.empty()},         {"beam.springs", !beam.springs.empty()},
-      {"beam.foundation", beam.foundation != 0.0},   {"beam.velocity", beam.velocity != 0.0},
+      {"scene.gravity", input.scene.gravity != 0.0},
+      {"beam.load", beam.load != 0.0},
+      {"beam.forces", !beam.forces.empty()},
+      {"beam.springs", !beam.springs.empty()},
+      {"beam.foundation", beam.foundation != 0.0},
+      {"beam.velocity", beam.velocity != 0.0},
       {"beam.angular_velocity", beam.angular_velocity != 0.0}};
   for (const auto& [key, is_given] : others) {
     if (!is_given) continue;
-    throw InvalidCase(key,
-                      "is given, but mixed cells, of which masses and step are made for free waves, "
-                      "have no loads, springs or motion at the start; leave it out, or use another "
-                      "mesh");
+    throw InvalidCase(
+        key,
+        "is given, but mixed cells, of which masses and step are made for free waves, "
+        "have no loads, springs or motion at the start; leave it out, or use another "
+        "mesh");
   }
   if (input.scene.beam.rotary_inertia() == 0.0) {
     throw InvalidCase("beam.theory",

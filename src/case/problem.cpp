@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "case/meshes.h"
-#include "numerics/units.h"
 #include "model/sprung_mesh.h"
+#include "numerics/units.h"
 #include "simulate/methods.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
@@ -45,7 +45,8 @@ bool is_mirrored(const std::vector<Thing>& things, Amount Thing::*amount) {
 }
 
 // Parts of a quadrature along the beam.
-std::shared_ptr<const BeamMesh> on_springs(const Case& input, std::shared_ptr<const BeamMesh> mesh) {
+std::shared_ptr<const BeamMesh> on_springs(const Case& input,
+                                           std::shared_ptr<const BeamMesh> mesh) {
   const auto& refinement = descriptor_of(input.model.mesh).refinement;
   std::size_t n_parts = refinement ? static_cast<std::size_t>(input.model.*refinement->count) : 1;
   if (input.parts.mesh) n_parts = mesh->n_unknowns();

@@ -22,8 +22,8 @@ void CentralDifference::restart(double t, const State& y) {
   ++work_.right_hand_sides;
 }
 
-void CentralDifference::advance(double t, double h, const State& from, const AlignedVector& a_from, State& y,
-                                AlignedVector& acceleration) {
+void CentralDifference::advance(double t, double h, const State& from, const AlignedVector& a_from,
+                                State& y, AlignedVector& acceleration) {
   const double half = 0.5 * h;
   const double* q0 = from.data();
   const double* v0 = q0 + n_;

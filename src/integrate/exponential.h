@@ -53,8 +53,8 @@ class Exponential final : public Integrator {
   ForcePolynomial force_;
   double force_length_ = 0.0;
   ForcedOscillators::Loads step_loads_;  // from the step's start on
-  double lambda1_ = 0.0, rate1_ = 0.0;  // at time()
-  double size_ = 0.0;                   // sum |c_i q_i| at the step's start
+  double lambda1_ = 0.0, rate1_ = 0.0;   // at time()
+  double size_ = 0.0;                    // sum |c_i q_i| at the step's start
 };
 
 }  // namespace subimpact

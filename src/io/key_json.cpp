@@ -9,8 +9,10 @@ Json json_of(const KeyValue& value) {
   if (placed == nullptr) {
     return std::visit(
         [](const auto& x) -> Json {
-          if constexpr (std::is_same_v<std::decay_t<decltype(x)>, PlacedValues>) return nullptr;
-          else return Json(x);
+          if constexpr (std::is_same_v<std::decay_t<decltype(x)>, PlacedValues>)
+            return nullptr;
+          else
+            return Json(x);
         },
         value);
   }

@@ -1,5 +1,5 @@
-#include "io/key_json.h"
 #include "io/run_record.h"
+#include "io/key_json.h"
 
 #include "subimpact/case/case_keys.h"
 

@@ -83,11 +83,9 @@ std::string striker_words(const Scene& scene, const std::string& contact) {
   const Striker& striker = scene.striker;
   const std::string law = contact.empty() ? "" : " (" + contact + ")";
   if (striker.fixed) return "a stop" + law;
-  return fmt::format("{}{} at {:.4g} m/s{}", mass_text(striker.mass), law,
-                     scene.bodies().striker_velocity(),
-                     striker.drop_height
-                         ? fmt::format(" after a fall of {:.4g} m", *striker.drop_height)
-                         : "");
+  return fmt::format(
+      "{}{} at {:.4g} m/s{}", mass_text(striker.mass), law, scene.bodies().striker_velocity(),
+      striker.drop_height ? fmt::format(" after a fall of {:.4g} m", *striker.drop_height) : "");
 }
 
 Answer strike(const Case& input, const Result& result) {
@@ -101,31 +99,31 @@ Answer strike(const Case& input, const Result& result) {
   const std::string reached = duration_text(result.outcome.time);
   const std::string end = duration_text(input.end_time);
   const std::string others = others_in_scene(scene);
-  return {
-      "strike",
-      fmt::format("{}, at {} of a {} beam of {}{}", striker_words(scene, contact), where,
-                  scene.beam.fixed ? std::string("fixed")
-                                   : fmt::format("{}-{}", name_of(scene.beam.ends[0]),
-                                                 name_of(scene.beam.ends[1])),
-                  mass_text(scene.beam.mass()), others.empty() ? "" : "; " + others),
-      fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
-                  result.work.all_seconds)};
+  return {"strike",
+          fmt::format("{}, at {} of a {} beam of {}{}", striker_words(scene, contact), where,
+                      scene.beam.fixed ? std::string("fixed")
+                                       : fmt::format("{}-{}", name_of(scene.beam.ends[0]),
+                                                     name_of(scene.beam.ends[1])),
+                      mass_text(scene.beam.mass()), others.empty() ? "" : "; " + others),
+          fmt::format("{} computed in {:.2g} s", reached == end ? end : reached + " of " + end,
+                      result.work.all_seconds)};
 }
 
 Answer restitution(const Case& input, const Result& result) {
   if (!result.restitution) return {"restitution", "none", "striker and beam never touched"};
   const Scene& scene = input.scene;
   // Without loads and stops both keep their velocities after they part.
-  const bool until_end =
-      scene.gravity == 0.0 && !scene.beam.has_loads() && !scene.striker.fixed;
+  const bool until_end = scene.gravity == 0.0 && !scene.beam.has_loads() && !scene.striker.fixed;
   const auto [time, striker, beam] = result.parting;
   std::string words;
   if (until_end) {
-    words = "striker " + total_text(result, "striker_velocity_m_per_s", result.striker_velocity,
-                                    1.0, 6, "m/s");
+    words = "striker " +
+            total_text(result, "striker_velocity_m_per_s", result.striker_velocity, 1.0, 6, "m/s");
     if (scene.beam.is_unsupported()) {
-      words += ", beam " + total_text(result, "beam_mean_velocity_m_per_s",
-                                      result.beam_mean_velocity, 1.0, 6, "m/s") + " (mean)";
+      words += ", beam " +
+               total_text(result, "beam_mean_velocity_m_per_s", result.beam_mean_velocity, 1.0, 6,
+                          "m/s") +
+               " (mean)";
     }
     words += " at the end";
   } else {
@@ -352,8 +350,9 @@ std::string contact_over_words(const Result& result) {
   }
   if (result.sub_impacts.empty()) return "striker and beam have not touched yet";
   if (result.rests_since) {
-    return fmt::format("loads hold striker and beam together since {:.6g} us: a contact without end",
-                       us * *result.rests_since);
+    return fmt::format(
+        "loads hold striker and beam together since {:.6g} us: a contact without end",
+        us * *result.rests_since);
   }
   if (!result.sub_impacts.back().end) return "striker and beam are still in contact";
   const std::optional<ClosestApproach>& closest = result.closest_approach;

@@ -105,7 +105,8 @@ double correct_shapes(const BeamMesh& mesh, double bending_stiffness, Eigen::Mat
   Eigen::MatrixXd energies = Eigen::MatrixXd::Zero(n, n);  // lower halves only
   energies.selfadjointView<Eigen::Lower>().rankUpdate(
       scaled_curvatures(mesh, bending_stiffness, shapes).transpose());
-  if (mesh.is_sprung()) energies.triangularView<Eigen::Lower>() += shapes.transpose() * sprung(mesh, shapes);
+  if (mesh.is_sprung())
+    energies.triangularView<Eigen::Lower>() += shapes.transpose() * sprung(mesh, shapes);
   Eigen::MatrixXd products(n, n);
   products.triangularView<Eigen::Lower>() = shapes.transpose() * inertia_of(mesh, shapes);
   const Eigen::VectorXd eigenvalues = energies.diagonal().cwiseQuotient(products.diagonal());

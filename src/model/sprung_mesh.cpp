@@ -21,9 +21,7 @@ std::size_t bandwidth_of(const BeamMesh& mesh) {
 
 SprungMesh::SprungMesh(std::shared_ptr<const BeamMesh> other, const Beam& beam, std::size_t n_parts,
                        bool one_point)
-    : BeamMesh(*other),
-      other_(std::move(other)),
-      springs_(n_unknowns(), bandwidth_of(*other_)) {
+    : BeamMesh(*other), other_(std::move(other)), springs_(n_unknowns(), bandwidth_of(*other_)) {
   if (!other_->displacement_at(0.0) || !other_->modal_stiffness().empty()) {
     throw std::invalid_argument("springs: a mesh without displacement_at(), or in natural modes");
   }
@@ -61,8 +59,7 @@ SprungMesh::SprungMesh(std::shared_ptr<const BeamMesh> other, const Beam& beam, 
 }
 
 void SprungMesh::add_spring(double x, double stiffness, double length) {
-  const SparseFunctional at =
-      *other_->displacement_at(symmetric() ? std::min(x, length - x) : x);
+  const SparseFunctional at = *other_->displacement_at(symmetric() ? std::min(x, length - x) : x);
   for (const auto& a : at.terms) {
     ground_force_[a.unknown] += stiffness * a.coefficient;
     ground_moment_[a.unknown] += stiffness * x * a.coefficient;

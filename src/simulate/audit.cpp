@@ -27,8 +27,7 @@ Audit::Audit(const StruckBeam& beam, const State& initial, AuditLimits limits)
   const double speed = beam.scales().velocity;
   const double of_striker = beam.has_stop() ? 0.0 : mass * std::abs(initial.back());
   energy_scale_ = std::max(initial_energy_, 0.5 * mass * speed * speed);
-  momentum_scale_ =
-      std::max(mass * speed, of_striker + std::abs(accounts_.beam_momentum(initial)));
+  momentum_scale_ = std::max(mass * speed, of_striker + std::abs(accounts_.beam_momentum(initial)));
 }
 
 void Audit::fail(double t, OutcomeKind kind, const std::string& what) const {

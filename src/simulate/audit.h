@@ -40,8 +40,8 @@ class Audit {
   void check(double t, const State& y, const Energies& energies);
   /// The accounts of a run that goes on.
   void exchange(Snapshot& snapshot) {
-    snapshot(initial_energy_, initial_momentum_, energy_scale_, momentum_scale_, last_good_, max_energy_error_,
-             max_momentum_error_, max_impulse_error_);
+    snapshot(initial_energy_, initial_momentum_, energy_scale_, momentum_scale_, last_good_,
+             max_energy_error_, max_momentum_error_, max_impulse_error_);
   }
   /// A cheap look at the struck point, for every step: throws if its indentation (m) or rate (m/s)
   /// is not finite; returns whether the striker's speed is suspicious enough for a full check.

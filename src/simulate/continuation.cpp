@@ -60,8 +60,8 @@ void Recorder::exchange(Snapshot& snapshot, double time) {
   if (fields_) envelope = fields_->envelope();
   snapshot(result_.sub_impacts, result_.transitions, result_.near_misses,
            result_.first_section_yield, result_.first_contact_yield, result_.largest_rotation,
-           result_.largest_displacement, result_.first_touch, result_.parting, in_contact_, velocity_at_start_, largest_force_,
-           steps_in_contact_, near_misses_, envelope);
+           result_.largest_displacement, result_.first_touch, result_.parting, in_contact_,
+           velocity_at_start_, largest_force_, steps_in_contact_, near_misses_, envelope);
   snapshot.require(steps_in_contact_.size() == result_.sub_impacts.size() &&
                    (!in_contact_ || !steps_in_contact_.empty()));
   if (!snapshot.reads()) return;
@@ -82,12 +82,17 @@ void check_continuation(const Problem& problem, const Options& options,
   const RunState& start = *problem.start;
   const Beam& beam = problem.beam;
   const std::pair<const char*, bool> others[] = {
-      {"scene.gravity", problem.gravity != 0.0}, {"beam.load", beam.load != 0.0},
-      {"beam.forces", !beam.forces.empty()},     {"beam.velocity", beam.velocity != 0.0},
-      {"striker.fixed", problem.striker.fixed},  {"beam.angular_velocity", beam.angular_velocity != 0.0}};
+      {"scene.gravity", problem.gravity != 0.0},
+      {"beam.load", beam.load != 0.0},
+      {"beam.forces", !beam.forces.empty()},
+      {"beam.velocity", beam.velocity != 0.0},
+      {"striker.fixed", problem.striker.fixed},
+      {"beam.angular_velocity", beam.angular_velocity != 0.0}};
   for (const auto& [key, is_given] : others) {
-    if (is_given) refuse(key, "is given, but runs with loads, stops or moving beams do not go on; "
-                              "leave it out, or run to the later time at once");
+    if (is_given)
+      refuse(key,
+             "is given, but runs with loads, stops or moving beams do not go on; "
+             "leave it out, or run to the later time at once");
   }
   check_same("model.mesh", used.mesh.substr(0, used.mesh.find(modal_description)), start.mesh);
   check_same("model.section", used.section, start.section);

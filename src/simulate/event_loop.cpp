@@ -130,8 +130,7 @@ bool EventLoop::energy_keeps_growing() {
 }
 
 StepEnds EventLoop::step_to_end_time() {
-  const double end =
-      std::min({integrator_.time(), options_.end_time, beam_.loads().next_corner()});
+  const double end = std::min({integrator_.time(), options_.end_time, beam_.loads().next_corner()});
   const State* y1 = &integrator_.state();
   if (end < integrator_.time()) {
     integrator_.state_at(end, end_state_);

@@ -156,10 +156,10 @@ Losses LossQuadrature::halved(const Node& a, const Node& b, const ObservedStep& 
                               StruckBeam& beam, int depth) {
   const Losses whole = between(a, b, true, beam);
   const Losses rough = between(a, b, false, beam);
-  if (depth == most_halvings_of_loss || !(needs_halving(whole.contact, rough.contact, tolerance_) ||
-                                          needs_halving(whole.beam, rough.beam, tolerance_) ||
-                                          needs_halving(whole.of_change, rough.of_change,
-                                                        tolerance_))) {
+  if (depth == most_halvings_of_loss ||
+      !(needs_halving(whole.contact, rough.contact, tolerance_) ||
+        needs_halving(whole.beam, rough.beam, tolerance_) ||
+        needs_halving(whole.of_change, rough.of_change, tolerance_))) {
     return whole;
   }
   Node middle{0.5 * (a.time + b.time), {}, {}};
@@ -176,7 +176,8 @@ Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, 
   if (!(t > step.t0())) return sum;
   const std::span<const double> damping = beam.modal_damping();
   squares_.resize(beam.n_positions());
-  const bool has_closed_form = !damping.empty() && !beam.damping().is_none() && step.integrate_squared_velocities(t, squares_);
+  const bool has_closed_form = !damping.empty() && !beam.damping().is_none() &&
+                               step.integrate_squared_velocities(t, squares_);
   beam_by_quadrature_ = !beam.damping().is_none() && !has_closed_form;
   const ContactState& contact = beam.contact();
   const bool damped_contact = contact.is_damped() && contact.is_closed();

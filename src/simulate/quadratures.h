@@ -51,9 +51,9 @@ class ForceQuadrature {
   State state_;
 };
 
-/// Energy that velocity-dependent forces dissipate, and what changing loads leave of their potential,
-/// integrated along the trajectory: independently of the energies, whose balance they close
-/// (docs/theory.md, "Accounts").
+/// Energy that velocity-dependent forces dissipate, and what changing loads leave of their
+/// potential, integrated along the trajectory: independently of the energies, whose balance they
+/// close (docs/theory.md, "Accounts").
 class LossQuadrature {
  public:
   /// `tolerance` of a step's integral, J.

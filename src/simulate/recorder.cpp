@@ -355,7 +355,7 @@ void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool 
     const bool is_held = beam.mesh().translation().empty();
     result_.restitution = beam.has_stop() ? -after_beam / before_beam
                           : is_held       ? -after_striker / before_striker
-                                          : (after_beam - after_striker) / (before_striker - before_beam);
+                                    : (after_beam - after_striker) / (before_striker - before_beam);
   }
   result_.n_yielded_sections = beam.n_yielded_sections();
   result_.striker_velocity = y.back();

@@ -205,11 +205,11 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
   }
   std::unique_ptr<MassSolver> solver = make_mass_solver(problem, options, *mesh);
   Loads loads(*mesh, problem.beam, problem.gravity);
-  StruckBeam beam(StruckBeamParts{
-      std::move(mesh), std::move(sections), problem.contact_law, problem.striker.inertia(),
-      problem.bodies().striker_velocity(), outer_stiffness(problem), std::move(solver),
-      problem.contact_damping, problem.beam.damping, std::move(loads),
-      problem.bodies().velocity_scale()});
+  StruckBeam beam(StruckBeamParts{std::move(mesh), std::move(sections), problem.contact_law,
+                                  problem.striker.inertia(), problem.bodies().striker_velocity(),
+                                  outer_stiffness(problem), std::move(solver),
+                                  problem.contact_damping, problem.beam.damping, std::move(loads),
+                                  problem.bodies().velocity_scale()});
   set_start(problem, beam);
   return beam;
 }

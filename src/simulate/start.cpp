@@ -31,9 +31,9 @@ void check_motion(const Beam& beam) {
   if (!beam.moves_at_start()) return;
   const bool turns = beam.angular_velocity != 0.0;
   const auto refuse = [&](const std::string& why) {
-    throw InvalidCase(turns ? "beam.angular_velocity" : "beam.velocity",
-                      fmt::format("is {:g}, but {}", turns ? beam.angular_velocity : beam.velocity,
-                                  why));
+    throw InvalidCase(
+        turns ? "beam.angular_velocity" : "beam.velocity",
+        fmt::format("is {:g}, but {}", turns ? beam.angular_velocity : beam.velocity, why));
   };
   if (beam.fixed) refuse("beam.fixed = true: the beam does not move; leave it out");
   if (beam.start == BeamStart::equilibrium) {
@@ -46,10 +46,11 @@ void check_motion(const Beam& beam) {
     if (beam.ends[end] == EndSupport::free) continue;
     const double speed = std::abs(beam.angular_velocity) * beam.length + std::abs(beam.velocity);
     if (std::abs(beam.velocity_at(end)) <= rounding * speed) continue;
-    refuse(fmt::format("with it the pinned end at x = {} would move at {:g} m/s; allowed: a motion "
-                       "about that end: beam.velocity = 0, and beam.pivot = {} (its default where "
-                       "the other end is free)",
-                       end == 0 ? "0" : "length", beam.velocity_at(end), end));
+    refuse(
+        fmt::format("with it the pinned end at x = {} would move at {:g} m/s; allowed: a motion "
+                    "about that end: beam.velocity = 0, and beam.pivot = {} (its default where "
+                    "the other end is free)",
+                    end == 0 ? "0" : "length", beam.velocity_at(end), end));
   }
 }
 
@@ -60,11 +61,13 @@ void check_equilibrium(const Problem& problem) {
     throw InvalidCase("beam.start", fmt::format("is \"equilibrium\", but {}", why));
   };
   if (problem.gravity == 0.0 && !beam.has_loads()) {
-    refuse("no load acts on the beam; give scene.gravity, beam.load or beam.forces, or leave it out");
+    refuse(
+        "no load acts on the beam; give scene.gravity, beam.load or beam.forces, or leave it out");
   }
   if (!beam.fixed && n_held(beam) < 2) {
-    refuse("nothing holds the beam against its loads; allowed with a clamped end, two pinned ends, "
-           "two springs at different points or a bedding; leave it out, or add such supports");
+    refuse(
+        "nothing holds the beam against its loads; allowed with a clamped end, two pinned ends, "
+        "two springs at different points or a bedding; leave it out, or add such supports");
   }
 }
 
@@ -110,8 +113,9 @@ std::vector<double> rigid_velocities(const Problem& problem, const StruckBeam& b
   const bool turns = of.angular_velocity != 0.0;
   const auto moment = mesh.moment_functional();
   const auto refuse = [&] {
-    throw InvalidCase(turns ? "beam.angular_velocity" : "beam.velocity",
-                      "is given, but this mesh cannot move as a rigid body; use another model.mesh");
+    throw InvalidCase(
+        turns ? "beam.angular_velocity" : "beam.velocity",
+        "is given, but this mesh cannot move as a rigid body; use another model.mesh");
   };
   if (turns && moment.empty()) refuse();
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -141,9 +145,10 @@ void set_start(const Problem& problem, StruckBeam& beam) {
   if (problem.beam.start == BeamStart::equilibrium && !problem.beam.fixed) {
     const auto q = equilibrium(beam);
     if (!q) {
-      throw InvalidCase("beam.start",
-                        "is \"equilibrium\", but on this mesh the stiffness of the held beam is not "
-                        "positive definite; use a coarser mesh");
+      throw InvalidCase(
+          "beam.start",
+          "is \"equilibrium\", but on this mesh the stiffness of the held beam is not "
+          "positive definite; use a coarser mesh");
     }
     check_elastic(beam, *q);
     std::ranges::copy(*q, y.begin());

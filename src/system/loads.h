@@ -59,7 +59,7 @@ class Loads {
     double x;                        // m
     std::vector<double> functional;  // S, of every unknown
     std::vector<std::pair<double, double>> table;
-    std::size_t next = 0;  // of the table, the first entry after the piece's start
+    std::size_t next = 0;            // of the table, the first entry after the piece's start
     double value = 0.0, rate = 0.0;  // at the piece's start
   };
 

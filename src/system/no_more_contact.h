@@ -41,9 +41,10 @@ namespace subimpact {
 ///
 /// Under loads that stay as they are, bodies that these press together meet again, and nothing is
 /// proven. Gravity on a beam that nothing holds moves both bodies alike and leaves all of the above
-/// as it is. A held beam that stays elastic moves as without loads about its equilibrium w_s: w - w_s
-/// takes the place of w, and the striker's uniform motion is above its own where loads pull it away.
-/// Nothing is proven of beams that other loads bend and that may yield, or that nothing holds.
+/// as it is. A held beam that stays elastic moves as without loads about its equilibrium w_s: w -
+/// w_s takes the place of w, and the striker's uniform motion is above its own where loads pull it
+/// away. Nothing is proven of beams that other loads bend and that may yield, or that nothing
+/// holds.
 ///
 /// A beam that is elastic and undamped is followed beyond that: its lowest modes move freely
 /// (EventFreeHorizon), and the rest of d stays below sqrt(2 C' E'), with the compliance and the
@@ -68,8 +69,8 @@ class NoMoreContact {
   bool stays_below(double limit, std::span<const double> z, std::span<const double> rates);
 
   std::size_t n_;
-  std::vector<double> about_;          // w_s; empty: straight
-  double loads_begun_ = -1.0;          // s: the piece of the loads for which it holds
+  std::vector<double> about_;  // w_s; empty: straight
+  double loads_begun_ = -1.0;  // s: the piece of the loads for which it holds
   bool loads_allow_ = true;
   std::vector<Mode> modes_;  // the lowest
   std::vector<double> bar_;  // W kbar; empty where the sections cannot yield

@@ -129,7 +129,7 @@ class StruckBeam final : public MechanicalSystem {
   const ContactState& contact() const { return contact_; }
   ContactState& contact() { return contact_; }
   const MassSolver& mass_solver() const { return *mass_solver_; }
-  double striker_mass() const { return striker_mass_; }        ///< kg; infinite: a stop
+  double striker_mass() const { return striker_mass_; }  ///< kg; infinite: a stop
   bool has_stop() const { return std::isinf(striker_mass_); }
   const Loads& loads() const { return loads_; }
   /// Acceleration of the striker but for the contact force, m/s2.

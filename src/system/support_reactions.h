@@ -19,7 +19,8 @@ class SupportReactions {
   /// Whether any end is held, on a mesh that gives displacements at the ends.
   bool exist() const { return held_[0] || held_[1]; }
 
-  /// At time t (s), x = 0 and x = l; none at a free end, or without a moment functional to distinguish the two.
+  /// At time t (s), x = 0 and x = l; none at a free end, or without a moment functional to
+  /// distinguish the two.
   using Forces = std::array<std::optional<double>, 2>;
   Forces at(double t, const State& y, Accounts& accounts) const;
 

@@ -1,5 +1,5 @@
-// Scenes with gravity, loads, springs, stops and beams that move at the start: closed forms of rigid
-// bodies and of elastic beams, accounts, agreement of methods, refusals.
+// Scenes with gravity, loads, springs, stops and beams that move at the start: closed forms of
+// rigid bodies and of elastic beams, accounts, agreement of methods, refusals.
 
 #include <gtest/gtest.h>
 
@@ -226,8 +226,8 @@ TEST_P(ASceneOnAMesh, HasTheFrequenciesOfABeddedBeam) {
     const double squared = (beam.bending_stiffness() * std::pow(b, 4) + beam.foundation) /
                            (beam.mass_per_length() + beam.rotary_inertia() * b * b);
     // Orders 2 and 4.
-    const double tolerance = GetParam() == MeshKind::cells ? 0.1 * std::pow(b * size, 2)
-                                                           : 1e-3 * std::pow(b * size, 4);
+    const double tolerance =
+        GetParam() == MeshKind::cells ? 0.1 * std::pow(b * size, 2) : 1e-3 * std::pow(b * size, 4);
     EXPECT_NEAR(modes.frequencies[static_cast<std::size_t>(n - 1)], std::sqrt(squared),
                 tolerance * std::sqrt(squared));
   }

@@ -50,8 +50,7 @@ void add_step_load(Outcome& outcome) {
   add("largest displacement, mm", 1.043, 1e3 * peak->struck_displacement, 0.013);
   add("its time, s", 0.0117, peak->time, 0.017);
   add("largest stress, MPa", 18.76, 1e-6 * largest->back_stress, 0.043);
-  const Case still =
-      case_of("scenes/step_load", {"beam.start=equilibrium", "time.end=1e-3"});
+  const Case still = case_of("scenes/step_load", {"beam.start=equilibrium", "time.end=1e-3"});
   add("static displacement, mm", 0.538, 1e3 * simulate(still).history.front().struck_displacement,
       0.013);
 }
@@ -59,9 +58,9 @@ void add_step_load(Outcome& outcome) {
 // SDNL32 by a stop, beside its heavy striker.
 void add_stop(Outcome& outcome) {
   const Result striker = simulate(case_of("sdnl32"));
-  const Result stop = simulate(case_of(
-      "sdnl32", {"striker.fixed=true", "striker.mass=default", "striker.velocity=default",
-                 "beam.angular_velocity=-3.8"}));
+  const Result stop =
+      simulate(case_of("sdnl32", {"striker.fixed=true", "striker.mass=default",
+                                  "striker.velocity=default", "beam.angular_velocity=-3.8"}));
   const auto tip = [](const Result& result, double time) {
     const auto row = std::ranges::min_element(
         result.history, {}, [time](const HistoryRow& at) { return std::abs(at.time - time); });
@@ -69,8 +68,10 @@ void add_stop(Outcome& outcome) {
   };
   for (int ms = 1; ms <= 12; ++ms) {
     outcome.rows.push_back({fmt::format("SDNL32 by a stop: tip at {} ms, mm, beside its heavy "
-                                        "striker", ms),
-                            tip(striker, 1e-3 * ms), tip(stop, 1e-3 * ms), Bound::absolute, 4.9e-3});
+                                        "striker",
+                                        ms),
+                            tip(striker, 1e-3 * ms), tip(stop, 1e-3 * ms), Bound::absolute,
+                            4.9e-3});
   }
 }
 
@@ -104,8 +105,8 @@ void add_spring(Outcome& outcome) {
   const double v1 = std::sqrt(v * v - slow * slow * gap * gap);
   const double lasts = 2.0 / fast * std::atan(v1 / (fast * gap * spring / (k + spring)));
   for (const std::string& method : methods) {
-    const Result result = simulate(case_of(
-        "scenes", {fmt::format("striker.gap={}", gap), "solver.method=" + method}));
+    const Result result = simulate(
+        case_of("scenes", {fmt::format("striker.gap={}", gap), "solver.method=" + method}));
     const auto add = [&](const char* what, double expected, double ours) {
       outcome.rows.push_back({fmt::format("on a spring against a stop, {}: {}, s", method, what),
                               expected, ours, Bound::relative, 1e-9});

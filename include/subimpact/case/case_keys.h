@@ -36,12 +36,12 @@ using KeyValue = std::variant<bool, std::int64_t, double, std::string, std::vect
                               std::vector<double>, PlacedValues>;
 
 enum class KeyType {
-  text,    ///< any text
-  number,  ///< finite, unless the key allows infinity
-  count,   ///< whole number
-  flag,    ///< true or false
-  choice,  ///< one of the key's choices
-  pair,    ///< two of the key's choices
+  text,     ///< any text
+  number,   ///< finite, unless the key allows infinity
+  count,    ///< whole number
+  flag,     ///< true or false
+  choice,   ///< one of the key's choices
+  pair,     ///< two of the key's choices
   numbers,  ///< a list of finite numbers
   placed    ///< a list of things at points of the beam (PlacedValues)
 };
@@ -73,8 +73,8 @@ struct CaseKey {
   bool required;                ///< has no default
   /// Whether a required key is not needed beside others of the case; empty: always needed.
   std::function<bool(const Case&)> is_needless;
-  std::string default_text;     ///< in words or as it would be written; empty if required
-  std::string meaning;          ///< a noun phrase
+  std::string default_text;  ///< in words or as it would be written; empty if required
+  std::string meaning;       ///< a noun phrase
   /// The case's present value; nothing if it is left open there.
   std::function<std::optional<KeyValue>(const Case&)> get;
   /// Stores a value with which problem_with() has no problem.

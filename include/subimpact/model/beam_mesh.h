@@ -76,10 +76,10 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
 ///     Mass q'' = -B^T W M(kappa) - K_s q + S F,
 ///
 /// with the bending moments M, of the sign of the curvature, the functional S of the struck point
-/// and the elastic stiffness K_s of shear and of springs to the ground, where the mesh has any. Bending work is sum W M dkappa
-/// and contact work F d(S q), so the discretisation in space neither produces nor loses energy.
-/// Where symmetry halves the unknowns, the mirrored half is folded into Mass and W, so all forces,
-/// energies and momenta are those of the whole beam.
+/// and the elastic stiffness K_s of shear and of springs to the ground, where the mesh has any.
+/// Bending work is sum W M dkappa and contact work F d(S q), so the discretisation in space neither
+/// produces nor loses energy. Where symmetry halves the unknowns, the mirrored half is folded into
+/// Mass and W, so all forces, energies and momenta are those of the whole beam.
 ///
 /// A user-defined mesh derives from this class, fills the protected members in its constructor and
 /// is assigned to `Case::parts.mesh` or `Problem::mesh`; the built-in meshes use the same

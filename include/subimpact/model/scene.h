@@ -99,15 +99,15 @@ struct Beam {
   /// E_t/E of linear kinematic hardening: fibres that yield keep this share of their stiffness.
   double hardening = 0.0;
 
-  double load = 0.0;                    ///< p, N/m: uniform, constant, positive along the strike
+  double load = 0.0;  ///< p, N/m: uniform, constant, positive along the strike
   std::vector<PointForce> forces = {};
   std::vector<Spring> springs = {};
-  double foundation = 0.0;              ///< k_f, N/m2: force per length over displacement
+  double foundation = 0.0;  ///< k_f, N/m2: force per length over displacement
   BeamStart start = BeamStart::straight;
-  double velocity = 0.0;                ///< m/s at t = 0, of the pivot, positive along the strike
-  double angular_velocity = 0.0;        ///< rad/s at t = 0, about the pivot
-  std::optional<double> pivot = {};     ///< as a fraction of the length
-  bool fixed = false;                   ///< a rigid beam that does not move: a plane or a wall
+  double velocity = 0.0;             ///< m/s at t = 0, of the pivot, positive along the strike
+  double angular_velocity = 0.0;     ///< rad/s at t = 0, about the pivot
+  std::optional<double> pivot = {};  ///< as a fraction of the length
+  bool fixed = false;                ///< a rigid beam that does not move: a plane or a wall
 
   /// By default the pinned end, else the middle.
   double used_pivot() const {

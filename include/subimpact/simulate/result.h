@@ -343,14 +343,15 @@ struct Result {
   Velocities first_touch;  ///< as they first met
   Velocities parting;      ///< at the last separation, or at the end where there was none
   /// Coefficient of restitution, of these: of a beam that nothing holds (beam - striker) after over
-  /// (striker - beam) before; of a held one - striker after over striker before; of a beam on a stop
+  /// (striker - beam) before; of a held one - striker after over striker before; of a beam on a
+  /// stop
   /// - beam after over beam before. None of bodies that never touched.
   std::optional<double> restitution;
   /// s: the start of a contact in which gravity holds the striker on the beam to the end of the run
   /// and beyond.
   std::optional<double> rests_since;
-  Energies final_energies;             ///< J, at the end
-  double max_energy_error = 0.0;       ///< largest relative error over all checks
+  Energies final_energies;                   ///< J, at the end
+  double max_energy_error = 0.0;             ///< largest relative error over all checks
   std::optional<double> max_momentum_error;  ///< none where supports take momentum up
   double contact_damping_loss = 0.0;         ///< J, dissipated by the damping of the contact
   double beam_damping_loss = 0.0;            ///< J, by that of the beam
