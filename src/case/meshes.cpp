@@ -138,7 +138,6 @@ void check_mixed_model(const Case& input) {
                     "\"exact\", \"elastic\"; choose one, or another mesh",
                     input.parts.section ? "a section of its own" : "\"layers\""));
   }
-  const Beam& beam = input.scene.beam;
   const bool is_shaped = beam.section.shape != SectionShape::rectangle;
   if (may_yield(input) && (is_shaped || beam.hardening > 0.0)) {
     throw InvalidCase(
