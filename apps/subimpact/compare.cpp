@@ -30,9 +30,11 @@ int run_models(const CompareOptions& options) {
   };
   const LoadedCase loaded = of_laws ? options.input.load() : with_theory(names.front());
   std::vector<Case> cases;
-  for (const std::string& name : names) {
-    cases.push_back(of_laws ? with_contact_law(loaded.value, name) : with_theory(name).value);
-  }
+  with_places(loaded, [&] {
+    for (const std::string& name : names) {
+      cases.push_back(of_laws ? with_contact_law(loaded.value, name) : with_theory(name).value);
+    }
+  });
   print_doubts(loaded);
   StudySession session;
   const auto runs = with_places(loaded, [&] {

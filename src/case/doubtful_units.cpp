@@ -107,7 +107,7 @@ class Doubts {
   void lengths() {
     const double l = beam_.length, b = beam_.outer_solid().width, h = beam_.height();
     const bool large = is_too_large();
-    const bool slender = l > most_slender * h;
+    const bool slender = h > 0.0 && l > most_slender * h;
     const bool deep = h > l;
     const bool wide = b > widest * l;
     const bool any = large || l > longest || slender || deep || wide;
