@@ -266,9 +266,10 @@ void check_section(const Case& input) {
            fmt::format("leaves no gap in a section of {:g} m; allowed: below {:g} m; reduce it, or "
                        "use a solid shape",
                        too_high ? outer.height : outer.width,
-                       too_high || beam.section.shape != SectionShape::i
+                       beam.section.shape != SectionShape::i
                            ? 0.5 * std::min(outer.height, outer.width)
-                           : outer.width));
+                       : too_high ? 0.5 * outer.height
+                                  : outer.width));
   }
   if (input.parts.section && !is_rectangle) {
     refuse(
