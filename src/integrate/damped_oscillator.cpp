@@ -223,8 +223,11 @@ double integral_of_squared_velocity(double omega, double delta, double q, double
   const Complex z1 = r1 * (v0 - r2 * q0) / (r1 - r2);
   const Complex z2 = r2 * (r1 * q0 - v0) / (r1 - r2);
   double sum = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) sum += c[i] * c[k] * std::pow(t, i + k + 1) / (i + k + 1);
+  double power = t;
+  for (int m = 0; m < 5; ++m) {  // of t^m in p'^2
+    for (int i = std::max(m - 2, 0); i <= std::min(m, 2); ++i)
+      sum += c[i] * c[m - i] * power / (m + 1);
+    power *= t;
   }
   for (const auto& [z, r] : {std::pair(z1, r1), std::pair(z2, r2)}) {
     const auto moments = moments_of_exponential(r, t);

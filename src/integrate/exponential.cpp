@@ -79,10 +79,15 @@ void Exponential::step() {
   ++work_.steps;
 }
 
-double Exponential::fourth_derivative_bound() const {
+double Exponential::error_of_cubic(double h) const {
   const auto omega = oscillators_.frequencies();
   const auto c = oscillators_.displacements();
   const auto decay = oscillators_.decay_rates();
+  const double h4 = h * h * h * h / 384.0;
+  // Of e^(-rate t), which is at most 1, as its interpolant is at most 1 + 8/27 rate h.
+  const auto of_decay = [&](double rate) {
+    return std::min(h4 * rate * rate * rate * rate, 1.0 + 8.0 / 27.0 * rate * h);
+  };
   double sum = 0.0;
   for (std::size_t i = 0; i < n_; ++i) {
     const double w = omega[i];
@@ -97,18 +102,18 @@ double Exponential::fourth_derivative_bound() const {
     const double wq = w * q;
     const double amplitude_w = std::sqrt(wq * wq + v * v);  // A omega
     if (decay.empty()) {
-      sum += std::abs(c[i]) * amplitude_w * w * w * w;
+      sum += std::abs(c[i]) * h4 * amplitude_w * w * w * w;
     } else if (decay[i] > apart * w) {
-      // The two parts, e^(-slow t) and e^(-fast t), each with its own fourth derivative.
+      // The two parts, e^(-slow t) and e^(-fast t), each with its own error.
       const double root = std::sqrt((decay[i] - w) * (decay[i] + w));
       const double fast = decay[i] + root;
       const double slow = w * w / fast;
-      const double of_slow = std::abs(v + fast * q) * std::pow(slow, 4);
-      const double of_fast = std::abs(v + slow * q) * std::pow(fast, 4);
+      const double of_slow = std::abs(v + fast * q) * of_decay(slow);
+      const double of_fast = std::abs(v + slow * q) * of_decay(fast);
       sum += std::abs(c[i]) * (of_slow + of_fast) / (2.0 * root);
     } else {
       const double rate = decay[i] + std::hypot(w, decay[i]);
-      sum += std::abs(c[i]) * amplitude_w * rate * rate * rate;
+      sum += std::abs(c[i]) * h4 * amplitude_w * rate * rate * rate;
     }
   }
   return sum;
@@ -139,7 +144,7 @@ bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) 
 
 void Exponential::free_step() {
   const bool falls = !oscillators_.decay_rates().empty();
-  if (bound_ < 0.0 || falls) bound_ = fourth_derivative_bound();
+  if (bound_ < 0.0 && !falls) bound_ = error_of_cubic(1.0);
   const double lambda0 = lambda1_;
   const double rate0 = rate1_;
   if (!options_.fixed_step) level_ = std::max(level_ - 1, first_level_);
@@ -147,7 +152,7 @@ void Exponential::free_step() {
   for (;; ++level_) {
     const OscillatorStep& trial = table(level_);
     const double h = trial.length();
-    const double uncertainty = h * h * h * h / 384.0 * bound_;
+    const double uncertainty = falls ? error_of_cubic(h) : h * h * h * h * bound_;
     trial.advance_freely(y0_, y1_);
     if (!step_loads_.value.empty()) trial.add_loads(step_loads_, y1_);
     lambda1_ = displacement(y1_.data());

@@ -36,7 +36,8 @@ class Exponential final : public Integrator {
   // Solves the collocation equations; false if Newton's method does not converge.
   bool solve(const OscillatorStep& step, const NodeForces& free, NodeForces& forces,
              NodeForces& lambda) const;
-  double fourth_derivative_bound() const;
+  // Largest error (m) of the cubic through the ends of a free step from y0 of the length h.
+  double error_of_cubic(double h) const;
   // Whether a cubic off by up to `uncertainty` (m) shows the side of the critical displacement.
   bool resolves_side(const Ends& ends, double h, double uncertainty) const;
 
@@ -49,7 +50,8 @@ class Exponential final : public Integrator {
   std::map<int, std::unique_ptr<OscillatorStep>> tables_;
   int level_ = 0;  // of the next step; step length unit / 2^level
   int first_level_ = 0;
-  double bound_ = -1.0;  // of |lambda''''| in the present free motion; negative: not computed
+  // error_of_cubic(1) in the present free motion without damping; negative: not computed
+  double bound_ = -1.0;
   ForcePolynomial force_;
   double force_length_ = 0.0;
   ForcedOscillators::Loads step_loads_;  // from the step's start on

@@ -95,6 +95,32 @@ void store(const Lanes& values, std::span<double> to, std::size_t i) {
   for (std::size_t k = i; k < to.size(); ++k) to[k] = values[k - i];
 }
 
+// Free oscillators that hold less than this share of the squares of all velocities, omega q among
+// them, do not move anything by more than 1e-11 of what the others do.
+constexpr double least_share = 1e-22;
+
+// The sum (omega q)^2 + q'^2 of an oscillator, omega > 0, below which it counts as resting.
+double resting_below(const ForcedOscillators& oscillators, std::span<const double> y,
+                     const ForcePolynomial& force) {
+  for (const double f : force.coefficients()) {
+    if (f != 0.0) return 0.0;
+  }
+  const std::size_t n = oscillators.size();
+  double sum = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double wq = oscillators.frequencies()[k] * y[k];
+    sum += wq * wq + y[n + k] * y[n + k];
+  }
+  return least_share * sum / static_cast<double>(n);
+}
+
+bool has_all_frequencies(const Lanes& w) {
+  for (std::size_t k = 0; k < n_lanes; ++k) {
+    if (!(w[k] > 0.0)) return false;
+  }
+  return true;
+}
+
 // Coefficients of t^m/m! in the force over a step of length h.
 std::array<double, s> in_time(const ForcePolynomial& force, double h) {
   std::array<double, s> scaled{};
@@ -110,8 +136,13 @@ void flow_damped(const ForcedOscillators& oscillators, std::span<const double> y
                  const ForcePolynomial& force, double h, double t, std::span<double> result) {
   const std::size_t n = oscillators.size();
   const std::array<double, s> f = in_time(force, h);
+  const double least = resting_below(oscillators, y, force);
   for (std::size_t k = 0; k < n; ++k) {
     const double w = oscillators.frequencies()[k];
+    if (w > 0.0 && w * y[k] * w * y[k] + y[n + k] * y[n + k] < least) {
+      result[k] = result[n + k] = 0.0;
+      continue;
+    }
     const DampedOscillator at(w, oscillators.decay_rates()[k], t);
     double position = f[0] * at.forced[0];
     double velocity = f[0] * at.response;
@@ -338,10 +369,12 @@ void integrate_squared_velocities(const ForcedOscillators& oscillators, std::spa
                                   std::span<double> result) {
   const std::size_t n = oscillators.size();
   const std::array<double, s> f = in_time(force, h);
+  const double least = resting_below(oscillators, y, force);
   for (std::size_t k = 0; k < n; ++k) {
     result[k] = 0.0;
     const double delta = oscillators.decay_rates()[k];
-    if (delta == 0.0) continue;
+    const double wq = oscillators.frequencies()[k] * y[k];
+    if (delta == 0.0 || wq * wq + y[n + k] * y[n + k] < least) continue;
     std::array<double, s> scaled = f;
     for (double& x : scaled) x *= oscillators.loads()[k];
     result[k] = integral_of_squared_velocity(oscillators.frequencies()[k], delta, y[k], y[n + k],
@@ -366,15 +399,21 @@ void flow(const ForcedOscillators& oscillators, std::span<const double> y,
   const double f3 = a[3] * theta * theta * theta * t;
   const auto q0 = y.first(n);
   const auto v0 = y.subspan(n, n);
+  const double least = resting_below(oscillators, y, force);
   for (std::size_t k = 0; k < n; k += n_lanes) {
     const Lanes w = load(omega, k);
+    const Lanes q = load(q0, k);
+    const Lanes v = load(v0, k);
+    if (sum(w * q * w * q + v * v) < least && has_all_frequencies(w)) {
+      store(Lanes{}, result.first(n), k);
+      store(Lanes{}, result.subspan(n, n), k);
+      continue;
+    }
     const Lanes l = load(loads, k);
     const Lanes x = w * t;
     const auto c = stumpff(x);
     const Lanes position = t * (f0 * c[2] + f1 * c[3] + f2 * c[4] + f3 * c[5]);
     const Lanes velocity = f0 * c[1] + f1 * c[2] + f2 * c[3] + f3 * c[4];
-    const Lanes q = load(q0, k);
-    const Lanes v = load(v0, k);
     store(c[0] * q + t * c[1] * v + l * position, result.first(n), k);
     store(-w * x * c[1] * q + c[0] * v + l * velocity, result.subspan(n, n), k);
   }

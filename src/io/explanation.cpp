@@ -249,7 +249,11 @@ std::string explanation(const Case& input, const GivenKeys& given) {
   ResolvedRun run = resolve(first.input);
   ResolvedSettings settings = run.settings();
   settings.memory += first.memory_beside;
-  const std::string text = description(first.input, settings, estimate_cost(run));
+  std::string text = description(first.input, settings, estimate_cost(run));
+  text += fmt::format("Runs\n  {:<21} {}\n", "beside this one",
+                      first.beside.empty()
+                          ? "none"
+                          : fmt::format("{}, which judge it", fmt::join(first.beside, "; ")));
   if (first.reason.empty()) return text;
   return text + fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", first.reason);
 }

@@ -15,6 +15,9 @@ namespace {
 // History rows that the envelope follows, at most, roughly.
 constexpr double most_followed = 4000.0;
 
+// Of the envelope, relative to the largest value.
+constexpr double envelope_tolerance = 1e-6;
+
 // Plastic curvature in units of the yield curvature below which it is rounding.
 constexpr double least_plastic = 1e-9;
 
@@ -89,7 +92,7 @@ void FieldRecorder::follow(double time, const State& y, Accounts& accounts) {
   add_points(time, y);
   if (!has_shapes()) return;
   if (time - last_followed_time_ < end_time_ / most_followed) return;
-  field_.read(y, accounts);
+  field_.read(y, accounts, envelope_tolerance);
   widen_envelope(time);
 }
 

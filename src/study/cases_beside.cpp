@@ -27,16 +27,16 @@ constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
 constexpr double loosest = 1e-1;
 constexpr double gain_of_tolerance = 1.0 / 3.0;  // a ninth, and room for errors that fall unevenly
 constexpr double shorter = 0.7;                  // step
-// Instants at which the extremes along the beam are taken, at most.
-constexpr double most_rows = 4000.0;
+// Instants at which the extremes along the beam are taken, at most, beside events.
+constexpr double most_rows = 2000.0;
 
-// The rows that the extremes need, and no others.
+// The rows that the extremes need, and no shapes but those of events.
 OutputOptions output_beside(const Case& input) {
   OutputOptions output = input.output;
   const double shapes = output.shape_interval(input.end_time);
   output.keep_no_rows();
   if (shapes > 0.0) {
-    output.shapes = shapes;
+    output.shapes = input.end_time;
     output.interval =
         std::max(input.output.history_interval(input.end_time), input.end_time / most_rows);
   }

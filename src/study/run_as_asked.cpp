@@ -213,6 +213,7 @@ FirstRun first_run(const Case& input, const GivenKeys& given) {
   for (const CaseBeside& beside :
        open ? cases_beside(run.input) : cases_beside_on_given_mesh(run.input)) {
     run.memory_beside += resolve(beside.input).settings().memory;
+    run.beside.push_back(beside.description);
   }
   return run;
 }

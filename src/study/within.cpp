@@ -116,10 +116,10 @@ class Search {
     level.input.output = input.output;
     judge(level.input, level.result, level.beside);
     work_ += counted_work(level.result);
-    if (options_.finished) options_.finished(level.result);
+    if (options_.finished) options_.finished(level.input, level.result);
     for (const RunBeside& other : level.beside) {
       work_ += counted_work(other.result);
-      if (options_.finished) options_.finished(other.result);
+      if (options_.finished) options_.finished(other.of.input, other.result);
     }
     return level;
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/lanes.h"
+
 namespace subimpact {
 namespace {
 
@@ -56,6 +58,34 @@ BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_sta
   displacements_.resize(size());
   curvatures_.resize(size());
   moments_.resize(size());
+  if (!in_modes_) return;
+  const auto widen = [](std::vector<double>& shares, const SparseFunctional& value) {
+    shares.resize(std::max(shares.size(), value.dense.size()));
+    for (std::size_t k = 0; k < value.dense.size(); ++k) {
+      shares[k] = std::max(shares[k], std::abs(value.dense[k]));
+    }
+  };
+  displacement_shares_.resize(mesh.n_unknowns());
+  curvature_shares_.resize(mesh.n_unknowns());
+  for (const Station& station : stations_) {
+    widen(displacement_shares_, station.displacement);
+    widen(curvature_shares_, station.curvature);
+  }
+}
+
+std::size_t BeamField::n_modes_needed(std::span<const double> unknowns, double tolerance) const {
+  double displacement = 0.0, curvature = 0.0;
+  std::size_t n = unknowns.size();
+  for (; n > 0; --n) {
+    const double z = std::abs(unknowns[n - 1]);
+    displacement += displacement_shares_[n - 1] * z;
+    curvature += curvature_shares_[n - 1] * z;
+    if (!(displacement <= tolerance * largest_displacement_) ||
+        !(curvature <= tolerance * largest_curvature_)) {
+      break;
+    }
+  }
+  return n;
 }
 
 void BeamField::add_station(double x, std::size_t section) {
@@ -88,18 +118,26 @@ void BeamField::add_end(double x, std::size_t nearest, std::size_t next) {
   }
 }
 
-void BeamField::read(const State& y, Accounts& accounts) {
+void BeamField::read(const State& y, Accounts& accounts, double tolerance) {
   const auto unknowns = beam_.beam_positions(y);
-  Accounts::Bending bending;
-  if (!in_modes_) bending = accounts.bending(y);
+  if (in_modes_) {  // elastic
+    const std::size_t n = n_modes_needed(unknowns, tolerance);
+    const auto of_modes = [&](const SparseFunctional& value) {
+      return value.is_zero() ? 0.0 : dot(value.dense.data(), unknowns.data(), n);
+    };
+    for (std::size_t i = 0; i < size(); ++i) {
+      displacements_[i] = of_modes(stations_[i].displacement);
+      curvatures_[i] = of_modes(stations_[i].curvature);
+      moments_[i] = bending_stiffness_ * curvatures_[i];
+      largest_displacement_ = std::max(largest_displacement_, std::abs(displacements_[i]));
+      largest_curvature_ = std::max(largest_curvature_, std::abs(curvatures_[i]));
+    }
+    return;
+  }
+  const Accounts::Bending bending = accounts.bending(y);
   for (std::size_t i = 0; i < size(); ++i) {
     const Station& here = stations_[i];
     displacements_[i] = here.displacement(unknowns);
-    if (in_modes_) {  // elastic
-      curvatures_[i] = here.curvature(unknowns);
-      moments_[i] = bending_stiffness_ * curvatures_[i];
-      continue;
-    }
     const auto of_sections = [&](std::span<const double> values) {
       return here.share * values[here.section] + here.next_share * values[here.next];
     };

@@ -43,7 +43,9 @@ class BeamField {
   double position(std::size_t station) const { return stations_[station].position; }
   double mirrored_position(std::size_t station) const { return length_ - position(station); }
 
-  void read(const State& y, Accounts& accounts);
+  /// `tolerance`: of displacements and curvatures, relative to the largest that were read so far;
+  /// on a mesh in modes those that move nothing by more are left out.
+  void read(const State& y, Accounts& accounts, double tolerance = 0.0);
   double displacement(std::size_t i) const { return displacements_[i]; }
   double curvature(std::size_t i) const { return curvatures_[i]; }
   double moment(std::size_t i) const { return moments_[i]; }
@@ -69,6 +71,8 @@ class BeamField {
   };
   void add_station(double x, std::size_t section);
   void add_end(double x, std::size_t nearest, std::size_t next);
+  // The slowest ones, without which no station is off by more than the tolerance.
+  std::size_t n_modes_needed(std::span<const double> unknowns, double tolerance) const;
 
   const StruckBeam& beam_;
   double length_;
@@ -77,6 +81,9 @@ class BeamField {
   std::vector<Station> stations_;
   std::size_t n_mirrored_ = 0;
   std::vector<double> displacements_, curvatures_, moments_;
+  // Where the unknowns are modes: the largest share of each in a station's value.
+  std::vector<double> displacement_shares_, curvature_shares_;
+  double largest_displacement_ = 0.0, largest_curvature_ = 0.0;  // that were read
 };
 
 /// A section of the whole beam, with its share of the length.

@@ -153,7 +153,7 @@ TEST(AWish, StopsAtTheLimitOfWork) {
   input.accuracy.work_limit = 3e6;
   double work = 0.0;
   WithinOptions options;
-  options.finished = [&](const Result& result) { work += counted_work(result); };
+  options.finished = [&](const Case&, const Result& result) { work += counted_work(result); };
   const WithinRun run = simulate_within(input, {}, options);
   EXPECT_FALSE(run.result.tolerance->met);
   EXPECT_EQ(run.result.tolerance->key, "accuracy.work_limit");

@@ -48,7 +48,7 @@ Wished run_wish(Case input, double wish) {
   input.accuracy.event_times = wish;
   WithinOptions options;
   options.announce = [&](const std::string& what) { wished.trace += "\n  " + what + ":"; };
-  options.finished = [&](const Result& result) {
+  options.finished = [&](const Case&, const Result& result) {
     wished.work += counted_work(result);
     wished.trace += fmt::format(" {:.2e}", counted_work(result));
   };

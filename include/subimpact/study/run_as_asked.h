@@ -53,8 +53,9 @@ std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& r
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
 /// The first of the runs that run_as_asked() makes of a case, by default.
-struct FirstRun : ChosenModel {  ///< without a reason where the case fixes mesh or method
-  double memory_beside = 0.0;    ///< bytes, of the runs made beside it, roughly
+struct FirstRun : ChosenModel {     ///< without a reason where the case fixes mesh or method
+  double memory_beside = 0.0;       ///< bytes, of the runs made beside it, roughly
+  std::vector<std::string> beside;  ///< those runs, in words
 };
 FirstRun first_run(const Case& input, const GivenKeys& given);
 

@@ -29,7 +29,7 @@ struct WithinOptions {
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
   /// Called with every run that ended, those beside the judged ones too.
-  std::function<void(const Result& run)> finished;
+  std::function<void(const Case& input, const Result& run)> finished;
   Progress progress;  ///< of the run in hand; returning false ends all with what there is
   /// Called before each run whose rows are kept: where they go. Those of the run before are to be
   /// discarded. Empty: rows stay in the result.
