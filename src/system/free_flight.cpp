@@ -170,7 +170,8 @@ double FreeFlight::begin() {
   for (std::size_t k = 0; k < n_; ++k) all += energy(k);
   double rest = 0.0;
   n_moving_ = n_;
-  while (n_moving_ > 0 && (rest += energy(n_moving_ - 1)) <= least_share_of_energy * all) {
+  while (n_moving_ > 0 && modes_.frequencies[n_moving_ - 1] > 0.0 &&
+         (rest += energy(n_moving_ - 1)) <= least_share_of_energy * all) {
     --n_moving_;
   }
   return horizon_.from(z0_, rates0_, low_, high_, max_step_);
