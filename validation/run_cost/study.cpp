@@ -115,9 +115,8 @@ bool report(const fs::path& scene, const fs::path& results, int repetitions) {
   const bool wall_holds = program.wall <= integrations + most_wall_besides;
   fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.2f} | {:.1f} | {:.1f} | {}{} |\n",
              scene.stem().string(), cases.size(), 1e3 * integrations, 1e3 * program.processor,
-             program.processor / integrations, 1e3 * besides,
-             1e3 * (program.wall - integrations), holds ? "holds" : "**too much**",
-             wall_holds ? "" : ", **wall time too long**");
+             program.processor / integrations, 1e3 * besides, 1e3 * (program.wall - integrations),
+             holds ? "holds" : "**too much**", wall_holds ? "" : ", **wall time too long**");
   std::fflush(stdout);
   return holds && wall_holds;
 }
