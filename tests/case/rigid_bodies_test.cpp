@@ -114,7 +114,8 @@ Case elastic_end_strike() {
   beam.density = 1115.0;
   beam.youngs_modulus = 2.176e11;
   beam.yield_stress = std::numeric_limits<double>::infinity();
-  input.scene.striker = {0.00064, 0.1904, 0.118, 1.0};
+  input.scene.striker = {
+      .mass = 0.00064, .nose_radius = 0.1904, .velocity = 0.118, .position = 1.0};
   input.end_time = 7.8e-6;
   return input;
 }

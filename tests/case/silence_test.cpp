@@ -59,8 +59,10 @@ Case light_striker_on_linear_contact() {
                       .density = 6719.736757556554,
                       .youngs_modulus = 659650483541.5732,
                       .yield_stress = 17872157774.710236};
-  input.scene.striker = {9.809242800201596e-06, 0.006902063915278401, 0.2756861420060581,
-                         0.21190905482937972};
+  input.scene.striker = {.mass = 9.809242800201596e-06,
+                         .nose_radius = 0.006902063915278401,
+                         .velocity = 0.2756861420060581,
+                         .position = 0.21190905482937972};
   input.scene.contact.kind = ContactKind::linear;
   input.scene.contact.stiffness = 7745.426207405013;
   input.model.segments = 109;
@@ -121,7 +123,10 @@ Case clamped_beam_under_a_heavy_striker() {
                       .yield_stress = 25902883.809341125,
                       .theory = BeamTheory::euler_bernoulli,
                       .ends = {EndSupport::clamped, EndSupport::free}};
-  input.scene.striker = {37.39655796116565, 4.167075040660213, 2.083370984948108, 0.5};
+  input.scene.striker = {.mass = 37.39655796116565,
+                         .nose_radius = 4.167075040660213,
+                         .velocity = 2.083370984948108,
+                         .position = 0.5};
   input.model.segments = 27;
   input.model.section = SectionKind::layers;
   input.model.layers = 8;

@@ -49,7 +49,8 @@ int n_stopped(int n, double first, double spacing) {
   for (int k = 0; k < n; ++k) {
     Scene scene;
     scene.beam.length = scene.beam.width = scene.beam.thickness = scene.beam.density = 1.0;
-    scene.striker = {first + spacing * k, 0.5, 1.0, 0.5};
+    scene.striker = {
+        .mass = first + spacing * k, .nose_radius = 0.5, .velocity = 1.0, .position = 0.5};
     scene.contact.kind = ContactKind::linear;
     scene.contact.stiffness = 4e6;
     StruckBeam beam =

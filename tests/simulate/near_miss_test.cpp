@@ -19,7 +19,8 @@ struct TwoSprings {
     Scene scene;
     scene.beam.length = scene.beam.width = scene.beam.thickness = 1.0;
     scene.beam.density = target_mass;
-    scene.striker = {striker_mass, 0.5, velocity, 0.5};
+    scene.striker = {
+        .mass = striker_mass, .nose_radius = 0.5, .velocity = velocity, .position = 0.5};
     scene.contact.kind = ContactKind::linear;
     scene.contact.stiffness = contact_stiffness;
     std::unique_ptr<BeamMesh> mesh = std::make_unique<LumpedMesh>(target_mass);

@@ -44,7 +44,8 @@ struct TwoBodies {
     scene.beam.density = target_mass;
     scene.beam.youngs_modulus = 0.75 * contact_stiffness;
     scene.beam.yield_stress = yield_indentation * scene.beam.youngs_modulus;
-    scene.striker = {striker_mass, 0.5, velocity, 0.5};
+    scene.striker = {
+        .mass = striker_mass, .nose_radius = 0.5, .velocity = velocity, .position = 0.5};
     std::unique_ptr<BeamMesh> mesh = std::make_unique<LumpedMesh>(target_mass);
     if (in_modes) mesh = std::make_unique<ModalMesh>(std::move(mesh), spring);
     return struck_beam_of(scene, std::move(mesh), SectionField(1, spring));

@@ -282,7 +282,7 @@ TEST_P(Reactions, CarryAConstantForceAsInTextbooks) {
   Accounts accounts(beam);
   const SupportReactions reactions(beam, scene.beam.length, xi * scene.beam.length);
   ASSERT_TRUE(reactions.exist());
-  const auto [first, last] = reactions.at(y, accounts);
+  const auto [first, last] = reactions.at(0.0, y, accounts);
   const double share = share_of_first(ends, xi);
   // Cells bend at clamped ends to second order in their length.
   // Shear changes the shares of supports that bending alone does not decide, by some 1e-4.
@@ -315,8 +315,8 @@ TEST(ReactionsOfADampedBeam, AreOfTheDampingWithinTheBeamAndNotOfThatFromOutside
         scene.beam.damping = damping;
         StruckBeam beam = struck_beam_of(scene, mesh, SectionField(mesh->n_sections(), stiffness));
         Accounts accounts(beam);
-        const auto forces =
-            SupportReactions(beam, scene.beam.length, third * scene.beam.length).at(y, accounts);
+        const auto forces = SupportReactions(beam, scene.beam.length, third * scene.beam.length)
+                                .at(0.0, y, accounts);
         return std::array<double, 2>{forces[0].value(), forces[1].value()};
       };
       const auto elastic = reactions_at({}, moving(v, true));
