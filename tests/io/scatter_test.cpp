@@ -62,8 +62,7 @@ TEST(ScatterOfACase, IsRefusedOfWhatIsNoNumberOfTheScene) {
   const std::string of_mesh = refusal_of("[scatter]\nmodel.segments = 0.01\n");
   expect_in(of_mesh,
             "unknown key \"scatter.model\"; allowed in [scatter]: beam.length, beam.width");
-  expect_in(refusal_of("[scatter]\nvelocity = 0.01\n"),
-            "did you mean \"scatter.striker.velocity\"?");
+  expect_in(refusal_of("[scatter]\ndensity = 0.01\n"), "did you mean \"scatter.beam.density\"?");
   expect_in(refusal_of("[scater]\n"), "did you mean [scatter]?");
 }
 

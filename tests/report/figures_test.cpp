@@ -318,7 +318,7 @@ TEST(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
 TEST(Figures, AreDrawnWithAUsersScripts) {
   const TemporaryDirectory directory;
   const std::filesystem::path mine = directory.path / "my scripts";
-  EXPECT_EQ(write_figure_scripts(mine).size(), 10u);
+  EXPECT_EQ(write_figure_scripts(mine).size(), 11u);
   std::ofstream(mine / "style.gp", std::ios::app) << "set linetype 1 lc rgb '#123456'\n";
   EXPECT_TRUE(write_figure_scripts(mine).empty());  // what is there stays
   std::filesystem::remove(mine / "timeline.gp");    // that of the library is used

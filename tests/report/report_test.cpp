@@ -365,8 +365,7 @@ TEST(RunSummary, WeighsBeamAndStriker) {
   Case input = paper_case();
   expect_in(summary_of(input, sample_result()),
             "strike              0.201 kg (cylindrical nose of 10 mm, law foundation) at 15.9 m/s, "
-            "at the\n"
-            "                      middle of a free-free beam of 0.2261 kg");
+            "at the middle of a free-free beam of 0.2261 kg");
   input.scene.beam.length *= 1e3;
   input.scene.beam.width *= 1e3;
   input.scene.beam.thickness *= 1e3;

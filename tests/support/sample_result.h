@@ -41,6 +41,7 @@ inline Result sample_result() {
   result.outcome = {OutcomeKind::completed, 8e-3, "completed", {}};
   result.first_contact_yield = 1e-6 / 3.0;
   result.max_force = first.peak_force;
+  result.restitution = 0.20302;
   result.work.steps = 1234;
   result.work.wall_seconds = 0.25;
   return result;
