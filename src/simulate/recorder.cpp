@@ -371,7 +371,9 @@ void Recorder::add_row(double time, const State& y, Accounts& accounts) {
   HistoryRow row = make_row(time, y, accounts);
   if (in_contact_) follow_peak(row.time, row.indentation, accounts.beam());
   if (!(row.force >= 0.0)) {
-    check_push(time, row.force);
+    const StruckBeam& beam = accounts.beam();
+    const double slope = std::abs(beam.contact().slope(beam.indentation(y)));
+    check_push(time, row.force + slope * beam.displacement_rounding(y));
     row.force = 0.0;  // the law's own force there
   }
   keep(row, y, accounts);
