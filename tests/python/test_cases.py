@@ -13,7 +13,7 @@ from conftest import ELASTIC
 
 # A value that each type of key refuses.
 WRONG = {"number": "many", "count": 2.5, "flag": "yes", "text": 7, "choice": "no such choice",
-         "pair": ["no such choice", "neither"], "numbers": "half"}
+         "pair": ["no such choice", "neither"], "numbers": "half", "placed": "half"}
 
 
 @pytest.mark.parametrize("key", si.keys().values(), ids=lambda key: key.name)
@@ -34,7 +34,8 @@ def test_every_key_takes_its_value_and_refuses_others_by_name(key, elastic):
 @pytest.mark.parametrize("key", si.keys().values(), ids=lambda key: key.name)
 def test_messages_of_files_are_those_of_the_program(key, tmp_path, program):
     wrong = {"number": '"many"', "count": "2.5", "flag": '"yes"', "text": "7",
-             "choice": '"no such choice"', "pair": '["a", "b"]', "numbers": '"half"'}[key.type]
+             "choice": '"no such choice"', "pair": '["a", "b"]', "numbers": '"half"',
+             "placed": '"half"'}[key.type]
     path = tmp_path / "case.toml"
     lines = [line for line in ELASTIC.splitlines() if line]
     tables = {line.split(" ")[0] for line in lines}

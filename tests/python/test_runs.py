@@ -51,7 +51,10 @@ def test_tables_are_those_of_the_program_bit_for_bit(elastic, error_bars, tmp_pa
     result = si.run(elastic, error_bars=error_bars, out=tmp_path / "written")
     compare(result, tmp_path / "out")
     for file in TABLES.values():
-        assert (tmp_path / "written" / file).read_bytes() == (tmp_path / "out" / file).read_bytes()
+        written, out = tmp_path / "written" / file, tmp_path / "out" / file
+        assert written.exists() == out.exists()  # strikes.csv: of repeated strikes alone
+        if out.exists():
+            assert written.read_bytes() == out.read_bytes()
     compare(si.read_results(tmp_path / "out"), tmp_path / "out")
 
 

@@ -139,6 +139,7 @@ void expect_same_within(const Case& input, const Result& whole, const Result& pa
   std::printf("largest difference %.1e\n", found.largest);
 }
 
+// Both runs have the error that is stated, so that two of them lie apart by up to twice as much.
 void expect_within_stated_errors(const Result& whole, const Result& parts) {
   ASSERT_EQ(whole.sub_impacts.size(), parts.sub_impacts.size());
   double largest = 0.0;
@@ -146,9 +147,9 @@ void expect_within_stated_errors(const Result& whole, const Result& parts) {
     const SubImpact& a = whole.sub_impacts[i];
     const SubImpact& b = parts.sub_impacts[i];
     ASSERT_TRUE(a.start_error) << i;
-    EXPECT_LE(std::abs(a.start - b.start), *a.start_error) << "start " << i + 1;
+    EXPECT_LE(std::abs(a.start - b.start), 2.0 * *a.start_error) << "start " << i + 1;
     if (!a.end) continue;
-    EXPECT_LE(std::abs(*a.end - *b.end), *a.end_error) << "end " << i + 1;
+    EXPECT_LE(std::abs(*a.end - *b.end), 2.0 * *a.end_error) << "end " << i + 1;
     largest = std::max(largest, std::abs(*a.end - *b.end) / *a.end_error);
   }
   std::printf("largest difference %.2g of the stated error\n", largest);

@@ -171,12 +171,12 @@ struct Striker {
   double mass = 0.0;                  ///< m, kg
   std::optional<double> nose_radius;  ///< R, m
   double velocity = 0.0;              ///< v0, m/s, towards the beam
-  std::optional<double> drop_height;  ///< m: v0 is that of a fall from rest (Bodies)
-  bool fixed = false;                 ///< a stop: without mass and velocity
   double position = 0.5;              ///< struck point as a fraction of the length
   double gap = 0.0;                   ///< m, between nose and beam at t = 0
   /// By default that which the contact law is for: a cylinder for `foundation`, else a sphere.
   std::optional<NoseShape> nose = {};
+  std::optional<double> drop_height = {};  ///< m: v0 is that of a fall from rest (Bodies)
+  bool fixed = false;                      ///< a stop: without mass and velocity
 
   double first_touch() const { return gap > 0.0 ? gap / velocity : 0.0; }  ///< s
   /// m; infinite for a stop.
