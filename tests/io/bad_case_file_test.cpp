@@ -51,7 +51,8 @@ constexpr const char* spoilt_cases[][3] = {
     {"[beam]", "lengt = 1\n[beam]",
      R"(bad.toml:1:1: |unknown key "lengt"|outside all tables|title)"},
     {"[time]", "[tiem]",
-     "bad.toml:11:2: |unknown table [tiem]|[beam], [beam.damping], [beam.section], [striker]|did you mean [time]?"},
+     "bad.toml:11:2: |unknown table [tiem]|[beam], [beam.damping], [beam.section], [striker]|did "
+     "you mean [time]?"},
     {"mass = 0.201\n", "", "bad.toml:7:2: |striker.mass is missing|above 0 (kg)|under [striker]"},
     {"[time]\nend = 2e-5\n", "", "bad.toml: |table [time] is missing|at least: end"},
     {"length = 0.7112", R"(length = "0.7112")",
