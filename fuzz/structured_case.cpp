@@ -85,6 +85,11 @@ std::string any_value(const CaseKey& key, ByteSource& source) {
       const std::string first = number();
       return fmt::format("[{}, {}]", first, number());
     }
+    case KeyType::placed: {
+      const std::string position = number();
+      const char* quantity = key.name == "beam.springs" ? "stiffness" : "force";
+      return fmt::format("[{{ position = {}, {} = {} }}]", position, quantity, number());
+    }
   }
   return "0";
 }
