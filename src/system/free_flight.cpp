@@ -15,10 +15,6 @@ namespace subimpact {
 // with 1.7 or 0.4 times as many tries.
 constexpr int steps_per_horizon = 12;
 
-// Modes that together hold less than this share of the energy do not show in states within a
-// flight: a part of 1e-11 of displacements and velocities.
-constexpr double least_share_of_energy = 1e-22;
-
 FreeFlight::FreeFlight(std::unique_ptr<Integrator> other, const StruckBeam& beam, double max_step)
     : other_(std::move(other)),
       beam_(beam),
@@ -74,7 +70,7 @@ void FreeFlight::step() {
       std::swap(y0_, y1_);
       t0_ = t1_;
       t1_ += horizon;
-      closed_form(horizon, n_, y1_);
+      closed_form(horizon, y1_);
       flying_ = true;
       other_is_current_ = false;
       ++flights_;
@@ -95,7 +91,7 @@ void FreeFlight::step() {
 
 void FreeFlight::state_at(double t, State& y) {
   if (!flying_) return other_->state_at(t, y);
-  closed_form(t - t0_, n_moving_, y);
+  closed_form(t - t0_, y);
 }
 
 std::optional<std::pair<double, double>> FreeFlight::around_largest() const {
@@ -162,24 +158,12 @@ double FreeFlight::begin() {
   beam_.mesh().mass().multiply({velocities, n_}, force_);
   to_modes(force_, rates0_);
   rates0_[0] = velocities[n_];
-  const auto energy = [&](std::size_t k) {
-    const double wz = modes_.frequencies[k] * z0_[k + 1];
-    return wz * wz + rates0_[k + 1] * rates0_[k + 1];
-  };
-  double all = 0.0;
-  for (std::size_t k = 0; k < n_; ++k) all += energy(k);
-  double rest = 0.0;
-  n_moving_ = n_;
-  while (n_moving_ > 0 && modes_.frequencies[n_moving_ - 1] > 0.0 &&
-         (rest += energy(n_moving_ - 1)) <= least_share_of_energy * all) {
-    --n_moving_;
-  }
   return horizon_.from(z0_, rates0_, low_, high_, max_step_);
 }
 
-void FreeFlight::closed_form(double t, std::size_t n_modes, State& y) {
+void FreeFlight::closed_form(double t, State& y) {
   const auto omega = horizon_.frequencies();
-  for (std::size_t k = 0; k <= n_modes; ++k) {
+  for (std::size_t k = 0; k <= n_; ++k) {
     const double w = omega[k];
     const double c = std::cos(w * t);
     const double s = w > 0.0 ? std::sin(w * t) / w : t;
@@ -188,8 +172,8 @@ void FreeFlight::closed_form(double t, std::size_t n_modes, State& y) {
   }
   y.resize(2 * (n_ + 1));
   for (std::size_t i = 0; i < n_; ++i) {
-    y[i] = shape_[i] + dot(phi_row(i), z_.data() + 1, n_modes);
-    y[n_ + 1 + i] = dot(phi_row(i), rates_.data() + 1, n_modes);
+    y[i] = shape_[i] + dot(phi_row(i), z_.data() + 1, n_);
+    y[n_ + 1 + i] = dot(phi_row(i), rates_.data() + 1, n_);
   }
   y[n_] = z_[0];
   y.back() = rates_[0];

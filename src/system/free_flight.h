@@ -37,8 +37,8 @@ class FreeFlight final : public Integrator {
   void find_equilibrium();
   // Enters free flight at y1_; its event-free horizon, s.
   double begin();
-  // The state a time t after free flight began, of the `n_modes` slowest modes.
-  void closed_form(double t, std::size_t n_modes, State& y);
+  // The state a time t after free flight began.
+  void closed_form(double t, State& y);
 
   std::unique_ptr<Integrator> other_;
   const StruckBeam& beam_;
@@ -52,7 +52,6 @@ class FreeFlight final : public Integrator {
   double other_step_ = 0.0;        // its last step, s
   int steps_since_horizon_ = 0;    // its steps since a horizon was last computed
   long flights_ = 0;
-  std::size_t n_moving_ = 0;  // the slowest modes, without which hardly any energy is left
 
   std::vector<double> shape_;        // w_e
   std::vector<double> equilibrium_;  // Phi^T Mass w_e, as z0_
