@@ -35,7 +35,7 @@ Finished run_here(const TemporaryDirectory& directory, const Words& settings = {
 TEST(Run, WritesItsFilesAndPrintsTheTable) {
   const TemporaryDirectory directory;
   const Finished finished = run_here(directory);
-  EXPECT_EQ(finished.errors, "");  // no progress where nobody looks
+  EXPECT_EQ(finished.errors, "");  // progress is for terminals
   expect_in(unwrapped(finished.output), ": 20 us computed in ", "peak force", "zone 1", "(open)");
   const auto summary = summary_of(directory);
   EXPECT_EQ(summary.at("outcome").at("kind"), "completed");

@@ -123,7 +123,7 @@ struct Beam {
     return velocity + angular_velocity * length * (position - used_pivot());
   }
   CrossSection::Solid outer_solid() const;  ///< the section without its gaps
-  CrossSection::Solid gap() const;          ///< what is taken out of it; of no area in solid ones
+  CrossSection::Solid gap() const;          ///< taken out of the outer solid
   /// Of the section in the direction of the strike, m.
   double height() const { return outer_solid().height; }
   bool is_round() const { return outer_solid().is_round; }
