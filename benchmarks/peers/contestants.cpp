@@ -24,7 +24,7 @@ Case with(const Case& input, Method method, const std::string& table, double rto
   return changed;
 }
 
-Setting setting_of(std::string text, const Case& input) {
+Attempt attempt_of(std::string text, const Case& input) {
   return {.text = std::move(text), .run = [input] { return simulate(input); }};
 }
 
@@ -38,10 +38,10 @@ std::vector<double> tolerances(double from, double to, double factor) {
 
 bool is_elastic(const Case& input) { return input.model.section == SectionKind::elastic; }
 
-std::vector<Setting> by_tolerance(const Case& input, Method method, const std::string& table) {
-  std::vector<Setting> sweep;
+std::vector<Attempt> by_tolerance(const Case& input, Method method, const std::string& table) {
+  std::vector<Attempt> sweep;
   for (const double rtol : tolerances(1e-4, 1e-10, is_elastic(input) ? 0.316227766 : 0.1)) {
-    sweep.push_back(setting_of(fmt::format("rtol {:.0e}", rtol), with(input, method, table, rtol)));
+    sweep.push_back(attempt_of(fmt::format("rtol {:.0e}", rtol), with(input, method, table, rtol)));
   }
   return sweep;
 }
@@ -51,8 +51,8 @@ Contestant own(const Case& input, const char* name, Method method,
   Contestant contestant{.name = name, .ours = true, .sweeps = {}};
   for (const std::string& table : tables) {
     contestant.sweeps.push_back(by_tolerance(input, method, table));
-    for (Setting& setting : contestant.sweeps.back()) {
-      if (!table.empty()) setting.text = table + ", " + setting.text;
+    for (Attempt& attempt : contestant.sweeps.back()) {
+      if (!table.empty()) attempt.text = table + ", " + attempt.text;
     }
   }
   return contestant;
@@ -67,7 +67,7 @@ Contestant central_difference(const Case& input) {
     const double part = 0.9 * std::pow(0.6, i);
     changed.solver.step = part * critical;
     contestant.sweeps[0].push_back(
-        setting_of(fmt::format("step {:.3g} us", part * critical / us), changed));
+        attempt_of(fmt::format("step {:.3g} us", part * critical / us), changed));
   }
   return contestant;
 }
@@ -146,7 +146,7 @@ void add_plain_sundials(std::vector<Contestant>& list, const Case& input, const 
       changed.solver.reversals = way.reversals;
       changed.solver.max_step = longest;
       changed.study.vector_operations = VectorOperationsKind::library;
-      sweep.push_back(setting_of(text_of(rtol, longest), changed));
+      sweep.push_back(attempt_of(text_of(rtol, longest), changed));
     }
   }
 }
@@ -172,11 +172,11 @@ std::vector<Contestant> contestants(const Case& input, std::vector<std::string>&
   return list;
 }
 
-void judge(Setting& setting, const std::vector<SubImpact>& found,
+void judge(Attempt& attempt, const std::vector<SubImpact>& found,
            const std::vector<SubImpact>& reference) {
   const EventErrors errors = event_errors(found, reference);
-  setting.error = errors.overall();
-  setting.right = errors.all_correspond();
+  attempt.error = errors.overall();
+  attempt.right = errors.all_correspond();
 }
 
 Contestant read_contestant(const std::string& name, const std::string& file,
@@ -186,9 +186,9 @@ Contestant read_contestant(const std::string& name, const std::string& file,
   if (!in) throw std::runtime_error(file + ": cannot be read");
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
-    Setting setting;
+    Attempt attempt;
     std::size_t count = 0;
-    words >> setting.text >> setting.seconds >> count;
+    words >> attempt.text >> attempt.seconds >> count;
     std::vector<SubImpact> found(count);
     for (SubImpact& hit : found) {
       double end = 0.0;
@@ -196,8 +196,8 @@ Contestant read_contestant(const std::string& name, const std::string& file,
       if (end > 0.0) hit.end = end;
     }
     if (!words) throw std::runtime_error(file + ": a line is not of the form expected");
-    judge(setting, found, reference);
-    contestant.sweeps[0].push_back(setting);
+    judge(attempt, found, reference);
+    contestant.sweeps[0].push_back(attempt);
   }
   return contestant;
 }

@@ -10,7 +10,7 @@
 namespace subimpact::peers {
 
 /// One way to run the strike, and what came of it.
-struct Setting {
+struct Attempt {
   std::string text;             ///< "rtol 1e-07"
   std::function<Result()> run;  ///< none: run by another program
   double seconds = 0.0;         ///< processor time, least of all runs
@@ -21,8 +21,8 @@ struct Setting {
 struct Contestant {
   std::string name;
   bool ours = false;
-  /// Settings of one kind, loosest first. Which kind is best is part of the competition.
-  std::vector<std::vector<Setting>> sweeps;
+  /// Attempts of one kind, loosest first. Which kind is best is part of the competition.
+  std::vector<std::vector<Attempt>> sweeps;
 };
 
 /// All that this build has. `input` is the scene, up to the time to compare; names of libraries
@@ -34,7 +34,7 @@ Contestant read_contestant(const std::string& name, const std::string& file,
                            const std::vector<SubImpact>& reference);
 
 /// Judges sub-impacts against the reference.
-void judge(Setting& setting, const std::vector<SubImpact>& found,
+void judge(Attempt& attempt, const std::vector<SubImpact>& found,
            const std::vector<SubImpact>& reference);
 
 }  // namespace subimpact::peers

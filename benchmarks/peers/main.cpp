@@ -46,24 +46,24 @@ constexpr Section sections[] = {{SectionKind::elastic, "elastic"},
                                 {SectionKind::exact, "exact"},
                                 {SectionKind::layers, "layered"}};
 
-void run(Setting& setting, const std::vector<SubImpact>& reference) {
+void run(Attempt& attempt, const std::vector<SubImpact>& reference) {
   const double start = processor_seconds();
   Result result;
   try {
-    result = setting.run();
+    result = attempt.run();
   } catch (const InvalidCase& refused) {
     result.outcome.kind = OutcomeKind::solver_failed;
-    fmt::print(stderr, "{}: {}\n", setting.text, refused.what());
+    fmt::print(stderr, "{}: {}\n", attempt.text, refused.what());
   }
   const double seconds = processor_seconds() - start;
-  setting.seconds = setting.seconds > 0.0 ? std::min(setting.seconds, seconds) : seconds;
-  judge(setting, result.sub_impacts, reference);
-  setting.right = setting.right && result.outcome.completed();
-  if (!result.outcome.completed()) setting.error = std::numeric_limits<double>::infinity();
+  attempt.seconds = attempt.seconds > 0.0 ? std::min(attempt.seconds, seconds) : seconds;
+  judge(attempt, result.sub_impacts, reference);
+  attempt.right = attempt.right && result.outcome.completed();
+  if (!result.outcome.completed()) attempt.error = std::numeric_limits<double>::infinity();
 }
 
 void run_sweeps(Contestant& contestant, const std::vector<SubImpact>& reference, double enough) {
-  for (std::vector<Setting>& sweep : contestant.sweeps) {
+  for (std::vector<Attempt>& sweep : contestant.sweeps) {
     for (std::size_t i = 0; i < sweep.size(); ++i) {
       if (sweep[i].run) run(sweep[i], reference);
       const bool two_good = i > 0 && sweep[i].error <= enough && sweep[i - 1].error <= enough;
@@ -75,13 +75,13 @@ void run_sweeps(Contestant& contestant, const std::vector<SubImpact>& reference,
   }
 }
 
-// The cheapest setting that comes within an error, and whose tighter neighbour, if it was run, does
+// The cheapest attempt that comes within an error, and whose tighter neighbour, if it was run, does
 // too: what is good by chance does not count.
-Setting* cheapest(Contestant& contestant, double wanted) {
-  Setting* best = nullptr;
-  for (std::vector<Setting>& sweep : contestant.sweeps) {
+Attempt* cheapest(Contestant& contestant, double wanted) {
+  Attempt* best = nullptr;
+  for (std::vector<Attempt>& sweep : contestant.sweeps) {
     for (std::size_t i = 0; i < sweep.size(); ++i) {
-      const auto good = [&](const Setting& s) { return s.right && s.error <= wanted; };
+      const auto good = [&](const Attempt& s) { return s.right && s.error <= wanted; };
       if (!good(sweep[i]) || (i + 1 < sweep.size() && !good(sweep[i + 1]))) continue;
       if (best == nullptr || sweep[i].seconds < best->seconds) best = &sweep[i];
     }
@@ -98,9 +98,9 @@ std::string ratio_text(double ratio) {
 // The smallest error of any run that found all sub-impacts, for those that reach nothing.
 std::string best_text(const Contestant& contestant) {
   double best = HUGE_VAL;
-  for (const std::vector<Setting>& sweep : contestant.sweeps) {
-    for (const Setting& setting : sweep) {
-      if (setting.right) best = std::min(best, setting.error);
+  for (const std::vector<Attempt>& sweep : contestant.sweeps) {
+    for (const Attempt& attempt : sweep) {
+      if (attempt.right) best = std::min(best, attempt.error);
     }
   }
   return std::isfinite(best) ? fmt::format("not reached (best {:.0e} us)", us * best)
@@ -111,18 +111,18 @@ std::string best_text(const Contestant& contestant) {
 bool compare(const Section& section, std::vector<Contestant>& all,
              const std::vector<SubImpact>& reference) {
   // Side by side: every setting that wins for its contestant, in turn, several times.
-  std::vector<Setting*> chosen;
+  std::vector<Attempt*> chosen;
   for (Contestant& contestant : all) {
     for (const double wanted : wanted_errors) {
-      Setting* setting = cheapest(contestant, wanted);
-      if (setting != nullptr && setting->run &&
-          std::ranges::find(chosen, setting) == chosen.end()) {
-        chosen.push_back(setting);
+      Attempt* attempt = cheapest(contestant, wanted);
+      if (attempt != nullptr && attempt->run &&
+          std::ranges::find(chosen, attempt) == chosen.end()) {
+        chosen.push_back(attempt);
       }
     }
   }
   for (int round = 0; round < rounds; ++round) {
-    for (Setting* setting : chosen) run(*setting, reference);
+    for (Attempt* attempt : chosen) run(*attempt, reference);
   }
   fmt::print(
       "\n{}: seconds for the largest error of an event time, and ratios to the fastest of "
@@ -138,27 +138,27 @@ bool compare(const Section& section, std::vector<Contestant>& all,
   std::map<double, std::pair<double, std::string>> others;
   for (Contestant& contestant : all) {
     for (const double wanted : wanted_errors) {
-      const Setting* setting = cheapest(contestant, wanted);
-      if (setting == nullptr) continue;
+      const Attempt* attempt = cheapest(contestant, wanted);
+      if (attempt == nullptr) continue;
       if (contestant.ours) {
         double& least = ours.try_emplace(wanted, HUGE_VAL).first->second;
-        least = std::min(least, setting->seconds);
+        least = std::min(least, attempt->seconds);
       } else {
         auto& least = others.try_emplace(wanted, HUGE_VAL, "").first->second;
-        if (setting->seconds < least.first) least = {setting->seconds, contestant.name};
+        if (attempt->seconds < least.first) least = {attempt->seconds, contestant.name};
       }
     }
   }
   for (Contestant& contestant : all) {
     fmt::print("| {} |", contestant.name);
     for (const double wanted : wanted_errors) {
-      const Setting* setting = cheapest(contestant, wanted);
-      if (setting == nullptr) {
+      const Attempt* attempt = cheapest(contestant, wanted);
+      if (attempt == nullptr) {
         fmt::print(" {} | | |", best_text(contestant));
       } else {
-        fmt::print(" {} | {} | {} |", digits(setting->seconds),
-                   ours.contains(wanted) ? ratio_text(setting->seconds / ours[wanted]) : "",
-                   setting->text);
+        fmt::print(" {} | {} | {} |", digits(attempt->seconds),
+                   ours.contains(wanted) ? ratio_text(attempt->seconds / ours[wanted]) : "",
+                   attempt->text);
       }
     }
     fmt::print("\n");
@@ -181,16 +181,16 @@ bool compare(const Section& section, std::vector<Contestant>& all,
 }
 
 // The lower left of what a contestant has reached: its best error for the time.
-std::vector<const Setting*> front(const Contestant& contestant) {
-  std::vector<const Setting*> points;
-  for (const std::vector<Setting>& sweep : contestant.sweeps) {
-    for (const Setting& setting : sweep) {
-      if (setting.right && setting.error > 0.0) points.push_back(&setting);
+std::vector<const Attempt*> front(const Contestant& contestant) {
+  std::vector<const Attempt*> points;
+  for (const std::vector<Attempt>& sweep : contestant.sweeps) {
+    for (const Attempt& attempt : sweep) {
+      if (attempt.right && attempt.error > 0.0) points.push_back(&attempt);
     }
   }
-  std::ranges::sort(points, {}, &Setting::seconds);
+  std::ranges::sort(points, {}, &Attempt::seconds);
   double least = HUGE_VAL;
-  std::erase_if(points, [&](const Setting* s) {
+  std::erase_if(points, [&](const Attempt* s) {
     if (!(s->error < least)) return true;
     least = s->error;
     return false;
@@ -208,7 +208,7 @@ std::string panel(const Section& section, const std::vector<Contestant>& all) {
     if (points.empty()) continue;
     const std::string block = fmt::format("${}{}", section.name, number);
     data += block + " << EOD\n";
-    for (const Setting* s : points)
+    for (const Attempt* s : points)
       data += fmt::format("{:.4e} {:.4e}\n", us * s->error, s->seconds);
     data += "EOD\n";
     plots += fmt::format("{}{} using 1:2 with linespoints lw {} lt {} title '{}'",
