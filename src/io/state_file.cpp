@@ -19,31 +19,22 @@ namespace {
 constexpr int state_layout = 1;
 constexpr int deepest_state = 8;
 
+template <auto path>
+constexpr auto of_striker = [](auto& state) -> auto& {
+  return state.striker.*path;
+};
+
 const Record<RunState>& state_record() {
   static const Record<RunState> record = {
       {"time_s", "", &RunState::time, Form::from_zero},
-      {"striker_mass_kg", "", [](auto& s) -> auto& {return s.striker.mass;
-}
-, Form::above_zero
-}  // namespace
-, {"striker_velocity_m_per_s", "", [](auto& s) -> auto& {return s.striker.velocity;
-}  // namespace subimpact
-, Form::finite
-}
-, {"striker_gap_m", "", [](auto& s) -> auto& {return s.striker.gap;
-}
-, Form::from_zero
-}
-, {"striker_position", "", [](auto& s) -> auto& {return s.striker.position;
-}
-, Form::from_zero
-}
-, {"mesh", "", &RunState::mesh}, {"section", "", &RunState::section}, {
-  "contact_law", "", &RunState::contact_law
-}
-}
-;
-return record;
+      {"striker_mass_kg", "", of_striker<&Striker::mass>, Form::above_zero},
+      {"striker_velocity_m_per_s", "", of_striker<&Striker::velocity>, Form::finite},
+      {"striker_gap_m", "", of_striker<&Striker::gap>, Form::from_zero},
+      {"striker_position", "", of_striker<&Striker::position>, Form::from_zero},
+      {"mesh", "", &RunState::mesh},
+      {"section", "", &RunState::section},
+      {"contact_law", "", &RunState::contact_law}};
+  return record;
 }
 
 Json json_of(const RunState& state) {

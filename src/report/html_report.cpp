@@ -154,9 +154,9 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
          return {{"name", scalar.name}, {"value", scalar.value}, {"meaning", scalar.meaning}};
        })}};
   add_sub_impacts(page, result);
-  return whole_page(
-      "pages/report.html", page, chart_library(dygraphs),
-      {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/report.js"});
+  return whole_page("pages/report.html", page, chart_library(dygraphs),
+                    {"pages/data.js", "pages/axes.js", "pages/surroundings.js", "pages/motion.js",
+                     "pages/panels.js", "pages/report.js"});
 }
 
 WrittenReport write_html_report(const std::filesystem::path& directory,

@@ -240,6 +240,18 @@ PageData page_data(const Case& input, const Result& result, const Overlay* overl
       {"length", beam.length},
       {"thickness", beam.height()},
       {"ends", Json::array({name_of(beam.ends[0]), name_of(beam.ends[1])})},
+      {"held", !beam.is_unsupported() || input.scene.striker.fixed},
+      {"stop", input.scene.striker.fixed},
+      {"springs",
+       list_of(beam.springs,
+               [&](const Spring& spring) -> Json { return spring.position * beam.length; })},
+      {"bedding", beam.foundation > 0.0},
+      {"load", beam.load},
+      {"forces",
+       list_of(beam.forces,
+               [&](const PointForce& force) -> Json {
+                 return {{"position", force.position * beam.length}, {"table", force.table}};
+               })},
       {"struck_at", input.scene.striker.position * beam.length},
       {"nose_radius", input.scene.striker.nose_radius.value_or(0.0)},
       {"yield_moment", may_yield(input) ? Json(beam.yield_moment()) : Json(nullptr)},

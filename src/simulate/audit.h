@@ -66,7 +66,7 @@ class Audit {
     return copy;
   }
 
-  /// Relative to the initial energy, or to the largest that loads have made of it.
+  /// Relative to the initial energy; where loads do work, to the largest energy so far.
   double energy_error(const Energies& energies) const {
     return (energies.total() - initial_energy_) / energy_scale_;
   }

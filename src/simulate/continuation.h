@@ -18,7 +18,7 @@ void check_continuation(const Problem& problem, const Options& options,
 
 /// Puts the beam into the state that Problem::start describes. Throws InvalidCase.
 void begin_from(const RunState& start, RunParts& parts);
-/// The rest of it, where the run goes on.
+/// Its accounts and records, where the run continues the strike of that state.
 void read_records(const RunState& start, Audit& audit, Recorder& recorder);
 
 /// Of a run that has reached `time` (s) and y, before its records are closed.

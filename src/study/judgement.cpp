@@ -38,6 +38,7 @@ constexpr double steepest = 1.5;  // slope of a contact law over that of the sec
 constexpr std::size_t half_window = 3;
 // Near misses correspond if they are closer than this share of the contact or the flight.
 constexpr double near_share = 0.25;
+constexpr double rounding_of_times = 1e-14;  // relative
 constexpr double alike = 0.025;  // velocities at the end, over that of the strike
 
 // Whether runs show an error of the mesh.
@@ -110,7 +111,8 @@ class Judge {
     const double since_touch = here.time - run_.sub_impacts.front().start;
     const double of_ends =
         of_mesh(beside_) ? free_end_error(input_, run_.used.contact_time, since_touch) : 0.0;
-    return std::max(time_safety * of_runs_ * std::max(here.error, least), end_safety * of_ends);
+    return std::max({time_safety * of_runs_ * std::max(here.error, least), end_safety * of_ends,
+                     rounding_of_times * here.time});
   }
 
   // At least the median of those around, in which agreement by chance does not count. `least`: the

@@ -10,6 +10,7 @@
 
 #include "draws.h"
 #include "random_scenes/cost.h"
+#include "random_scenes/scene_keys.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/options.h"
 
@@ -26,6 +27,7 @@ Budget budget_of(Purpose purpose) {
     case Purpose::checks:
       return {0.4, 0.0};
     case Purpose::counts:
+    case Purpose::scene_keys:
       return {0.4, 0.8};
     case Purpose::slice:
       return {0.05, 0.0};
@@ -257,6 +259,7 @@ Drawn draw(const SceneId& id) {
       continue;
     }
     draw_output(random, input);
+    if (id.purpose == Purpose::scene_keys) draw_scene_keys(random, input);
     if (is_refused(input)) {
       ++drawn.refused;
       continue;

@@ -11,10 +11,16 @@ namespace subimpact::scenes {
 
 /// What a scene is for, which sets what it may cost.
 enum class Purpose {
-  checks,  ///< one run, at the drawn setting
-  counts,  ///< four runs, two of them at rtol 1e-10
-  slice    ///< one run of a test
+  checks,      ///< one run, at the drawn setting
+  counts,      ///< four runs, two of them at rtol 1e-10
+  scene_keys,  ///< likewise, with two or more of the keys of scenes (scene_keys.h)
+  slice        ///< one run of a test
 };
+
+constexpr const char* to_string(Purpose purpose) {
+  constexpr const char* names[] = {"checks", "counts", "keys", "slice"};
+  return names[static_cast<int>(purpose)];
+}
 
 struct SceneId {
   std::uint64_t seed = 1;

@@ -19,14 +19,15 @@ using namespace subimpact::scenes;
 struct Options {
   int scenes = 3000;
   int count_scenes = 500;
+  int key_scenes = 500;
   int first = 0;
   std::uint64_t seed = 1;
   int jobs = 2;
   double limit = 10.0;  // s
   bool slice = false;
   bool update = false;
-  bool counts = false;  // for --write
   std::optional<int> write;
+  Purpose of = Purpose::checks;  // the scene to write
   std::string out;
 };
 
@@ -56,6 +57,7 @@ std::vector<SceneId> scenes_of(const Options& options) {
   };
   add(options.scenes, options.slice ? Purpose::slice : Purpose::checks);
   add(options.count_scenes, Purpose::counts);
+  add(options.key_scenes, Purpose::scene_keys);
   return scenes;
 }
 
@@ -92,10 +94,7 @@ int report(const Options& options, const std::vector<Record>& records) {
 }
 
 int write_case(const Options& options) {
-  const Purpose purpose = options.slice    ? Purpose::slice
-                          : options.counts ? Purpose::counts
-                                           : Purpose::checks;
-  fmt::print("{}", case_text(draw({options.seed, *options.write, purpose}).input));
+  fmt::print("{}", case_text(draw({options.seed, *options.write, options.of}).input));
   return 0;
 }
 
@@ -107,6 +106,10 @@ int main(int argc, char** argv) {
   program.add_option("--scenes", options.scenes, "Scenes that are run once")->capture_default_str();
   program.add_option("--count-scenes", options.count_scenes, "Scenes whose counts are checked")
       ->capture_default_str();
+  program
+      .add_option("--key-scenes", options.key_scenes,
+                  "Scenes with gravity, stops, loads, springs, whose counts are checked")
+      ->capture_default_str();
   program.add_option("--first", options.first, "Number of the first scene")->capture_default_str();
   program.add_option("--seed", options.seed, "Seed")->capture_default_str();
   program.add_option("--jobs", options.jobs, "Processes")
@@ -117,7 +120,17 @@ int main(int argc, char** argv) {
   program.add_flag("--slice", options.slice, "Cheaper scenes, for the tests");
   program.add_flag("--update", options.update, "Write the outcome into validation/random_scenes/");
   program.add_option("--write", options.write, "Print this scene's case file and run nothing");
-  program.add_flag("--counts", options.counts, "With --write: of the scenes for counts");
+  const auto of_word = [](const std::string& word) {
+    for (const Purpose purpose : {Purpose::checks, Purpose::counts, Purpose::scene_keys}) {
+      if (word == to_string(purpose)) return purpose;
+    }
+    return Purpose::slice;
+  };
+  program
+      .add_option_function<std::string>(
+          "--of", [&](const std::string& word) { options.of = of_word(word); },
+          "With --write: of which scenes")
+      ->check(CLI::IsMember({"checks", "counts", "keys", "slice"}));
   program.footer("Exit status: 0 every check holds; 1 not so.");
   CLI11_PARSE(program, argc, argv);
   try {

@@ -20,14 +20,13 @@ const char* const methods[] = {
     "central-difference", "erk", "nystrom", "exponential", "dirk", "imex", "adams", "bdf"};
 const char* const bands[] = {"looser than 1e-4", "1e-4 to 1e-6", "1e-6 and tighter", "fixed steps"};
 
-bool is_count(const Record& r) { return r.id.purpose == Purpose::counts; }
+bool is_count(const Record& r) {
+  return r.id.purpose == Purpose::counts || r.id.purpose == Purpose::scene_keys;
+}
 
 std::string command(const Record& r) {
-  const char* purpose = is_count(r)                      ? " --counts"
-                        : r.id.purpose == Purpose::slice ? " --slice"
-                                                         : "";
-  return fmt::format("scripts/random-scenes --seed {} --write {}{}", r.id.seed, r.id.number,
-                     purpose);
+  return fmt::format("scripts/random-scenes --seed {} --write {} --of {}", r.id.seed, r.id.number,
+                     to_string(r.id.purpose));
 }
 
 std::set<std::string> outcomes_seen(const std::vector<Record>& records) {
@@ -98,11 +97,11 @@ std::string where_due(const std::vector<Record>& records) {
   return text;
 }
 
-std::string counts(const std::vector<Record>& records) {
+std::string counts(const std::vector<Record>& records, Purpose purpose) {
   int n = 0, compared = 0, wrong = 0, flagged = 0, flagged_right = 0;
   std::map<std::string, int> why_not;
   for (const Record& r : records) {
-    if (!is_count(r)) continue;
+    if (r.id.purpose != purpose) continue;
     ++n;
     compared += r.compared;
     wrong += r.wrong_count;
@@ -110,13 +109,15 @@ std::string counts(const std::vector<Record>& records) {
     flagged_right += r.compared && !r.wrong_count && r.flagged;
     if (!r.compared) ++why_not[r.why_not.empty() ? r.outcome : r.why_not];
   }
+  if (n == 0) return "";
   std::string text = fmt::format(
-      "{} scenes for counts; {} compared, {} wrong counts, {} of them flagged; {} right counts "
+      "{} scenes for counts{}; {} compared, {} wrong counts, {} of them flagged; {} right counts "
       "doubted.\n",
-      n, compared, wrong, flagged, flagged_right);
+      n, purpose == Purpose::scene_keys ? " with two or more of the keys of scenes" : "", compared,
+      wrong, flagged, flagged_right);
   for (const auto& [why, count] : why_not)
     text += fmt::format("- not compared: {} ({})\n", why, count);
-  return text;
+  return text + "\n";
 }
 
 std::string totals(const std::vector<Record>& records) {
@@ -171,7 +172,7 @@ std::string outcome_tables(const std::vector<Record>& records) {
   }
   std::string text = totals(records) + "\n";
   if (!checks.empty()) text += by_method_and_band(checks) + "\n" + where_due(checks) + "\n";
-  if (checks.size() < records.size()) text += counts(records) + "\n";
+  text += counts(records, Purpose::counts) + counts(records, Purpose::scene_keys);
   return text + by_check(records);
 }
 
@@ -199,7 +200,7 @@ std::string csv(const std::vector<Record>& records) {
       "refused,too_costly,guess_s,wall_s,setting\n";
   for (const Record& r : records) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{:.3g},{:.3g},\"{}\"\n",
-                        is_count(r) ? "counts" : "checks", r.id.number, r.method, r.band, r.outcome,
+                        to_string(r.id.purpose), r.id.number, r.method, r.band, r.outcome,
                         r.n_sub_impacts, r.compared, r.wrong_count, r.flagged, r.failures.size(),
                         r.refused, r.too_costly, r.guess, r.seconds, r.setting);
   }

@@ -105,8 +105,8 @@ void add_spring(Outcome& outcome) {
   const double v1 = std::sqrt(v * v - slow * slow * gap * gap);
   const double lasts = 2.0 / fast * std::atan(v1 / (fast * gap * spring / (k + spring)));
   for (const std::string& method : methods) {
-    const Result result = simulate(
-        case_of("scenes", {fmt::format("striker.gap={}", gap), "solver.method=" + method}));
+    const Result result = simulate(case_of(
+        "scenes", {fmt::format("striker.gap={}", gap), "time.end=0.6", "solver.method=" + method}));
     const auto add = [&](const char* what, double expected, double ours) {
       outcome.rows.push_back({fmt::format("on a spring against a stop, {}: {}, s", method, what),
                               expected, ours, Bound::relative, 1e-9});

@@ -24,7 +24,7 @@ struct PlacedValues {
   std::string quantity;  ///< "stiffness", "force"
   struct Entry {
     double position = 0.0;
-    std::vector<std::pair<double, double>> table;  ///< one pair: a number, the second of it
+    std::vector<std::pair<double, double>> table;  ///< a plain number is one pair (0, number)
     bool operator==(const Entry&) const = default;
   };
   std::vector<Entry> entries;

@@ -5,7 +5,7 @@ class Motion {
   // Displacements are drawn `exaggeration` times as large as lengths along the beam.
   constructor(strike, shapeCanvas, momentCanvas) {
     Object.assign(this, {strike, shapeCanvas, momentCanvas});
-    this.follows = strike.ends.every((end) => end === 'free');
+    this.follows = !strike.held;
     this.struck = strike.struck_at;
     this.largestPlastic = strike.shapes.plastic.reduce((most, k) => Math.max(most, Math.abs(k)), 0);
     this.largestMoment = strike.shapes.moment.reduce((most, m) => Math.max(most, Math.abs(m)), 0);
@@ -58,6 +58,8 @@ class Motion {
       this.drawPlastic(axes, points, shape, thick);
       if (strike.hasHistory) this.drawStriker(axes, time, origin, thick);
       this.drawSupports(axes, points, thick);
+      drawGround(axes, strike, points, thick);
+      drawLoads(axes, strike, points, thick, time);
     });
   }
 
@@ -92,9 +94,10 @@ class Motion {
     draw.fillStyle = colour(touches ? 'striker' : 'striker-apart');
     draw.strokeStyle = colour('text');
     draw.lineWidth = 1;
+    const back = strike.stop ? axes.top : nose - 46;  // a stop reaches out of the picture
     draw.beginPath();
-    draw.moveTo(x - radius, nose - 46);
-    draw.lineTo(x + radius, nose - 46);
+    draw.moveTo(x - radius, back);
+    draw.lineTo(x + radius, back);
     draw.lineTo(x + radius, nose - radius);
     draw.arc(x, nose - radius, radius, 0, Math.PI);
     draw.closePath();
@@ -106,7 +109,7 @@ class Motion {
   drawStrikerFar(axes, x, above, time) {
     const distance = Math.abs(1e3 * (this.strike.at('w_c_m', time) - this.strike.at('w_m_m', time)));
     const y = above ? axes.top + 12 : axes.bottom - 12;
-    axes.text(`${above ? '↑' : '↓'} striker, ${printed(distance, 3)} mm from the beam`, x + 8, y);
+    axes.text(`${above ? '↑' : '↓'} ${this.strike.stop ? 'stop' : 'striker'}, ${printed(distance, 3)} mm from the beam`, x + 8, y);
   }
 
   drawSupports(axes, points, thick) {

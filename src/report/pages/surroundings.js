@@ -1,0 +1,52 @@
+'use strict';
+// What acts on the beam besides the striker: springs and bedding from the ground, loads as arrows.
+
+// The y of the beam's axis on the canvas, between the points that are drawn.
+function heightAt(axes, points, x) {
+  const at = Math.max(1, points.findIndex((point) => point[0] >= x));
+  const [[x0, y0], [x1, y1]] = [points[at - 1], points[at]];
+  return y0 + (y1 - y0) * Math.min(1, Math.max(0, (x - x0) / (x1 - x0)));
+}
+
+function drawGround(axes, strike, points, thick) {
+  if (strike.springs.length === 0 && !strike.bedding) return;
+  const ground = axes.bottom - 6;
+  axes.line([[axes.left, ground], [axes.right, ground]], {colour: colour('soft'), width: 3});
+  const spring = (x, wide) => {
+    const top = heightAt(axes, points, x) + thick / 2;
+    const zigzag = Array.from({length: 9}, (_, i) => [x + (i % 2 ? wide : -wide), top + (ground - top) * (i + 0.5) / 9]);
+    axes.line([[x, top], ...zigzag, [x, ground]], {colour: colour('soft'), width: 1.5});
+  };
+  for (const position of strike.springs) spring(axes.toX(position), 6);
+  if (!strike.bedding) return;
+  for (let i = 0; i < 24; ++i) spring(axes.left + (i + 0.5) / 24 * (axes.right - axes.left), 2);
+}
+
+// The force of a table [[t, F], ..] at a time: linear between its entries, constant outside.
+function forceAt(table, time) {
+  const after = table.findIndex(([t]) => t > time);
+  if (after < 0) return table[table.length - 1][1];
+  if (after === 0) return table[0][1];
+  const [[t0, f0], [t1, f1]] = [table[after - 1], table[after]];
+  return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
+}
+
+// Arrows that end at the beam, on the side from which a force pushes, as long as it is strong.
+function drawLoads(axes, strike, points, thick, time) {
+  const arrow = (x, share) => {
+    if (Math.abs(share) < 0.02) return;
+    const way = Math.sign(share), tip = heightAt(axes, points, x) - way * thick / 2;
+    const tail = tip - way * (10 + 40 * Math.abs(share));
+    const style = {colour: colour('line3'), width: 2};
+    axes.line([[x, tail], [x, tip]], style);
+    axes.line([[x - 4, tip - 8 * way], [x, tip], [x + 4, tip - 8 * way]], style);
+  };
+  for (const {position, table} of strike.forces) {
+    const largest = table.reduce((most, [, force]) => Math.max(most, Math.abs(force)), 0);
+    arrow(axes.toX(position), forceAt(table, time) / largest);
+  }
+  if (strike.load === 0) return;
+  for (let i = 0; i < 16; ++i) {
+    arrow(axes.left + (i + 0.5) / 16 * (axes.right - axes.left), 0.25 * Math.sign(strike.load));
+  }
+}
