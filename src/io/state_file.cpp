@@ -27,8 +27,9 @@ constexpr auto of_striker = [](auto& state) -> auto& {
 const Record<RunState>& state_record() {
   static const Record<RunState> record = {
       {"time_s", "", &RunState::time, Form::from_zero},
-      {"striker_mass_kg", "", of_striker<&Striker::mass>, Form::above_zero},
+      {"striker_mass_kg", "", of_striker<&Striker::mass>, Form::from_zero},
       {"striker_velocity_m_per_s", "", of_striker<&Striker::velocity>, Form::finite},
+      {"striker_drop_height_m", "", of_striker<&Striker::drop_height>, Form::above_zero},
       {"striker_gap_m", "", of_striker<&Striker::gap>, Form::from_zero},
       {"striker_position", "", of_striker<&Striker::position>, Form::from_zero},
       {"mesh", "", &RunState::mesh},

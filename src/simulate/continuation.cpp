@@ -61,7 +61,8 @@ void Recorder::exchange(Snapshot& snapshot, double time) {
   snapshot(result_.sub_impacts, result_.transitions, result_.near_misses,
            result_.first_section_yield, result_.first_contact_yield, result_.largest_rotation,
            result_.largest_displacement, result_.first_touch, result_.parting, in_contact_,
-           velocity_at_start_, largest_force_, steps_in_contact_, near_misses_, envelope);
+           velocity_at_start_, beam_impulse_at_start_, largest_force_, steps_in_contact_,
+           near_misses_, envelope);
   snapshot.require(steps_in_contact_.size() == result_.sub_impacts.size() &&
                    (!in_contact_ || !steps_in_contact_.empty()));
   if (!snapshot.reads()) return;
@@ -80,20 +81,6 @@ void check_continuation(const Problem& problem, const Options& options,
                         const ResolvedSettings& used) {
   if (!problem.start) return;
   const RunState& start = *problem.start;
-  const Beam& beam = problem.beam;
-  const std::pair<const char*, bool> others[] = {
-      {"scene.gravity", problem.gravity != 0.0},
-      {"beam.load", beam.load != 0.0},
-      {"beam.forces", !beam.forces.empty()},
-      {"beam.velocity", beam.velocity != 0.0},
-      {"striker.fixed", problem.striker.fixed},
-      {"beam.angular_velocity", beam.angular_velocity != 0.0}};
-  for (const auto& [key, is_given] : others) {
-    if (is_given)
-      refuse(key,
-             "is given, but runs with loads, stops or moving beams do not go on; "
-             "leave it out, or run to the later time at once");
-  }
   check_same("model.mesh", used.mesh.substr(0, used.mesh.find(modal_description)), start.mesh);
   check_same("model.section", used.section, start.section);
   check_same("contact.law", used.contact_law, start.contact_law);
@@ -108,6 +95,20 @@ void check_continuation(const Problem& problem, const Options& options,
            fmt::format("is {:.6g} s, but the run to go on from ended at {:.6g} s; allowed: later "
                        "times; or set strike.rest for another strike",
                        options.end_time, start.time));
+  }
+  const Beam& beam = problem.beam;
+  const std::pair<const char*, bool> others[] = {
+      {"scene.gravity", problem.gravity != 0.0},
+      {"beam.load", beam.load != 0.0},
+      {"beam.forces", !beam.forces.empty()},
+      {"beam.velocity", beam.velocity != 0.0},
+      {"beam.angular_velocity", beam.angular_velocity != 0.0},
+      {"striker.fixed", problem.striker.fixed}};
+  for (const auto& [key, is_given] : others) {
+    if (!is_given) continue;
+    refuse(key,
+           "is given, but only a beam without loads, stop and motion of its own is struck again; "
+           "leave it out, or go on with the same strike to a later time.end");
   }
   if (problem.striker.gap > 0.0 && !problem.at_rest.value_or(false)) {
     refuse("striker.gap",

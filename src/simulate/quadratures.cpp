@@ -156,19 +156,19 @@ Losses LossQuadrature::halved(const Node& a, const Node& b, const ObservedStep& 
                               StruckBeam& beam, int depth) {
   const Losses whole = between(a, b, true, beam);
   const Losses rough = between(a, b, false, beam);
-  if (depth == most_halvings_of_loss ||
-      !(needs_halving(whole.contact, rough.contact, tolerance_) ||
-        needs_halving(whole.beam, rough.beam, tolerance_) ||
-        needs_halving(whole.of_change, rough.of_change, tolerance_))) {
-    return whole;
-  }
+  if (depth == most_halvings_of_loss) return whole;
+  const bool is_rough = needs_halving(whole.contact, rough.contact, tolerance_) ||
+                        needs_halving(whole.beam, rough.beam, tolerance_) ||
+                        needs_halving(whole.of_change, rough.of_change, tolerance_);
+  if (!is_rough && !beam.loads().varies()) return whole;
   Node middle{0.5 * (a.time + b.time), {}, {}};
   step.state_at(middle.time, middle.y);
   read_acceleration(middle, beam);
-  const Losses first = halved(a, middle, step, beam, depth + 1);
-  const Losses second = halved(middle, b, step, beam, depth + 1);
-  return {first.contact + second.contact, first.beam + second.beam,
-          first.of_change + second.of_change};
+  if (!is_rough) {  // in a long flight the beam may swing more often than its ends show
+    const Losses finer = between(a, middle, true, beam) + between(middle, b, true, beam);
+    if (std::abs(finer.of_change - whole.of_change) <= tolerance_) return finer;
+  }
+  return halved(a, middle, step, beam, depth + 1) + halved(middle, b, step, beam, depth + 1);
 }
 
 Losses LossQuadrature::over(const ObservedStep& step, double t, const State& y, StruckBeam& beam) {

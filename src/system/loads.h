@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "numerics/snapshot.h"
 #include "subimpact/model/beam_mesh.h"
 #include "subimpact/model/scene.h"
 
@@ -53,6 +54,9 @@ class Loads {
   Resultant resultant(double t) const;
   /// Integral of the force from 0 to t, N s; t within the piece in force.
   double impulse(double t) const;
+
+  /// The piece in force and the impulse before it.
+  void exchange(Snapshot& snapshot);
 
  private:
   struct Point {

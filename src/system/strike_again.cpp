@@ -60,7 +60,8 @@ void StruckBeam::exchange(Snapshot& snapshot, State& y) {
   snapshot.begin("contact");
   snapshot(contact_);
   snapshot.begin("losses");
-  snapshot(losses_.contact, losses_.beam, spent_.bending, spent_.contact);
+  snapshot(losses_.contact, losses_.beam, losses_.of_change, spent_.bending, spent_.contact,
+           potential_before_, loads_);
   snapshot.begin("sections");
   mixed_ ? snapshot(*mixed_) : snapshot(sections_);
   if (!snapshot.reads()) return;

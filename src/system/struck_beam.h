@@ -39,6 +39,10 @@ struct Losses {
   double contact = 0.0;
   double beam = 0.0;
   double of_change = 0.0;
+
+  Losses operator+(const Losses& more) const {
+    return {contact + more.contact, beam + more.beam, of_change + more.of_change};
+  }
 };
 
 /// Curvatures (1/m) and their rates (1/(m s)) of all sections, one entry per section.
@@ -189,11 +193,7 @@ class StruckBeam final : public MechanicalSystem {
   /// Advanced by the run as it goes (LossQuadrature); zero without damping.
   const Losses& losses() const { return losses_; }
   void set_losses(const Losses& losses) { losses_ = losses; }
-  void add_losses(const Losses& more) {
-    losses_.contact += more.contact;
-    losses_.beam += more.beam;
-    losses_.of_change += more.of_change;
-  }
+  void add_losses(const Losses& more) { losses_ = losses_ + more; }
   /// Rounding of the indentation at y, m.
   double displacement_rounding(std::span<const double> y) const;
   void read_motion(const State& y, SectionMotion& motion) const;

@@ -23,7 +23,7 @@ class HostileTexts(PageTestCase):
         self.assertEqual(self.js("return document.querySelector('h1').textContent"), self.TITLE)
         self.assertEqual(self.driver.title, " ".join(self.TITLE.split()))
         self.assertIsNone(self.js("return window.hacked"))
-        self.assertEqual(self.js("return document.scripts.length"), 7)
+        self.assertEqual(self.js("return document.scripts.length"), 8)
 
     def test_names_of_directories_appear_as_text_in_comparisons(self):
         name = "a\"b<i>`c` 'd'"
@@ -72,7 +72,7 @@ class HostileTexts(PageTestCase):
         self.program("report", "changed")
         browser.open_page(self.driver, directory / "report.html")
         self.assertIsNone(self.js("return window.hacked"))
-        self.assertEqual(self.js("return document.scripts.length"), 7)
+        self.assertEqual(self.js("return document.scripts.length"), 8)
         self.assertGreaterEqual(self.js("return document.body.textContent").count("window.hacked = 1"), 8)
 
     def test_names_of_directories_appear_as_text_in_messages_and_pages(self):

@@ -74,7 +74,8 @@ TEST(RigidBodies, ComeOutTheSameByEveryMethod) {
 // Thornton's closed form, from just above the yield velocity to a thousand times it.
 TEST(RigidBodies, WithASphereThatYieldsHaveThorntonsRestitution) {
   const double most_relative = 1e-9;
-  for (const Method method : {Method::erk, Method::nystrom, Method::exponential, Method::adams}) {
+  for (const Method method : {Method::erk, Method::nystrom, Method::exponential, Method::adams,
+                              Method::dirk, Method::imex, Method::bdf}) {
     for (const double ratio : {0.5, 1.01, 1.5, 4.0, 30.0, 1000.0}) {
       Case input = rigid_case(ContactKind::sphere, 1.0);
       input.scene.striker.nose_radius = 0.01;
