@@ -28,11 +28,16 @@ bool is_number_of_scene(const CaseKey& key) {
 
 std::optional<std::string> why_not_shifted(const Case& input, const CaseKey& key) {
   const bool is_of_mesh = key.type == KeyType::number && key.table() == "model";
-  if (!is_number_of_scene(key) && !is_of_mesh) {
+  const bool is_placed = key.type == KeyType::placed;
+  if (!is_number_of_scene(key) && !is_of_mesh && !is_placed) {
     return fmt::format("is not a number of the scene or of its mesh; allowed here: {}",
                        fmt::join(shifted_keys(input), ", "));
   }
   if (!key.get(input)) return "is not given, so that it has no value to vary; give it in the case";
+  if (is_placed) {
+    if (!std::get<PlacedValues>(*key.get(input)).entries.empty()) return std::nullopt;
+    return "is empty, so that it has no values to vary; give one";
+  }
   const double x = number_of(input, key);
   const std::string value = fmt::format("is {:g}, ", x);
   if (x == 0.0 || !std::isfinite(x)) {
@@ -58,7 +63,8 @@ std::vector<std::string> shifted_keys(const Case& input) {
   std::vector<std::string> names;
   for (const CaseKey& key : case_keys()) {
     const bool is_second_name = key.name == "contact.beam_poisson" && input.scene.beam.poisson;
-    if (!is_number_of_scene(key) || is_second_name) continue;
+    const bool is_of_scene = is_number_of_scene(key) || key.type == KeyType::placed;
+    if (!is_of_scene || is_second_name) continue;
     if (!why_not_shifted(input, key)) names.push_back(key.name);
   }
   return names;
@@ -66,7 +72,15 @@ std::vector<std::string> shifted_keys(const Case& input) {
 
 Case shifted(const Case& input, const CaseKey& key, double shift) {
   Case other = input;
-  key.set(other, number_of(input, key) * std::exp(shift));
+  KeyValue value = *key.get(input);
+  if (auto* placed = std::get_if<PlacedValues>(&value)) {
+    for (PlacedValues::Entry& entry : placed->entries) {
+      for (auto& [time, number] : entry.table) number *= std::exp(shift);
+    }
+  } else {
+    std::get<double>(value) *= std::exp(shift);
+  }
+  key.set(other, value);
   if (key.name == "beam.poisson" && input.scene.contact.beam_poisson) {
     other.scene.contact.beam_poisson = other.scene.beam.poisson;
   }

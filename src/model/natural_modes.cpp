@@ -198,7 +198,7 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
     for (std::size_t i = 0; i < kappa.size(); ++i) {
       twice_energy += mesh.section_weights()[i] * bending_stiffness * kappa[i] * kappa[i];
     }
-    modes.frequencies[k] = std::sqrt(twice_energy);
+    modes.frequencies[k] = std::sqrt(std::max(twice_energy, 0.0));  // rounding
   }
   const double rigid = rigid_below(modes.frequencies);
   for (double& frequency : modes.frequencies) {

@@ -181,9 +181,12 @@ class Judge {
     return doubt_by_near_miss(NearMissKind::closing, i, 1.0);
   }
 
-  // Of the closest approach after the last sub-impact, m.
+  // Of the closest approach after the last sub-impact, or of a run without any, m.
   double approach_error() const {
     const auto [time, gap, error] = *run_.closest_approach;
+    if (all_.empty()) {
+      return margin_error({time, gap, NearMissKind::closing}, run_.outcome.time, unknown);
+    }
     const std::size_t last = all_.size() - 1;
     const double length = flight_end(last) - *all_[last].end;
     return margin_error({time, gap, NearMissKind::closing}, length, delta(2 * last + 1));

@@ -104,6 +104,18 @@ TEST_P(ASceneByAMethod, LetsGravityOnTwoFreeBodiesDropOutOfTheirContact) {
   EXPECT_TRUE(result.no_more_contact);
 }
 
+TEST(AScene, OfARigidBeamOnOneSpringHasAFrequencyAndAModeWithout) {
+  for (int i = 0; i <= 40; ++i) {
+    Case input = rigid_case();
+    input.scene.beam.springs = {{i / 40.0, 4043.34}};
+    input.scene.striker.position = 1.0;
+    const auto modes = problem_of(input).mesh->natural_modes(1.0);
+    ASSERT_EQ(modes.size(), 2u);
+    EXPECT_EQ(modes.frequencies[0], 0.0) << i;
+    EXPECT_GT(modes.frequencies[1], 0.0) << i;
+  }
+}
+
 TEST_P(ASceneByAMethod, ThrowsABeamOnASpringAgainstAStop) {
   Case input = with_method(rigid_case());
   const double spring = 4e4, v = 2.0, gap = 3e-3, k = 2e6;

@@ -153,6 +153,15 @@ TEST(AJudgement, StatesTheErrorOfTheClosestApproach) {
   EXPECT_TRUE(judged(run, other).closest_approach->error.has_value());
 }
 
+TEST(AJudgement, StatesTheErrorOfTheClosestApproachOfBodiesThatNeverTouch) {
+  Result run = contacts(0), other = contacts(0);
+  run.closest_approach = {500.0 * us, 20.0 * um, {}};
+  other.closest_approach = {501.0 * us, 21.0 * um, {}};
+  EXPECT_NEAR(*judged(run, other).closest_approach->error, 2.5 * um, 1e-12);
+  other.closest_approach.reset();
+  EXPECT_FALSE(std::isfinite(*judged(run, other).closest_approach->error));
+}
+
 TEST(AJudgement, OfAGivenMeshLeavesTheMeshToTheTotalsAndSaysWhatItChanges) {
   Result other = contacts(3, 20.0 * us);
   other.sub_impacts[0].end = 80.0 * us;

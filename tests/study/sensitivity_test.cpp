@@ -114,6 +114,25 @@ double largest_defect(const Sensitivity& study, double until) {
   return largest;
 }
 
+// Touch at t = asin(x)/w, x = w gap/v, with w^2 of spring and mass.
+TEST(Sensitivity, OfABodyOnASpringThrownAgainstAStopIsThatOfTheClosedForm) {
+  Case input = rigid_case(ContactKind::linear, 0.0, 8e-3);
+  const double v = 2.0, gap = 3e-3, spring = 4e4;
+  input.scene.striker = {};
+  input.scene.striker.fixed = true;
+  input.scene.striker.gap = gap;
+  input.scene.beam.velocity = -v;
+  input.scene.beam.springs = {{0.5, spring}};
+  const Sensitivity study = study_of(input);
+  const double w = std::sqrt(spring / input.scene.beam.mass());
+  const double by_gap = gap / v / std::sqrt(1.0 - std::pow(w * gap / v, 2));
+  const double touch = std::asin(w * gap / v) / w;
+  const EventQuantity start = EventQuantity::start;
+  EXPECT_NEAR(derivative(study, start, "striker.gap"), by_gap, 1e-6 * touch);
+  EXPECT_NEAR(derivative(study, start, "beam.velocity"), -by_gap, 1e-6 * touch);
+  EXPECT_NEAR(derivative(study, start, "beam.springs"), 0.5 * (by_gap - touch), 1e-6 * touch);
+}
+
 TEST(Sensitivity, HoldsTheIdentitiesOfTimeMassAndLength) {
   Case elastic = elastic_case(1e-3);
   elastic.model.segments = 101;
