@@ -39,6 +39,7 @@ constexpr std::size_t half_window = 3;
 // Near misses correspond if they are closer than this share of the contact or the flight.
 constexpr double near_share = 0.25;
 constexpr double rounding_of_times = 1e-14;  // relative
+constexpr double loosest_rtol = 1e-2;
 constexpr double alike = 0.025;  // velocities at the end, over that of the strike
 
 // Whether runs show an error of the mesh.
@@ -462,18 +463,30 @@ ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
   return found;
 }
 
-// Sub-impacts that the mesh does not show, whatever runs agree on.
-void doubt_unresolved(const Case& input, Result& run, ErrorEstimate& estimate) {
-  const std::string of_all = mesh_doubt(input, run.used);
+// Why the steps do not show sub-impacts: runs so loose share what they miss.
+std::string tolerance_doubt(const SolverOptions& solver) {
+  const bool has_tolerance = !solver.step && solver.method != Method::central_difference;
+  if (!has_tolerance || solver.rtol <= loosest_rtol) return {};
+  return fmt::format("solver.rtol = {:.2g} is too loose for runs to show each other's errors",
+                     solver.rtol);
+}
+
+// Sub-impacts that mesh or steps do not show, whatever runs agree on. `about_mesh`: runs beside
+// have other meshes.
+void doubt_unresolved(const Case& input, bool about_mesh, Result& run, ErrorEstimate& estimate) {
+  const std::string of_steps = tolerance_doubt(input.solver);
+  const std::string of_mesh = about_mesh ? mesh_doubt(input, run.used) : "";
   for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
     SubImpact& s = run.sub_impacts[i];
-    const std::string doubt = of_all.empty() ? unresolved_contact(input, run, i) : of_all;
+    std::string doubt = of_steps.empty() ? of_mesh : of_steps;
+    if (doubt.empty() && about_mesh) doubt = unresolved_contact(input, run, i);
     if (doubt.empty()) continue;
     s.certain = false;
     s.doubt = doubt;
     s.probability = std::min(*s.probability, 0.5);
     for (ErrorEstimate::Part& part : estimate.parts) {
-      if (!part.name.starts_with("mesh") || part.first_unresolved.value_or(i + 1) <= i) continue;
+      const bool is_meant = part.name.starts_with(of_steps.empty() ? "mesh" : "time");
+      if (!is_meant || part.first_unresolved.value_or(i + 1) <= i) continue;
       part.first_unresolved = i;
       part.reason = doubt;
     }
@@ -541,7 +554,7 @@ void judge(const Case& input, Result& run, std::span<const RunBeside> beside) {
       if (s.*error && !std::isfinite(*(s.*error))) (s.*error).reset();
     }
   }
-  if (of_mesh(beside)) doubt_unresolved(input, run, estimate);
+  doubt_unresolved(input, of_mesh(beside), run, estimate);
   run.contact_over = is_over(input, run, beside);
   find_first_unresolved(run, estimate);
   set_largest_errors(run, estimate);

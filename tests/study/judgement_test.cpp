@@ -162,6 +162,19 @@ TEST(AJudgement, StatesTheErrorOfTheClosestApproachOfBodiesThatNeverTouch) {
   EXPECT_FALSE(std::isfinite(*judged(run, other).closest_approach->error));
 }
 
+TEST(AJudgement, CallsNothingCertainAtATolerancePercentsWide) {
+  Case input;
+  input.scene.striker.velocity = 1.0;
+  input.solver.method = Method::nystrom;
+  for (const double rtol : {5e-3, 2e-2}) {
+    input.solver.rtol = rtol;
+    Result run = contacts(3);
+    judge(input, run, std::vector<RunBeside>{{{input, "time", "another", 1.0}, contacts(3)}});
+    EXPECT_EQ(run.n_certain(), rtol < 1e-2 ? 3u : 0u);
+    EXPECT_EQ(run.error_estimate->first_unresolved.has_value(), rtol > 1e-2);
+  }
+}
+
 TEST(AJudgement, OfAGivenMeshLeavesTheMeshToTheTotalsAndSaysWhatItChanges) {
   Result other = contacts(3, 20.0 * us);
   other.sub_impacts[0].end = 80.0 * us;
