@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "numerics/lanes.h"
+
 namespace subimpact {
 namespace {
 
@@ -14,6 +16,8 @@ void keep_context_message(int, const char*, const char*, const char* text, SUNEr
   *static_cast<std::string*>(message) = text ? text : "";
 }
 #endif
+
+constexpr double roundings = 100.0;  // of a number, that a step may be off by
 
 // A value without a root.
 constexpr double negative = -1.0;
@@ -178,14 +182,20 @@ int SolverFrame::rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
   });
 }
 
-// Weights 1/(rtol * scale) of positions and velocities: evaluated at every step, but constant.
-int SolverFrame::error_weights(N_Vector, N_Vector weights, void* frame) {
+// Weights 1/(rtol * scale) of positions and velocities, evaluated at every step; lower where
+// rounding of what is far from zero (a beam that has moved away) leaves no more.
+int SolverFrame::error_weights(N_Vector y, N_Vector weights, void* frame) {
   const SolverFrame& self = of(frame);
-  const auto out = entries(weights);
-  if (out.front() == self.position_weight_ && out.back() == self.velocity_weight_) return 0;
-  const auto middle = out.begin() + static_cast<std::ptrdiff_t>(self.n_positions_);
-  std::fill(out.begin(), middle, self.position_weight_);
-  std::fill(middle, out.end(), self.velocity_weight_);
+  const auto fill = [&](std::span<const double> values, std::span<double> out, double weight) {
+    const std::size_t n = values.size();
+    const double rms = std::sqrt(dot(values.data(), values.data(), n) / static_cast<double>(n));
+    weight = std::min(weight, 1.0 / (roundings * std::numeric_limits<double>::epsilon() * rms));
+    if (out.front() != weight) std::ranges::fill(out, weight);
+  };
+  const std::size_t n = self.n_positions_;
+  const auto at = entries(y), out = entries(weights);
+  fill(at.first(n), out.first(n), self.position_weight_);
+  fill(at.subspan(n), out.subspan(n), self.velocity_weight_);
   return 0;
 }
 
