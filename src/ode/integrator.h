@@ -80,6 +80,10 @@ class Integrator {
   /// the step's own error, which is large only where the force changes within the step.
   virtual void state_before_end(double t, State& y) { state_at(t, y); }
 
+  /// A hint: state_at() will be called for these times (s, ascending) within the last step, of
+  /// which some methods compute several at once.
+  virtual void expect(std::span<const double> /*times*/) {}
+
   /// A root at the end of the last step, which the integrator's own root-finding ended there.
   struct Root {
     std::size_t function;  ///< of the event functions in IntegratorOptions

@@ -37,6 +37,7 @@ class ObservedStep {
       integrator_.state_at(t, y);
     }
   }
+  void expect(std::span<const double> times) const { integrator_.expect(times); }
   std::optional<std::pair<double, double>> around_largest() const {
     return integrator_.around_largest();
   }

@@ -117,6 +117,13 @@ void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam
 }
 
 void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
+  if (interval_ > 0.0 && step.ends().event_free) {
+    row_times_.clear();
+    for (long row = next_row_; static_cast<double>(row) * interval_ < step.t1(); ++row) {
+      row_times_.push_back(static_cast<double>(row) * interval_);
+    }
+    step.expect(row_times_);
+  }
   for (;;) {
     const double row_time = interval_ > 0.0 ? static_cast<double>(next_row_) * interval_ : never;
     const double shape_time = fields_ ? fields_->next_shape() : never;

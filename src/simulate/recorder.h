@@ -100,6 +100,7 @@ class Recorder final : public RunObserver {
   NearMissSearch near_misses_;
   double striker_mass_;
   long next_row_ = 0;
+  std::vector<double> row_times_;  // of a flight, s
   bool follows_force_ = false;
   HistoryRow last_row_{};
   bool in_contact_ = false;

@@ -21,6 +21,10 @@ class FreeFlight final : public Integrator {
   void restart(double t, const State& y) override;
   void step() override;
   void state_at(double t, State& y) override;
+  void expect(std::span<const double> times) override {
+    expected_.assign(times.begin(), times.end());
+    n_batch_ = 0;
+  }
   bool is_event_free() const override { return flying_; }
   std::optional<std::pair<double, double>> around_largest() const override;
   WorkCounts work() const override;
@@ -39,6 +43,10 @@ class FreeFlight final : public Integrator {
   double begin();
   // The state a time t after free flight began.
   void closed_form(double t, State& y);
+  // The states at expected times from the first on.
+  void compute_batch(std::size_t first);
+  // Striker and modes a time t after free flight began.
+  void flow_to(double t, double* z, double* rates) const;
 
   std::unique_ptr<Integrator> other_;
   const StruckBeam& beam_;
@@ -57,6 +65,10 @@ class FreeFlight final : public Integrator {
   std::vector<double> equilibrium_;  // Phi^T Mass w_e, as z0_
   std::vector<double> z0_, rates0_;  // as free flight began: the striker, then the modes
   std::vector<double> z_, rates_, force_, curvatures_, low_, high_;
+  std::vector<double> expected_;  // times, s
+  // The states at some of them, computed at once: from that of this index on, this many.
+  std::size_t first_of_batch_ = 0, n_batch_ = 0;
+  std::vector<double> batch_, modal_batch_;
 };
 
 }  // namespace subimpact
