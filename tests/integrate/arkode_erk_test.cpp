@@ -45,10 +45,11 @@ TEST(VectorOperations, OfTheProjectChooseTheStepsOfTheLibrary) {
   }
 }
 
-TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
-  // s'' = 6 s^2 with s = 1/(1 - t)^2 is at infinity at t = 1.
-  AnyMotion motion(
-      1, [](std::span<const double> q, std::span<double> a) { a[0] = 6.0 * q[0] * q[0]; });
+TEST(ArkodeErk, FailsByNameWhereTheMotionIsNoNumber) {
+  // s'' = 6 s^2 with s = 1/(1 - t)^2, which is at 1e4 at t = 0.99 and no number from there on.
+  AnyMotion motion(1, [](std::span<const double> q, std::span<double> a) {
+    a[0] = q[0] < 1e4 ? 6.0 * q[0] * q[0] : std::nan("");
+  });
   for (const CoefficientTable& table : explicit_tables()) {
     IntegratorOptions options;
     options.table = table.name;
@@ -56,12 +57,14 @@ TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
     integrator->restart(0.0, {1.0, 2.0});
     try {
       for (int i = 0; i < 200000; ++i) integrator->step();
-      FAIL() << "went through the singularity to t = " << integrator->time();
+      FAIL() << "went on to t = " << integrator->time();
     } catch (const IntegrationFailure& failure) {
-      EXPECT_EQ(failure.function, "ERKStepEvolve");
-      EXPECT_TRUE(failure.flag.starts_with("ARK_")) << failure.flag;
-      EXPECT_TRUE(std::string(failure.what()).starts_with("ERKStepEvolve failed with ARK_"));
-      EXPECT_NEAR(failure.time, 1.0, 0.01);
+      const bool by_library =
+          failure.function == "ERKStepEvolve" && failure.flag.starts_with("ARK_");
+      const bool by_us = failure.function == "ARKODE" && failure.flag == "step size too small";
+      EXPECT_TRUE(by_library || by_us) << failure.what();
+      EXPECT_TRUE(std::string(failure.what()).starts_with(failure.function + " failed with "));
+      EXPECT_NEAR(failure.time, 0.99, 1e-6);
     }
   }
 }
