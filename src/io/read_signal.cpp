@@ -29,7 +29,9 @@ std::optional<double> factor_of(std::string_view name, std::string_view unit) {
   const std::size_t before = name.find_last_of("_ ([\"");
   std::string own(before == name.npos ? name : name.substr(before + 1));
   for (const std::string_view micro : {"µ", "μ"}) {  // U+00B5, U+03BC
-    if (own.starts_with(micro)) own.replace(0, micro.size(), "u");
+    if (!own.starts_with(micro)) continue;
+    own.erase(0, micro.size() - 1);
+    own[0] = 'u';
   }
   if (before != name.npos && name.substr(0, before).ends_with("per")) return std::nullopt;
   return value_in(unit, "1" + own);

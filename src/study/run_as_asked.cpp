@@ -209,7 +209,7 @@ WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest req
 
 FirstRun first_run(const Case& input, const GivenKeys& given) {
   const std::optional<OpenChoices> open = choices_left(input, given, std::nullopt);
-  FirstRun run{open ? first_choice(input, *open) : ChosenModel{input, {}}};
+  FirstRun run{open ? first_choice(input, *open) : ChosenModel{input, {}}, 0.0, {}};
   for (const CaseBeside& beside :
        open ? cases_beside(run.input) : cases_beside_on_given_mesh(run.input)) {
     run.memory_beside += resolve(beside.input).settings().memory;

@@ -9,11 +9,11 @@ rm -rf "$build/debs"
 cd "$build"
 cpack -B "$build/debs"
 cd "$build/debs"
-has() { dpkg-deb --contents "$1"_*.deb | grep -q " \./$2\$" || { echo "$1 lacks $2"; exit 1; }; }
+has() { dpkg-deb --contents "$1"_*.deb | grep " \./$2\$" >/dev/null || { echo "$1 lacks $2"; exit 1; }; }
 has subimpact usr/bin/subimpact
 has subimpact usr/share/man/man1/subimpact.1.gz
 has subimpact usr/share/bash-completion/completions/subimpact
 has subimpact usr/share/doc/subimpact/copyright
 has libsubimpact-dev usr/include/subimpact/case/simulate.h
 has python3-subimpact usr/lib/python3/dist-packages/subimpact/__init__.py
-dpkg-deb --field subimpact_*.deb Depends | grep -q libsundials
+dpkg-deb --field subimpact_*.deb Depends | grep libsundials >/dev/null
