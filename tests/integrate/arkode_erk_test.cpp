@@ -45,7 +45,26 @@ TEST(VectorOperations, OfTheProjectChooseTheStepsOfTheLibrary) {
   }
 }
 
-TEST(ArkodeErk, FailsByNameWhereTheMotionIsNoNumber) {
+TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
+  AnyMotion motion(1, [](std::span<const double>, std::span<double> a) { a[0] = std::nan(""); });
+  for (const CoefficientTable& table : explicit_tables()) {
+    IntegratorOptions options;
+    options.table = table.name;
+    const auto integrator = make_arkode_erk(motion, options);
+    integrator->restart(0.0, {1.0, 2.0});
+    try {
+      integrator->step();
+      FAIL() << "went on to t = " << integrator->time();
+    } catch (const IntegrationFailure& failure) {
+      EXPECT_EQ(failure.function, "ERKStepEvolve");
+      EXPECT_TRUE(failure.flag.starts_with("ARK_")) << failure.flag;
+      EXPECT_TRUE(std::string(failure.what()).starts_with("ERKStepEvolve failed with ARK_"));
+      EXPECT_EQ(failure.time, 0.0);
+    }
+  }
+}
+
+TEST(ArkodeErk, FailsByNameWhereTheMotionBecomesNoNumber) {
   // s'' = 6 s^2 with s = 1/(1 - t)^2, which is at 1e4 at t = 0.99 and no number from there on.
   AnyMotion motion(1, [](std::span<const double> q, std::span<double> a) {
     a[0] = q[0] < 1e4 ? 6.0 * q[0] * q[0] : std::nan("");
@@ -66,6 +85,21 @@ TEST(ArkodeErk, FailsByNameWhereTheMotionIsNoNumber) {
       EXPECT_TRUE(std::string(failure.what()).starts_with(failure.function + " failed with "));
       EXPECT_NEAR(failure.time, 0.99, 1e-6);
     }
+  }
+}
+
+TEST(ArkodeErk, GoesOnFarFromZeroWhereRoundingIsAboveTheTolerance) {
+  AnyMotion motion(1, [](std::span<const double>, std::span<double> a) { a[0] = 0.5; });
+  for (const CoefficientTable& table : explicit_tables()) {
+    IntegratorOptions options;
+    options.table = table.name;
+    const auto integrator = make_arkode_erk(motion, options);
+    integrator->restart(0.0, {1e12, 3.0});
+    while (integrator->time() < 2.0) ASSERT_NO_THROW(integrator->step()) << table.name;
+    State end;
+    integrator->state_at(2.0, end);
+    EXPECT_NEAR(end[0], 1e12 + 7.0, 1e-2) << table.name;
+    EXPECT_NEAR(end[1], 4.0, 1e-12) << table.name;
   }
 }
 

@@ -162,7 +162,7 @@ TEST(AJudgement, StatesTheErrorOfTheClosestApproachOfBodiesThatNeverTouch) {
   EXPECT_FALSE(std::isfinite(*judged(run, other).closest_approach->error));
 }
 
-TEST(AJudgement, CallsNothingCertainAtATolerancePercentsWide) {
+TEST(AJudgement, CallsNothingCertainAtTolerancesOfPercents) {
   Case input;
   input.scene.striker.velocity = 1.0;
   input.solver.method = Method::nystrom;

@@ -106,6 +106,25 @@ TEST_P(AFreeFlight, MovesAsTheBeamDoes) {
   }
 }
 
+TEST_P(AFreeFlight, HasTheSameStatesAtTimesThatWereExpected) {
+  ASSERT_TRUE(fly(y_));
+  std::vector<double> times;
+  std::vector<State> alone;
+  for (int i = 0; i < 150; ++i) {
+    times.push_back(flight_->start_time() + length() * i / 150.0);
+    alone.push_back(at(length() * i / 150.0));
+  }
+  flight_->expect(times);
+  for (const std::size_t i : {0u, 1u, 63u, 64u, 149u, 10u}) {
+    State y;
+    flight_->state_at(times[i], y);
+    ASSERT_EQ(y.size(), alone[i].size());
+    for (std::size_t k = 0; k < y.size(); ++k) {
+      EXPECT_NEAR(y[k], alone[i][k], 1e-9 * (k <= n_ ? gap : 1.0)) << i << ' ' << k;
+    }
+  }
+}
+
 TEST_P(AFreeFlight, KeepsEnergyAndMomentumToRounding) {
   ASSERT_TRUE(fly(y_));
   EXPECT_NEAR(energy(flight_->state()), energy(y_), 1e-12 * energy(y_));

@@ -77,10 +77,10 @@ class Checks {
 
   const Case& input_;
   const Result& result_;
-  double speed_;      // m/s, a typical one
-  double momentum_;   // m v0 of a beam at rest
-  double energy_;     // m v0^2/2 likewise; of the history, the largest that loads have made of it
-  double tolerance_;  // of the energy, relative
+  double speed_;          // m/s, a typical one
+  double momentum_;       // m v0 of a beam at rest
+  double energy_;         // J, of the strike; where loads do work, the largest of the rows so far
+  double tolerance_;      // of the energy, relative
   double initial_ = 0.0;  // J, of the first row
   std::vector<Failure> failures_;
 };

@@ -43,7 +43,7 @@ function drawLoads(axes, strike, points, thick, time) {
   };
   for (const {position, table} of strike.forces) {
     const largest = table.reduce((most, [, force]) => Math.max(most, Math.abs(force)), 0);
-    arrow(axes.toX(position), forceAt(table, time) / largest);
+    arrow(axes.toX(position), forceAt(table, time) / (largest || 1));
   }
   if (strike.load === 0) return;
   for (let i = 0; i < 16; ++i) {
