@@ -16,7 +16,7 @@
 namespace subimpact {
 namespace {
 
-constexpr int state_layout = 2;
+constexpr int state_layout = 3;
 constexpr int deepest_state = 8;
 
 template <auto path>

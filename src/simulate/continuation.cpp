@@ -43,6 +43,12 @@ void exchange(Snapshot& snapshot, EnvelopeRow::Range& range) {
   auto& [smallest, largest] = range;
   snapshot(smallest.value, smallest.time, largest.value, largest.time);
 }
+void exchange(Snapshot& snapshot, SampledPeak& peak) {
+  snapshot(peak.shared, peak.largest, peak.before, peak.after, peak.last);
+}
+void exchange(Snapshot& snapshot, FieldPeaks& peaks) {
+  snapshot(peaks.displacement, peaks.moment, peaks.strain);
+}
 void exchange(Snapshot& snapshot, EnvelopeRow& row) {
   snapshot(row.position, row.displacement, row.moment, row.strain, row.plastic_curvature);
 }
@@ -62,7 +68,7 @@ void Recorder::exchange(Snapshot& snapshot, double time) {
            result_.first_section_yield, result_.first_contact_yield, result_.largest_rotation,
            result_.largest_displacement, result_.first_touch, result_.parting, in_contact_,
            velocity_at_start_, beam_impulse_at_start_, largest_force_, steps_in_contact_,
-           near_misses_, envelope);
+           near_misses_, envelope, result_.peaks);
   snapshot.require(steps_in_contact_.size() == result_.sub_impacts.size() &&
                    (!in_contact_ || !steps_in_contact_.empty()));
   if (!snapshot.reads()) return;

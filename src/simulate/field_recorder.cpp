@@ -16,7 +16,10 @@ namespace {
 constexpr double most_followed = 4000.0;
 
 // Of the envelope, relative to the largest value.
-constexpr double envelope_tolerance = 1e-6;
+constexpr double envelope_tolerance = 1e-8;
+
+// States in modes whose fields are read at once.
+constexpr std::size_t most_waiting = 16;
 
 // Plastic curvature in units of the yield curvature below which it is rounding.
 constexpr double least_plastic = 1e-9;
@@ -27,11 +30,13 @@ FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& row
     : beam_(parts.beam),
       material_(parts.problem.beam),
       end_time_(parts.given.end_time),
-      shape_interval_(parts.settings.shape_interval),
+      shapes_{parts.settings.shape_interval},
+      regular_{parts.given.output.extremes_interval(end_time_)},
       result_(result),
       rows_(rows),
-      field_(beam_, material_.length,
-             shape_interval_ > 0.0 ? static_cast<std::size_t>(parts.given.output.shape_points) : 0),
+      field_(
+          beam_, material_.length,
+          shapes_.interval > 0.0 ? static_cast<std::size_t>(parts.given.output.shape_points) : 0),
       envelope_(field_.size()) {
   const BeamMesh& mesh = beam_.mesh();
   const double length = material_.length;
@@ -47,15 +52,15 @@ FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& row
   for (std::size_t i = 0; i < field_.size(); ++i) envelope_[i].position = field_.position(i);
 }
 
-double FieldRecorder::next_shape() const {
+double FieldRecorder::next_instant() const {
   if (!has_shapes()) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(next_shape_) * shape_interval_;
+  return std::min(shapes_.next(), regular_.next());
 }
 
 void FieldRecorder::resume(double time, const std::vector<EnvelopeRow>& envelope) {
   last_shape_time_ = last_followed_time_ = time;
   if (!has_shapes()) return;
-  next_shape_ = first_after(time, shape_interval_);
+  for (Instants* all : {&shapes_, &regular_}) all->passed = first_after(time, all->interval);
   if (envelope.size() == envelope_.size()) {
     envelope_ = envelope;
   } else {
@@ -66,25 +71,39 @@ void FieldRecorder::resume(double time, const std::vector<EnvelopeRow>& envelope
   }
 }
 
+void FieldRecorder::take_instant(double time, const State& y, Accounts& accounts) {
+  const bool shape = shapes_.reach(time);
+  const bool regular = regular_.reach(time);
+  read_at(time, y, accounts, shape, regular);
+}
+
 void FieldRecorder::add_shape(double time, const State& y, Accounts& accounts) {
   if (!has_shapes()) return;
-  if (time >= next_shape() * (1.0 - 1e-12)) ++next_shape_;
+  shapes_.reach(time);
+  regular_.reach(time);
+  read_at(time, y, accounts, true, true);
+}
+
+void FieldRecorder::read_at(double time, const State& y, Accounts& accounts, bool shape,
+                            bool regular) {
   if (!(time > last_shape_time_)) return;
-  last_shape_time_ = time;
+  last_shape_time_ = last_followed_time_ = time;
   if (!std::ranges::all_of(y, [](double x) { return std::isfinite(x); })) return;
+  if (!shape || !rows_.takes_shapes()) return take(time, y, accounts, regular);
+  take_waiting();
   field_.read(y, accounts);
-  widen_envelope(time);
-  for (std::size_t i = 0; i < field_.size(); ++i) add_row(time, field_.position(i), 1.0, i, y);
+  field_.read_motion(y);
+  widen(time, regular);
+  for (std::size_t i = 0; i < field_.size(); ++i) add_row(time, field_.position(i), 1.0, i);
   for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
-    add_row(time, field_.mirrored_position(i), -1.0, i, y);
+    add_row(time, field_.mirrored_position(i), -1.0, i);
   }
 }
 
-void FieldRecorder::add_row(double time, double position, double sense, std::size_t station,
-                            const State& y) {
+void FieldRecorder::add_row(double time, double position, double sense, std::size_t station) {
   ++result_.n_shape_rows;
-  rows_.add(ShapeRow{time, position, field_.displacement(station), field_.velocity(station, y),
-                     sense * field_.rotation(station, y), field_.curvature(station),
+  rows_.add(ShapeRow{time, position, field_.displacement(station), field_.velocity(station),
+                     sense * field_.rotation(station), field_.curvature(station),
                      field_.moment(station), field_.plastic_curvature(station)});
 }
 
@@ -92,8 +111,31 @@ void FieldRecorder::follow(double time, const State& y, Accounts& accounts) {
   add_points(time, y);
   if (!has_shapes()) return;
   if (time - last_followed_time_ < end_time_ / most_followed) return;
-  field_.read(y, accounts, envelope_tolerance);
-  widen_envelope(time);
+  last_followed_time_ = time;
+  take(time, y, accounts, false);
+}
+
+void FieldRecorder::take(double time, const State& y, Accounts& accounts, bool regular) {
+  if (!field_.in_modes()) {
+    field_.read(y, accounts);
+    widen(time, regular);
+    return;
+  }
+  const auto positions = beam_.beam_positions(y);
+  waiting_positions_.insert(waiting_positions_.end(), positions.begin(), positions.end());
+  waiting_.push_back({time, regular});
+  if (waiting_.size() == most_waiting) take_waiting();
+}
+
+void FieldRecorder::take_waiting() {
+  if (waiting_.empty()) return;
+  field_.read_modes(waiting_positions_, envelope_tolerance);
+  for (std::size_t k = 0; k < waiting_.size(); ++k) {
+    field_.show(static_cast<Eigen::Index>(k));
+    widen(waiting_[k].time, waiting_[k].regular);
+  }
+  waiting_.clear();
+  waiting_positions_.clear();
 }
 
 void FieldRecorder::add_points(double time, const State& y) {
@@ -103,16 +145,22 @@ void FieldRecorder::add_points(double time, const State& y) {
   }
 }
 
-void FieldRecorder::widen_envelope(double time) {
-  last_followed_time_ = time;
+void FieldRecorder::widen(double time, bool regular) {
   const double outer = 0.5 * material_.height();
+  double displacement = 0.0, moment = 0.0, strain = 0.0;
   for (std::size_t i = 0; i < field_.size(); ++i) {
     EnvelopeRow& here = envelope_[i];
     here.displacement.include(field_.displacement(i), time);
     here.moment.include(field_.moment(i), time);
     here.strain.include(-outer * field_.curvature(i), time);  // behind
     here.plastic_curvature.include(field_.plastic_curvature(i), time);
+    displacement = std::max(displacement, std::abs(field_.displacement(i)));
+    moment = std::max(moment, std::abs(field_.moment(i)));
+    strain = std::max(strain, outer * std::abs(field_.curvature(i)));
   }
+  result_.peaks.displacement.follow(displacement, regular);
+  result_.peaks.moment.follow(moment, regular);
+  result_.peaks.strain.follow(strain, regular);
 }
 
 void FieldRecorder::add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const {
@@ -128,6 +176,7 @@ void FieldRecorder::finish(double time, const State& y, Accounts& accounts, bool
     add_shape(time, y, accounts);
     add_rest(y, accounts);
   }
+  take_waiting();
   result_.envelope = envelope_;
   for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
     result_.envelope.push_back(envelope_[i]);

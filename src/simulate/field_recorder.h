@@ -28,10 +28,12 @@ class FieldRecorder {
 
   bool is_needed() const { return has_shapes() || !points_.empty() || reactions_; }
 
-  /// Of the next shape, s; infinite: none.
-  double next_shape() const;
-  /// Keeps the shape of a state, once per instant, if its numbers are finite. `accounts`: of the
+  /// Of the next regular instant of the extremes along the beam, s; infinite: none.
+  double next_instant() const;
+  /// Takes the extremes of that instant and, where it is due, the shape. `accounts`: of the
   /// histories that hold at y.
+  void take_instant(double time, const State& y, Accounts& accounts);
+  /// Keeps the shape of a state, once per instant, if its numbers are finite.
   void add_shape(double time, const State& y, Accounts& accounts);
   /// At every history row: the motion of the points, and the envelope.
   void follow(double time, const State& y, Accounts& accounts);
@@ -39,16 +41,23 @@ class FieldRecorder {
   /// At the end: the envelope and, of a state that `is_good`, the last shape and the bending left.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
   /// Of the stations, so far.
-  const std::vector<EnvelopeRow>& envelope() const { return envelope_; }
+  const std::vector<EnvelopeRow>& envelope() {
+    take_waiting();
+    return envelope_;
+  }
   /// Goes on from the time (s) and envelope that another recorder had reached.
   void resume(double time, const std::vector<EnvelopeRow>& envelope);
 
  private:
-  bool has_shapes() const { return field_.size() > 0 && shape_interval_ > 0.0; }
+  bool has_shapes() const { return field_.size() > 0 && shapes_.interval > 0.0; }
   void add_points(double time, const State& y);
-  // The field must have been read.
-  void widen_envelope(double time);
-  void add_row(double time, double position, double sense, std::size_t station, const State& y);
+  // Widens the envelope, and at a `regular` instant or an event the extremes that runs beside one
+  // another share, by a state: at once, or with others that wait.
+  void take(double time, const State& y, Accounts& accounts, bool regular);
+  void take_waiting();
+  void widen(double time, bool regular);
+  void read_at(double time, const State& y, Accounts& accounts, bool shape, bool regular);
+  void add_row(double time, double position, double sense, std::size_t station);
   void add_rest(const State& y, Accounts& accounts);
 
   struct Point {
@@ -58,17 +67,33 @@ class FieldRecorder {
 
   const StruckBeam& beam_;
   const Beam& material_;
-  double end_time_;        // s
-  double shape_interval_;  // s
+  double end_time_;  // s
+  // Multiples of an interval (s), of which so many have been passed.
+  struct Instants {
+    double interval;
+    long passed = 0;
+    double next() const { return static_cast<double>(passed) * interval; }
+    bool reach(double time) {
+      if (time < next() * (1.0 - 1e-12)) return false;
+      ++passed;
+      return true;
+    }
+  };
+  Instants shapes_, regular_;
   Result& result_;
   RowSink& rows_;
   BeamField field_;
   std::optional<SupportReactions> reactions_;  // of a beam with supports
   std::vector<Point> points_;
   std::vector<EnvelopeRow> envelope_;  // of the stations
-  long next_shape_ = 0;
-  double last_shape_time_ = -1.0;     // s
-  double last_followed_time_ = -1.0;  // s
+  struct Instant {
+    double time;
+    bool regular;
+  };
+  std::vector<Instant> waiting_;
+  std::vector<double> waiting_positions_;  // of those instants, one after another
+  double last_shape_time_ = -1.0;          // s
+  double last_followed_time_ = -1.0;       // s
 };
 
 }  // namespace subimpact

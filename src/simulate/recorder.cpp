@@ -126,7 +126,7 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
   }
   for (;;) {
     const double row_time = interval_ > 0.0 ? static_cast<double>(next_row_) * interval_ : never;
-    const double shape_time = fields_ ? fields_->next_shape() : never;
+    const double shape_time = fields_ ? fields_->next_instant() : never;
     const bool both =
         row_time < never && std::abs(row_time - shape_time) <= same_instant * row_time;
     const double t = both ? row_time : std::min(row_time, shape_time);
@@ -140,7 +140,7 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
     }
     step.corrected_state_at(t, state_, correction_);
     const Losses before = beam.losses();
-    if (beam.has_losses()) beam.add_losses(losses_.over(step, t, state_, beam));
+    if (row && beam.has_losses()) beam.add_losses(losses_.over(step, t, state_, beam));
     if (correction_.is_empty()) {
       add_rows(t, row, shape, state_, accounts_);
     } else {
@@ -154,7 +154,7 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
 
 void Recorder::add_rows(double time, bool row, bool shape, const State& y, Accounts& accounts) {
   if (row) add_row(time, y, accounts);
-  if (shape) fields_->add_shape(time, y, accounts);
+  if (shape) fields_->take_instant(time, y, accounts);
 }
 
 void Recorder::on_accepted(double time, const State& y, StruckBeam& beam) {

@@ -27,19 +27,14 @@ constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
 constexpr double loosest = 1e-1;
 constexpr double gain_of_tolerance = 1.0 / 3.0;  // a ninth, and room for errors that fall unevenly
 constexpr double shorter = 0.7;                  // step
-// Instants at which the extremes along the beam are taken, at most, beside events.
-constexpr double most_rows = 2000.0;
 
-// The rows that the extremes need, and no shapes but those of events.
+// No rows, and the instants at which the run beside takes its extremes.
 OutputOptions output_beside(const Case& input) {
   OutputOptions output = input.output;
-  const double shapes = output.shape_interval(input.end_time);
+  const bool has_shapes = output.shape_interval(input.end_time) > 0.0;
+  const double instants = output.extremes_interval(input.end_time);
   output.keep_no_rows();
-  if (shapes > 0.0) {
-    output.shapes = input.end_time;
-    output.interval =
-        std::max(input.output.history_interval(input.end_time), input.end_time / most_rows);
-  }
+  output.shapes = has_shapes ? instants : 0.0;
   return output;
 }
 

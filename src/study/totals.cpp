@@ -19,15 +19,6 @@ constexpr double of_count = 0.0;           // the difference itself
 // on finer meshes, so that no error is stated.
 constexpr double largest_error_of_strain = 0.5;
 
-double largest(const Result& run, EnvelopeRow::Range EnvelopeRow::*range) {
-  double most = 0.0;
-  for (const EnvelopeRow& row : run.envelope) {
-    const EnvelopeRow::Range& here = row.*range;
-    most = std::max({most, std::abs(here.smallest.value), std::abs(here.largest.value)});
-  }
-  return most;
-}
-
 // The largest magnitude of a member in a list.
 template <class Row>
 double largest(const std::vector<Row>& rows, double Row::*value) {
@@ -49,6 +40,9 @@ struct Quantity {
   double safety = usual_safety;
   From from = From::every_run;
   double largest_share = HUGE_VAL;  // of an error in the value; none is stated beyond
+  // Of an extreme along the beam: it is compared where runs share instants, and its error has a
+  // part from the distance of instants.
+  SampledPeak FieldPeaks::*peak = nullptr;
 
   std::optional<double> of(const Case& input, const Result& run) const {
     if (from == From::shapes && run.envelope.empty()) return std::nullopt;
@@ -67,9 +61,9 @@ const Quantity quantities[] = {
     {"impulse_Ns", [](Run run, double) { return run.impulse(); }},
     {"peak_force_N", [](Run run, double) { return run.max_force; }, safety_of_largest},
     {"max_indentation_m", [](Run run, double) { return run.max_indentation; }, safety_of_largest},
-    {"max_displacement_m", [](Run run, double) { return largest(run, &EnvelopeRow::displacement); }, usual_safety, From::shapes},
-    {"max_moment_Nm", [](Run run, double) { return largest(run, &EnvelopeRow::moment); }, usual_safety, From::shapes},
-    {"max_strain", [](Run run, double) { return largest(run, &EnvelopeRow::strain); }, usual_safety, From::shapes, largest_error_of_strain},
+    {"max_displacement_m", [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement},
+    {"max_moment_Nm", [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment},
+    {"max_strain", [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain},
     {"permanent_set_m", [](Run run, double) { return largest(run.envelope, &EnvelopeRow::permanent_set); }, usual_safety, From::shapes},
     {"hinge_rotation_rad", [](Run run, double) { return largest(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
     {"striker_energy_share", [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
@@ -123,8 +117,13 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
       std::ssize(estimate.uncertain_flights);
   for (const Quantity& quantity : quantities) {
     if (!quantity.of(input, run)) continue;
-    Total total = total_of(run, beside, quantity.safety,
-                           [&](const Result& of) { return quantity.of(input, of); });
+    Total total = total_of(run, beside, quantity.safety, [&](const Result& of) {
+      return quantity.peak != nullptr ? (of.peaks.*quantity.peak).shared : quantity.of(input, of);
+    });
+    total.value = *quantity.of(input, run);
+    if (quantity.peak != nullptr && total.error) {
+      *total.error += (run.peaks.*quantity.peak).sampling_error();
+    }
     if (total.error && *total.error > quantity.largest_share * std::abs(total.value)) {
       total.error.reset();
     }

@@ -99,19 +99,17 @@ class Search {
     refinement_.emplace(model_.input, open_);
   }
 
-  // `keeps_rows`: whether no run after this one is to be expected.
+  // `keeps_rows`: whether no level after this one is to be expected. The runs beside take the
+  // extremes along the beam in any case, for the level may turn out to be the last.
   Level level_of(const Case& input, bool keeps_rows) {
     if (options_.announce) {
       options_.announce(resolve(input).settings().mesh + ", " +
                         descriptor_of(input.solver.method).name);
     }
     Level level{input, {}, {}};
-    if (!keeps_rows) {
-      level.input.output.keep_no_rows();
-      level.input.output.shapes = 0.0;
-    }
+    if (!keeps_rows) level.input.output.keep_no_rows();
     has_rows_ = keeps_rows;
-    level.beside = simulate_beside(level.input, cases_beside(level.input), options_.jobs,
+    level.beside = simulate_beside(level.input, cases_beside(input), options_.jobs,
                                    options_.progress, rows_if(keeps_rows), level.result);
     level.input.output = input.output;
     judge(level.input, level.result, level.beside);
@@ -128,10 +126,18 @@ class Search {
     return keeps_rows && options_.rows ? options_.rows() : nullptr;
   }
 
-  // The best level once more, for its rows and fields.
+  // The best run once more, for its rows and fields, beside the same runs as before.
   void run_again() {
-    Level again = level_of(best_->input, true);
-    if (again.result.outcome.kind != OutcomeKind::stopped) best_ = std::move(again);
+    Result again = simulate(best_->input, options_.progress, nullptr, rows_if(true));
+    if (again.outcome.kind == OutcomeKind::stopped) return;
+    judge(best_->input, again, best_->beside);
+    if (again.end_state && best_->result.end_state) {
+      auto end = std::make_shared<RunState>(*again.end_state);
+      end->beside = best_->result.end_state->beside;
+      again.end_state = std::move(end);
+    }
+    best_->result = std::move(again);
+    if (options_.finished) options_.finished(best_->input, best_->result);
   }
 
   // What a user who interrupts gets: the last level that ended, else the one in hand.

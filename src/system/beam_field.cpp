@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/lanes.h"
-
 namespace subimpact {
 namespace {
 
@@ -55,29 +53,31 @@ BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_sta
         std::count_if(stations_.begin(), stations_.end(),
                       [&](const Station& s) { return s.position < end - tolerance; }));
   }
-  displacements_.resize(size());
-  curvatures_.resize(size());
-  moments_.resize(size());
+  for (auto* values : {&displacements_, &curvatures_, &moments_, &velocities_, &rotations_}) {
+    values->resize(size());
+  }
   if (!in_modes_) return;
-  const auto widen = [](std::vector<double>& shares, const SparseFunctional& value) {
-    shares.resize(std::max(shares.size(), value.dense.size()));
-    for (std::size_t k = 0; k < value.dense.size(); ++k) {
-      shares[k] = std::max(shares[k], std::abs(value.dense[k]));
+  const auto n = static_cast<Eigen::Index>(size());
+  by_mode_.setZero(2 * n, static_cast<Eigen::Index>(mesh.n_unknowns()));
+  const auto put = [&](const SparseFunctional& value, Eigen::Index row) {
+    if (!value.is_zero()) {
+      by_mode_.row(row) = Eigen::Map<const Eigen::RowVectorXd>(value.dense.data(), by_mode_.cols());
     }
   };
-  displacement_shares_.resize(mesh.n_unknowns());
-  curvature_shares_.resize(mesh.n_unknowns());
-  for (const Station& station : stations_) {
-    widen(displacement_shares_, station.displacement);
-    widen(curvature_shares_, station.curvature);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Station& station = stations_[static_cast<std::size_t>(i)];
+    put(station.displacement, i);
+    put(curvature_in_modes(station), n + i);
   }
+  displacement_shares_ = by_mode_.topRows(n).cwiseAbs().colwise().maxCoeff();
+  curvature_shares_ = by_mode_.bottomRows(n).cwiseAbs().colwise().maxCoeff();
 }
 
-std::size_t BeamField::n_modes_needed(std::span<const double> unknowns, double tolerance) const {
+Eigen::Index BeamField::n_modes_needed(const double* positions, double tolerance) const {
   double displacement = 0.0, curvature = 0.0;
-  std::size_t n = unknowns.size();
+  Eigen::Index n = by_mode_.cols();
   for (; n > 0; --n) {
-    const double z = std::abs(unknowns[n - 1]);
+    const double z = std::abs(positions[n - 1]);
     displacement += displacement_shares_[n - 1] * z;
     curvature += curvature_shares_[n - 1] * z;
     if (!(displacement <= tolerance * largest_displacement_) ||
@@ -90,10 +90,8 @@ std::size_t BeamField::n_modes_needed(std::span<const double> unknowns, double t
 
 void BeamField::add_station(double x, std::size_t section) {
   const BeamMesh& mesh = beam_.mesh();
-  Station station{x, *mesh.displacement_at(x), *mesh.rotation_at(x), section, section, 1.0, 0.0,
-                  {}};
-  if (in_modes_) station.curvature = mesh.curvature_functional(section);
-  stations_.push_back(std::move(station));
+  stations_.push_back(
+      {x, *mesh.displacement_at(x), *mesh.rotation_at(x), section, section, 1.0, 0.0});
 }
 
 void BeamField::add_end(double x, std::size_t nearest, std::size_t next) {
@@ -110,28 +108,51 @@ void BeamField::add_end(double x, std::size_t nearest, std::size_t next) {
   } else {
     station.share = 0.0;
   }
-  if (!in_modes_) return;
-  const SparseFunctional other = mesh.curvature_functional(next);
-  for (std::size_t k = 0; k < station.curvature.dense.size(); ++k) {
-    station.curvature.dense[k] =
-        station.share * station.curvature.dense[k] + station.next_share * other.dense[k];
+}
+
+SparseFunctional BeamField::curvature_in_modes(const Station& station) const {
+  SparseFunctional curvature = beam_.mesh().curvature_functional(station.section);
+  if (station.next == station.section && station.share == 1.0) return curvature;
+  const SparseFunctional next = beam_.mesh().curvature_functional(station.next);
+  for (std::size_t k = 0; k < curvature.dense.size(); ++k) {
+    curvature.dense[k] = station.share * curvature.dense[k] + station.next_share * next.dense[k];
+  }
+  return curvature;
+}
+
+void BeamField::read_modes(std::span<const double> positions, double tolerance) {
+  const Eigen::Index n_states = static_cast<Eigen::Index>(positions.size()) / by_mode_.cols();
+  const Eigen::Map<const Eigen::MatrixXd> states(positions.data(), by_mode_.cols(), n_states);
+  Eigen::Index n = 0;
+  for (Eigen::Index k = 0; k < n_states; ++k) {
+    n = std::max(n, n_modes_needed(states.col(k).data(), tolerance));
+  }
+  values_.noalias() = by_mode_.leftCols(n) * states.topRows(n);
+}
+
+void BeamField::show(Eigen::Index state) {
+  const auto n = static_cast<Eigen::Index>(size());
+  for (std::size_t i = 0; i < size(); ++i) {
+    displacements_[i] = values_(static_cast<Eigen::Index>(i), state);
+    curvatures_[i] = values_(n + static_cast<Eigen::Index>(i), state);
+    moments_[i] = bending_stiffness_ * curvatures_[i];
+    largest_displacement_ = std::max(largest_displacement_, std::abs(displacements_[i]));
+    largest_curvature_ = std::max(largest_curvature_, std::abs(curvatures_[i]));
   }
 }
 
-void BeamField::read(const State& y, Accounts& accounts, double tolerance) {
+void BeamField::read_motion(const State& y) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    velocities_[i] = stations_[i].displacement(beam_.beam_velocities(y));
+    rotations_[i] = stations_[i].rotation(beam_.beam_positions(y));
+  }
+}
+
+void BeamField::read(const State& y, Accounts& accounts) {
   const auto unknowns = beam_.beam_positions(y);
   if (in_modes_) {  // elastic
-    const std::size_t n = n_modes_needed(unknowns, tolerance);
-    const auto of_modes = [&](const SparseFunctional& value) {
-      return value.is_zero() ? 0.0 : dot(value.dense.data(), unknowns.data(), n);
-    };
-    for (std::size_t i = 0; i < size(); ++i) {
-      displacements_[i] = of_modes(stations_[i].displacement);
-      curvatures_[i] = of_modes(stations_[i].curvature);
-      moments_[i] = bending_stiffness_ * curvatures_[i];
-      largest_displacement_ = std::max(largest_displacement_, std::abs(displacements_[i]));
-      largest_curvature_ = std::max(largest_curvature_, std::abs(curvatures_[i]));
-    }
+    read_modes(unknowns, 0.0);
+    show(0);
     return;
   }
   const Accounts::Bending bending = accounts.bending(y);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -43,22 +44,27 @@ class BeamField {
   double position(std::size_t station) const { return stations_[station].position; }
   double mirrored_position(std::size_t station) const { return length_ - position(station); }
 
-  /// `tolerance`: of displacements and curvatures, relative to the largest that were read so far;
-  /// on a mesh in modes those that move nothing by more are left out.
-  void read(const State& y, Accounts& accounts, double tolerance = 0.0);
+  /// Displacements, curvatures and moments of a state.
+  void read(const State& y, Accounts& accounts);
+  /// Its velocities and rotations as well.
+  void read_motion(const State& y);
+  /// Whether the unknowns are natural modes of an elastic beam, so that read_modes() serves.
+  bool in_modes() const { return in_modes_; }
+  /// Reads the positions of several states, one after another, which take a product of matrices;
+  /// show(k) then gives those of one. `tolerance`: of displacements and curvatures, relative to the
+  /// largest that were read so far; modes that move nothing by more are left out.
+  void read_modes(std::span<const double> positions, double tolerance);
+  void show(Eigen::Index state);
+
   double displacement(std::size_t i) const { return displacements_[i]; }
   double curvature(std::size_t i) const { return curvatures_[i]; }
   double moment(std::size_t i) const { return moments_[i]; }
   double plastic_curvature(std::size_t i) const {
     return subimpact::plastic_curvature(curvatures_[i], moments_[i], bending_stiffness_);
   }
-  /// Of a state, m/s and rad.
-  double velocity(std::size_t i, const State& y) const {
-    return stations_[i].displacement(beam_.beam_velocities(y));
-  }
-  double rotation(std::size_t i, const State& y) const {
-    return stations_[i].rotation(beam_.beam_positions(y));
-  }
+  /// m/s and rad.
+  double velocity(std::size_t i) const { return velocities_[i]; }
+  double rotation(std::size_t i) const { return rotations_[i]; }
 
  private:
   struct Station {
@@ -67,12 +73,12 @@ class BeamField {
     // The curvature is the sum of those of two sections with these shares.
     std::size_t section, next;
     double share, next_share;
-    SparseFunctional curvature;  // where the unknowns are modes
   };
   void add_station(double x, std::size_t section);
   void add_end(double x, std::size_t nearest, std::size_t next);
+  SparseFunctional curvature_in_modes(const Station& station) const;
   // The slowest ones, without which no station is off by more than the tolerance.
-  std::size_t n_modes_needed(std::span<const double> unknowns, double tolerance) const;
+  Eigen::Index n_modes_needed(const double* positions, double tolerance) const;
 
   const StruckBeam& beam_;
   double length_;
@@ -80,9 +86,12 @@ class BeamField {
   bool in_modes_;
   std::vector<Station> stations_;
   std::size_t n_mirrored_ = 0;
-  std::vector<double> displacements_, curvatures_, moments_;
-  // Where the unknowns are modes: the largest share of each in a station's value.
-  std::vector<double> displacement_shares_, curvature_shares_;
+  std::vector<double> displacements_, curvatures_, moments_, velocities_, rotations_;
+  // Where the unknowns are modes: displacements and then curvatures of the stations by mode, the
+  // largest share of each mode in either, and the values of the states that were read.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_mode_;
+  Eigen::VectorXd displacement_shares_, curvature_shares_;
+  Eigen::MatrixXd values_;
   double largest_displacement_ = 0.0, largest_curvature_ = 0.0;  // that were read
 };
 

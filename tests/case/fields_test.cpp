@@ -173,6 +173,51 @@ TEST(TheEnvelope, BoundsEveryShapeAndIsReachedAtItsTimes) {
   }
 }
 
+Case case_in_modes() {
+  Case input = linear_case(MeshKind::hermite, 40, 0.4 * paper_beam().length, EndSupport::free);
+  input.solver.method = Method::exponential;
+  input.output.interval = 1e-6;
+  return input;
+}
+
+// Fields of states in modes are read many at a time.
+TEST(TheEnvelope, BoundsEveryShapeOfABeamInModesAndIsReached) {
+  Case input = case_in_modes();
+  input.output.shapes = 1e-6;  // as the rows, so that nothing lies between shapes
+  const Result result = simulate(input);
+  const std::size_t n = result.used.n_shape_points;
+  std::vector<double> largest(n, 0.0), smallest(n, 0.0);
+  for (std::size_t k = 0; k < result.shapes.size(); ++k) {
+    largest[k % n] = std::max(largest[k % n], result.shapes[k].moment);
+    smallest[k % n] = std::min(smallest[k % n], result.shapes[k].moment);
+  }
+  const double scale = *std::ranges::max_element(largest);
+  ASSERT_GT(scale, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    EXPECT_NEAR(result.envelope[i].moment.largest.value, largest[i], 1e-7 * scale) << i;
+    EXPECT_NEAR(result.envelope[i].moment.smallest.value, smallest[i], 1e-7 * scale) << i;
+  }
+  EXPECT_NEAR(result.peaks.moment.shared, std::max(scale, -*std::ranges::min_element(smallest)),
+              1e-7 * scale);
+}
+
+// So that runs beside one another can be compared whatever shapes one of them keeps.
+TEST(TheExtremesOfShapes, AreOfTheSameInstantsHoweverFewShapesAreKept) {
+  Case input = case_in_modes();
+  input.output.interval.reset();
+  const Result usual = simulate(input);
+  input.output.shapes = 0.1 * input.end_time;
+  const Result few = simulate(input);
+  input.output.interval = 0.0;  // no rows
+  const Result none = simulate(input);
+  EXPECT_LT(5 * few.n_shape_rows, usual.n_shape_rows);
+  for (const Result* other : {&few, &none}) {
+    EXPECT_NEAR(other->peaks.moment.shared / usual.peaks.moment.shared, 1.0, 1e-7);
+    EXPECT_NEAR(other->peaks.displacement.shared / usual.peaks.displacement.shared, 1.0, 1e-7);
+    EXPECT_NEAR(other->peaks.strain.shared / usual.peaks.strain.shared, 1.0, 1e-7);
+  }
+}
+
 // The slope jumps by kappa_p W at every section, hinges included, and is constant in between.
 double mid_span_set(const std::vector<ShapeRow>& shape, const BeamMesh& mesh, double length) {
   double slope = 0.0, displacement = 0.0, middle = 0.0, x = 0.0;

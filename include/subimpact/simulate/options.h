@@ -78,9 +78,15 @@ struct OutputOptions {
   /// s between shapes of a run that ends at `end_time` (s); 0: none. Where it is left open, shapes
   /// are of instants that have history rows, so that they cost no further states.
   double shape_interval(double end_time) const {
-    if (shapes) return *shapes;
+    return shapes || !has_history() ? shapes.value_or(0.0) : extremes_interval(end_time);
+  }
+
+  /// s between the regular instants at which a run and those beside it take the same extremes along
+  /// the beam: the default of shapes; without history rows those of shapes.
+  double extremes_interval(double end_time) const {
     const double rows = history_interval(end_time);
-    return rows > 0.0 ? rows * std::max(std::round(end_time / 400.0 / rows), 1.0) : 0.0;
+    return rows > 0.0 ? rows * std::max(std::round(end_time / 400.0 / rows), 1.0)
+                      : shape_interval(end_time);
   }
 
   /// For refined runs, of which only the sub-impacts matter.

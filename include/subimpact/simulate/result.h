@@ -94,6 +94,32 @@ struct EnvelopeRow {
   double permanent_set = 0.0;  ///< m: displacement at rest against the chord
 };
 
+/// The largest magnitude of a quantity along the beam, as it is found at single instants.
+struct SampledPeak {
+  double shared = 0.0;   ///< over regular instants, which runs beside one another share, and events
+  double largest = 0.0;  ///< over all instants at which fields are read
+  double before = 0.0, after = 0.0;  ///< at the instants next to that of the largest
+  double last = 0.0;                 ///< at the last instant
+
+  void follow(double magnitude, bool regular) {
+    if (regular && magnitude > shared) shared = magnitude;
+    if (last == largest) after = magnitude;
+    if (magnitude > largest) {
+      largest = after = magnitude;
+      before = last;
+    }
+    last = magnitude;
+  }
+  /// By how much a parabola through the largest and its neighbours may rise above it, at most.
+  double sampling_error() const { return (2.0 * largest - before - after) / 8.0; }
+};
+
+struct FieldPeaks {
+  SampledPeak displacement;  ///< m
+  SampledPeak moment;        ///< N m
+  SampledPeak strain;        ///< of the outer fibre
+};
+
 /// One row of strikes.csv: one of the strikes that a beam received one after another, at its end.
 struct StrikeRow {
   int strike = 0;                   ///< from 1
@@ -124,6 +150,8 @@ class RowSink {
   virtual void add(const PointRow& /*row*/) {}
   /// The points of a shape, one after another in ascending order of x.
   virtual void add(const ShapeRow& /*row*/) {}
+  /// Whether the points of shapes are computed at all.
+  virtual bool takes_shapes() const { return true; }
 };
 
 enum class OutcomeKind {
@@ -316,6 +344,7 @@ struct Result {
   std::vector<ShapeRow> shapes;             ///< empty if a RowSink took the rows
   std::size_t n_shape_rows = 0;             ///< wherever they went
   std::vector<EnvelopeRow> envelope;        ///< in ascending order of x; with shapes
+  FieldPeaks peaks;                         ///< with shapes
   /// Of a beam that was struck several times: of all strikes, the last of which the rest describes.
   std::vector<StrikeRow> strikes;
   /// The plastic hinges of the whole beam at the end, in ascending order of x; with shapes.

@@ -29,6 +29,7 @@ class NoRows final : public RowSink {
  public:
   void add(const HistoryRow&) override {}
   void add(const SectionRow&) override {}
+  bool takes_shapes() const override { return false; }
 };
 
 struct RunBeside {

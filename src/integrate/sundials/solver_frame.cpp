@@ -189,8 +189,8 @@ int SolverFrame::error_weights(N_Vector y, N_Vector weights, void* frame) {
   const auto fill = [&](std::span<const double> values, std::span<double> out, double weight) {
     const std::size_t n = values.size();
     const double rms = std::sqrt(dot(values.data(), values.data(), n) / static_cast<double>(n));
-    weight = std::min(weight, 1.0 / (roundings * std::numeric_limits<double>::epsilon() * rms));
-    if (out.front() != weight) std::ranges::fill(out, weight);
+    const double rounding = roundings * std::numeric_limits<double>::epsilon() * rms;
+    std::ranges::fill(out, std::min(weight, 1.0 / rounding));
   };
   const std::size_t n = self.n_positions_;
   const auto at = entries(y), out = entries(weights);
