@@ -137,29 +137,6 @@ double shown_error(const Trial& point, const WorkPrecision& study) {
   return us * std::max(point.errors.overall(), 0.1 * study.reference.error);
 }
 
-void draw(const std::filesystem::path& directory, const std::string& name,
-          const std::vector<WorkPrecision>& studies, const char* cost_label,
-          double (*cost)(const Trial&)) {
-  std::string labels;
-  std::string points = "panel,method,mark,error_us,cost\n";
-  for (std::size_t p = 0; p < studies.size(); ++p) {
-    labels += fmt::format("'{}' ", studies[p].label);
-    for (const Trial& point : studies[p].points) {
-      const std::string mark = mark_of(point.verdict);
-      if (mark.empty() || !(cost(point) > 0.0)) continue;
-      points += fmt::format("{},{},{},{:.17g},{:.17g}\n", p + 1, point.setting.method, mark,
-                            shown_error(point, studies[p]), cost(point));
-    }
-  }
-  const FigureSize size{static_cast<int>(120 + 400 * studies.size() + 250), 560};
-  draw_figure(
-      directory, name,
-      figure_script("work_precision", fmt::format("labels = \"{}\"\ncost_label = '{}'\nwidth = {}\n"
-                                                  "$points << EOD\n{}EOD\n",
-                                                  labels, cost_label, size.width, points)),
-      size);
-}
-
 }  // namespace
 
 std::string case_id(const Case& input) {
@@ -244,9 +221,25 @@ void PointLog::append(const std::string& case_id, const std::string& label, cons
 
 void draw_work_precision(const std::filesystem::path& directory,
                          const std::vector<WorkPrecision>& studies) {
-  draw(directory, "work_precision", studies, "wall time (ms)",
-       [](const Trial& point) { return 1e3 * point.seconds; });
-  draw(directory, "work_precision_evaluations", studies, "evaluations of the right-hand side",
+  const int width = static_cast<int>(120 + 400 * studies.size() + 250);
+  const auto draw = [&](const char* name, const char* cost_label, auto cost) {
+    std::string labels, points = "panel,method,mark,error_us,cost\n";
+    for (std::size_t p = 0; p < studies.size(); ++p) {
+      labels += fmt::format("'{}' ", studies[p].label);
+      for (const Trial& point : studies[p].points) {
+        const std::string mark = mark_of(point.verdict);
+        if (mark.empty() || !(cost(point) > 0.0)) continue;
+        points += fmt::format("{},{},{},{:.17g},{:.17g}\n", p + 1, point.setting.method, mark,
+                              shown_error(point, studies[p]), cost(point));
+      }
+    }
+    const std::string settings =
+        fmt::format("labels = \"{}\"\ncost_label = '{}'\nwidth = {}\n$points << EOD\n{}EOD\n",
+                    labels, cost_label, width, points);
+    draw_figure(directory, name, figure_script("work_precision", settings), {width, 560});
+  };
+  draw("work_precision", "wall time (ms)", [](const Trial& point) { return 1e3 * point.seconds; });
+  draw("work_precision_evaluations", "evaluations of the right-hand side",
        [](const Trial& point) { return static_cast<double>(point.work.right_hand_sides); });
 }
 

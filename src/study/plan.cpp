@@ -94,10 +94,6 @@ void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
                   outcome.reason.empty() ? "the first contact lasts to the end" : outcome.reason));
 }
 
-double error_of(const SubImpact& s) {
-  return std::max(s.start_error.value_or(0.0), s.end_error.value_or(0.0));
-}
-
 // Whether the errors of all sub-impacts are small beside their durations and the separations about
 // them, those of the reference included. A tolerance may be larger.
 bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubImpact>& reference) {
@@ -105,8 +101,9 @@ bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubIm
     const SubImpact& s = reference[i];
     double error = std::abs(run[i].start - s.start);
     if (s.end && run[i].end) error = std::max(error, std::abs(*run[i].end - *s.end));
+    error += std::max(s.start_error.value_or(0.0), s.end_error.value_or(0.0));
     for (const LengthBeside& beside : lengths_beside(reference, i)) {
-      if (error + error_of(s) > recognisable * beside.length) return false;
+      if (error > recognisable * beside.length) return false;
     }
   }
   return true;

@@ -3,7 +3,8 @@
 # option that --help lists, keys after --set, and files where nothing else is known.
 set -euo pipefail
 program=$1
-source <("$program" completion)
+subimpact() { "$program" "$@"; }
+source <(subimpact completion)
 [[ $(complete -p subimpact) == *"-o default"*"-F _subimpact subimpact" ]]
 
 # completed WORD...: what the last word may become.

@@ -142,27 +142,14 @@ class Loop {
   constructor(strike, canvas, view) {
     Object.assign(this, {strike, canvas, view, dot: overlay(canvas, 'dot')});
     const {times, events} = strike;
-    this.pieces = [];
-    let next = 0, branch = 'apart', piece = null;
-    for (let i = 0; i < times.length; ++i) {
+    this.pieces = events.map(({time, kind}, k) => {
+      const from = Math.max(countUpTo(times, time) - 1, 0);
+      let to = k + 1 < events.length ? countUpTo(times, events[k + 1].time) : times.length;
       // An event has two rows: the first ends a branch, the second begins the next one.
-      const ends = times[i + 1] === times[i];
-      let turned = false;
-      while (next < events.length && (events[next].time < times[i] || (!ends && events[next].time === times[i]))) {
-        branch = eventKinds[events[next++].kind].branch;
-        turned = true;
-      }
-      if (branch === 'apart') {
-        piece = null;
-        continue;
-      }
-      if (piece === null || turned) {
-        const joins = i > 0 && (piece !== null || times[i - 1] === times[i]);
-        piece = {branch, rows: joins ? [i - 1] : []};
-        this.pieces.push(piece);
-      }
-      piece.rows.push(i);
-    }
+      if (k + 1 < events.length && times[to - 2] === times[to - 1]) --to;
+      const rows = Array.from({length: Math.max(to - from, 0)}, (_, i) => from + i);
+      return {branch: eventKinds[kind].branch, rows};
+    }).filter(({branch}) => branch !== 'apart');
   }
 
   static branchStyle = {

@@ -13,8 +13,7 @@ class Shade {
     this.log = !column.words && this.low > 0 && this.high / this.low > 1e3;
   }
   share(value) {
-    if (!(this.high > this.low)) return 0.5;
-    return this.log ? Math.log(value / this.low) / Math.log(this.high / this.low) : (value - this.low) / (this.high - this.low);
+    return this.high > this.low ? Axes.share({range: [this.low, this.high], log: this.log}, value) : 0.5;
   }
   // The colour of a value as red, green and blue; null where there is none.
   rgb(value) {
