@@ -137,6 +137,10 @@ struct StudySession {
   Progress progress() {
     return [this](double) { return !listener.interrupted(); };
   }
+  /// The exit status of a study that has ended, or was interrupted.
+  int end(bool is_interrupted, int status, const std::string& what_is_left) {
+    return is_interrupted ? end_interrupted(what_is_left) : status;
+  }
   /// The exit status after a message that begins with "interrupted".
   int end_interrupted(const std::string& what_is_left) {
     print_error("subimpact: interrupted{}\n", what_is_left);

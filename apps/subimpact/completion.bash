@@ -13,7 +13,7 @@ _subimpact() {
       *:--set) words=$("${COMP_WORDS[0]}" keys |
                 awk '/^\[/ {table = substr($1, 2, length($1) - 2) "."} /^[a-z]/ {print table $1 "="}') ;;
       *:--method | *:--methods) words=$("${COMP_WORDS[0]}" methods | sed -n '2,/^$/s/^  \([a-z-]*\) .*/\1/p') ;;
-      *:--*) ;;
+      *:--*) words=$(sed -n "s/^  $last TEXT:{\(.*\)}.*/\1/p" <<<"$help" | tr , ' ') ;;
       *) words=$(sed -n '/^Positionals:/,/^$/s/.*{\(.*\)}.*/\1/p' <<<"$help" | tr , ' ') ;;
     esac
   fi

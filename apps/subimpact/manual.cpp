@@ -14,18 +14,11 @@ struct ManualOptions {
   const CLI::App* program = nullptr;
 };
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
-}
-
 // A line of text as groff sets it.
-std::string roff(std::string text) {
-  replace_all(text, "\\", "\\e");
-  replace_all(text, "-", "\\-");
-  if (text.starts_with('.') || text.starts_with('\'')) text.insert(0, "\\&");
-  return text;
+std::string roff(const std::string& text) {
+  std::string line = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
+  for (const char c : text) line += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
+  return line;
 }
 
 // Paragraphs; lines that begin with two blanks, commands, are set as they are.

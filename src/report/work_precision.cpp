@@ -116,10 +116,6 @@ void complete(LoggedPoint& row) {
       UnmatchedSubImpact{*row.unmatched_start, *row.unmatched_duration, {}};
 }
 
-std::string key_of(const std::string& id, const Setting& setting) {
-  return fmt::format("{} {} {} {:.17g}", id, setting.method, setting.fixed_step, setting.value);
-}
-
 std::string setting_text(const Trial& point) {
   return fmt::format("{} at {}: {}, largest error {:.1e} us", point.setting.method,
                      point.setting.text(), duration_text(point.seconds), point.errors.maximum * us);
@@ -203,14 +199,15 @@ PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& c
     }
     complete(row);
     append_row(text_, columns_in_file(point_columns()), row);
-    known_[key_of(row.id, row.point.setting)] = row.point;
+    known_.emplace_back(row.id, row.point);
   });
 }
 
 std::optional<Trial> PointLog::known(const std::string& case_id, const Setting& setting) const {
-  const auto found = known_.find(key_of(case_id, setting));
-  if (found == known_.end()) return std::nullopt;
-  return found->second;
+  for (const auto& [id, point] : known_) {
+    if (id == case_id && point.setting == setting) return point;
+  }
+  return std::nullopt;
 }
 
 void PointLog::append(const std::string& case_id, const std::string& label, const Trial& point) {

@@ -34,21 +34,17 @@ struct Family {
   bool operator==(const Family&) const = default;
 };
 
-std::vector<Family> families_without_damping(const Case& input) {
-  if (may_yield(input)) {
-    return {{MeshKind::cells, 1.0, Method::central_difference},
-            {MeshKind::hermite, 1.0, Method::nystrom},
-            {MeshKind::hermite, grading, Method::nystrom}};
-  }
-  return {{MeshKind::spectral, 1.0, Method::exponential},
-          {MeshKind::hermite, 1.0, Method::exponential},
-          {MeshKind::hermite, grading, Method::exponential},
-          {MeshKind::cells, 1.0, Method::exponential},
-          {MeshKind::cells, 1.0, Method::central_difference}};
-}
-
 std::vector<Family> families_of(const Case& input) {
-  std::vector<Family> families = families_without_damping(input);
+  std::vector<Family> families = {{MeshKind::spectral, 1.0, Method::exponential},
+                                  {MeshKind::hermite, 1.0, Method::exponential},
+                                  {MeshKind::hermite, grading, Method::exponential},
+                                  {MeshKind::cells, 1.0, Method::exponential},
+                                  {MeshKind::cells, 1.0, Method::central_difference}};
+  if (may_yield(input)) {
+    families = {{MeshKind::cells, 1.0, Method::central_difference},
+                {MeshKind::hermite, 1.0, Method::nystrom},
+                {MeshKind::hermite, grading, Method::nystrom}};
+  }
   for (Family& family : families) family.method = method_for_damping(input, family.method);
   families.erase(std::unique(families.begin(), families.end()), families.end());
   return families;

@@ -153,4 +153,14 @@ class Axes {
     this.draw.textBaseline = 'middle';
     this.draw.fillText(words, x, y);
   }
+
+  // Samples with words, side by side: [words, width of the sample, paint(x, y)].
+  key(entries, y) {
+    let x = this.left + 12;
+    for (const [words, width, paint] of entries) {
+      paint(x, y);
+      this.text(words, x + width + 6, y);
+      x += width + 21 + this.draw.measureText(words).width;
+    }
+  }
 }

@@ -300,18 +300,11 @@ class Timeline {
     draw.stroke();
   }
   drawKey(axes) {
-    const words = [['contact', 'contacts'], ['separation', 'separations'], ['open', 'open: not certain']];
-    words.forEach(([kind, text], i) => {
-      const x = axes.left + 12 + 100 * i;
-      this.drawMark(axes, kind, x, 8, kind !== 'open');
-      axes.text(text, x + 9, 8);
-    });
-    let x = axes.left + 12;
-    for (const {words: text, colour: tone, width} of [...this.bars].reverse()) {
-      axes.line([[x, 19], [x, 33]], {colour: colour(tone), width});
-      axes.text(text, x + 9, 26);
-      x += 24 + axes.draw.measureText(text).width;
-    }
+    const kinds = [['contacts', 'contact'], ['separations', 'separation'], ['open: not certain', 'open']];
+    axes.key(kinds.map(([words, kind]) =>
+      [words, 4, (x, y) => this.drawMark(axes, kind, x, y, kind !== 'open')]), 8);
+    axes.key([...this.bars].reverse().map(({words, colour: tone, width}) =>
+      [words, 3, (x, y) => axes.line([[x, y - 7], [x, y + 7]], {colour: colour(tone), width})]), 26);
   }
   drawTime() {
     const {axes, view, strike, cursor} = this;
@@ -340,11 +333,8 @@ function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
                 {colour: colour(name), width: 1.8, dash: dash ?? []});
     });
   });
-  lines.forEach(({name}, k) => {
-    const x = axes.left + 6 + 150 * k;
-    axes.line([[x, 10], [x + 26, 10]], {colour: colour(lineStyles[k].colour), width: 1.8, dash: lineStyles[k].dash ?? []});
-    axes.text(name, x + 32, 10);
-  });
+  axes.key(lines.map(({name}, k) => [name, 26, (x, y) => axes.line(
+    [[x, y], [x + 26, y]], {colour: colour(lineStyles[k].colour), width: 1.8, dash: lineStyles[k].dash ?? []})]), 10);
 }
 
 // Light, dark or as the system is. `restyle` draws in the new colours.

@@ -48,13 +48,10 @@ class Shade {
     const axes = new Axes(canvas, {x: {range: [from, to], label: column.title, log: this.log}, y: {range: [0, 1]}, top: 2});
     const {draw} = axes;
     if (column.words) {
-      let x = axes.left;
-      column.words.forEach((word, k) => {
+      axes.key(column.words.map((word, k) => [word, 18, (x, y) => {
         draw.fillStyle = this.of(k);
-        draw.fillRect(x, 6, 18, 12);
-        axes.text(word, x + 24, 12);
-        x += 44 + draw.measureText(word).width;
-      });
+        draw.fillRect(x, y - 6, 18, 12);
+      }]), 12);
       return;
     }
     for (let x = axes.left; x < axes.right; ++x) {

@@ -158,31 +158,29 @@ class SweepMap {
   }
 
   drawKey() {
-    const {axes} = this;
+    const {axes, shade, visible} = this;
     const {draw} = axes;
-    const box = (left) => ({left, top: 5, width: 14, height: 14});
-    let x = axes.left;
-    const entry = (words, paint) => {
-      paint(box(x));
-      axes.text(words, x + 20, 12);
-      x += 40 + draw.measureText(words).width;
-    };
-    if (this.visible.some((run) => this.runs.certainty(run) === 'uncertain')) {
-      entry('count not certain', (mark) => {
-        SweepMap.outline(draw, mark);
+    const entries = [];
+    const add = (words, paint) => entries.push([words, 14, (x, y) => {
+      const mark = {left: x, top: y - 7, width: 14, height: 14};
+      SweepMap.outline(draw, mark);
+      paint(mark);
+    }]);
+    if (visible.some((run) => this.runs.certainty(run) === 'uncertain')) {
+      add('count not certain', (mark) => {
         draw.strokeStyle = colour('soft');
         draw.stroke();
         this.drawCross(mark, colour('text'));
       });
     }
-    if (this.visible.some((run) => this.shade.of(this.shade.column.values[run]) === null)) {
-      entry('no value', (mark) => {
-        SweepMap.outline(draw, mark);
+    if (visible.some((run) => shade.of(shade.column.values[run]) === null)) {
+      add('no value', (mark) => {
         draw.fillStyle = colour('grid');
         draw.fill();
         this.drawLack(mark);
       });
     }
+    axes.key(entries, 12);
   }
 
   // Rings around the run that is chosen and the one that is pointed at.
