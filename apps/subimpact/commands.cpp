@@ -127,21 +127,20 @@ std::optional<double> seconds_of(const std::string& text) {
 
 CLI::Option* add_time_option(CLI::App& command, const std::string& names, std::string& text,
                              const std::string& meaning) {
-  return command.add_option(names, text, meaning)->check([](const std::string& given) {
-    if (seconds_of(given)) return std::string();
-    return fmt::format(
-        "is \"{}\"; allowed: a time above 0 with its unit, such as 1us, 0.5ms or 20ns", given);
-  });
+  return command.add_option(names, text, meaning)
+      ->check(refused_unless([](const std::string& given) { return seconds_of(given).has_value(); },
+                             "a time above 0 with its unit, such as 1us, 0.5ms or 20ns"));
 }
 
 CLI::Option* add_seconds_option(CLI::App& command, const std::string& name, double& seconds,
                                 const std::string& meaning) {
-  const auto check = [](const std::string& text) {
+  const auto fits = [](const std::string& text) {
     const double value = std::strtod(text.c_str(), nullptr);
-    if (value > 0.0 && std::isfinite(value)) return std::string();
-    return fmt::format("is {}; allowed: seconds, finite and above 0", text);
+    return value > 0.0 && std::isfinite(value);
   };
-  return command.add_option(name, seconds, meaning)->check(check)->capture_default_str();
+  return command.add_option(name, seconds, meaning)
+      ->check(refused_unless(fits, "seconds, finite and above 0"))
+      ->capture_default_str();
 }
 
 std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet) {

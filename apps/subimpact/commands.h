@@ -62,6 +62,15 @@ struct CaseOptions {
 /// A check of an option: an empty value would count as none.
 std::string not_empty(const std::string& text);
 
+/// A check of an option whose text is refused where `fits` is false. `allowed`: what fits, in
+/// words.
+template <class Fits>
+auto refused_unless(Fits fits, const std::string& allowed) {
+  return [=](const std::string& text) {
+    return fits(text) ? std::string() : fmt::format("is \"{}\"; allowed: {}", text, allowed);
+  };
+}
+
 CLI::Option* add_directory_option(CLI::App& command, std::string& directory,
                                   const std::string& meaning);
 
@@ -127,6 +136,10 @@ struct StudySession {
 
   Progress progress() {
     return [this](double) { return !listener.interrupted(); };
+  }
+  /// The exit status of a study that has ended, or was interrupted.
+  int end(bool is_interrupted, int status, const std::string& what_is_left) {
+    return is_interrupted ? end_interrupted(what_is_left) : status;
   }
   /// The exit status after a message that begins with "interrupted".
   int end_interrupted(const std::string& what_is_left) {

@@ -44,10 +44,8 @@ int run_models(const CompareOptions& options) {
   });
   session.status.clear();
   if (!runs.empty()) print("{}\n\n{}", title_of(loaded.value), model_table(runs));
-  if (session.listener.interrupted()) {
-    return session.end_interrupted("; the models above are those that had ended");
-  }
-  return status_of(runs);
+  return session.end(session.listener.interrupted(), status_of(runs),
+                     "; the models above are those that had ended");
 }
 
 int run_comparison(CompareOptions& options) {
@@ -79,10 +77,8 @@ int run_comparison(CompareOptions& options) {
     if (!write_after_printing(*directory, write)) return failed;
     print("\ncomparison.csv and matches.csv in {}\n", options.directory);
   }
-  if (comparison.interrupted) {
-    return session.end_interrupted("; the methods above are those that had ended");
-  }
-  return status_of(comparison.runs);
+  return session.end(comparison.interrupted, status_of(comparison.runs),
+                     "; the methods above are those that had ended");
 }
 
 }  // namespace

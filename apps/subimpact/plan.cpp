@@ -34,8 +34,8 @@ int run_plan(PlanCommand& command) {
     print_warnings(directory->notes());
     print("reference.csv, plan.csv, plan.svg and .png in {}\n", command.directory);
   }
-  if (!result.interrupted) return done;
-  return session.end_interrupted("; the combinations above are those that were tried");
+  return session.end(result.interrupted, done,
+                     "; the combinations above are those that were tried");
 }
 
 }  // namespace

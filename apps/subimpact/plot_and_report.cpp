@@ -3,6 +3,7 @@
 
 #include "case/units.h"
 #include "commands.h"
+#include "io/listed_files.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
@@ -110,9 +111,10 @@ int report(const FinishedRunOptions& options) {
   return done;
 }
 
-int finish(OutputDirectory& directory, const char* page) {
+int write_page(OutputDirectory& directory, const char* file, const std::string& page) {
+  write_file(directory.staging() / file, page);
   directory.commit();
-  print("{}\n", (directory.path() / page).string());
+  print("{}\n", (directory.path() / file).string());
   print_warnings(directory.notes());
   return done;
 }
@@ -127,8 +129,8 @@ int compare_runs(const FinishedRunOptions& options) {
   std::vector<FinishedRun> runs;
   for (const std::string& run : options.runs) runs.push_back(read_results(run));
   OutputDirectory directory(options.directory, "report");
-  write_comparison_report(directory.staging(), runs, options.runs, options.dygraphs);
-  return finish(directory, "comparison.html");
+  return write_page(directory, "comparison.html",
+                    comparison_report(runs, options.runs, options.dygraphs));
 }
 
 int report_sweep(const FinishedRunOptions& options) {
@@ -136,8 +138,7 @@ int report_sweep(const FinishedRunOptions& options) {
   const SweptRuns runs = read_sweep(sweep);
   OutputDirectory directory(options.directory_or_first_run(),
                             runs.identity.empty() ? "report" : "figures", runs.identity);
-  write_sweep_report(directory.staging(), runs, sweep);
-  return finish(directory, "sweep.html");
+  return write_page(directory, "sweep.html", sweep_report(runs, sweep));
 }
 
 int report_any(FinishedRunOptions& options) {
@@ -179,15 +180,14 @@ void add_plot(CLI::App& program, int& status) {
       "3 a figure could not be drawn or written, the others are.");
 }
 
-// The check of a value with a unit: any finite time, a frequency above 0.
-auto has_unit(const char* unit, const char* allowed) {
-  return [=](const std::string& given) {
-    const std::optional<double> value = value_in(unit, given);
-    const bool may_be_negative = unit == std::string("s");
-    const bool fits = value && std::isfinite(*value) && (may_be_negative || *value > 0.0);
-    if (fits || (!may_be_negative && given == find_cutoff)) return std::string();
-    return fmt::format("is \"{}\"; allowed: {}", given, allowed);
-  };
+bool is_finite_time(const std::string& text) {
+  const std::optional<double> seconds = value_in("s", text);
+  return seconds && std::isfinite(*seconds);
+}
+
+bool is_cutoff(const std::string& text) {
+  const std::optional<double> frequency = value_in("Hz", text);
+  return text == find_cutoff || (frequency && std::isfinite(*frequency) && *frequency > 0.0);
 }
 
 void add_report(CLI::App& program, int& status) {
@@ -216,7 +216,7 @@ void add_report(CLI::App& program, int& status) {
                   "By how much the measured time is later than that of the run, with its unit: "
                   "-12.5us. Default: found, where the two forces correlate most")
       ->needs(measured)
-      ->check(has_unit("s", "a time with its unit, such as 12.5us or -3ms"));
+      ->check(refused_unless(is_finite_time, "a time with its unit, such as 12.5us or -3ms"));
   command
       .add_option(
           "--low-pass", options.low_pass,
@@ -224,7 +224,8 @@ void add_report(CLI::App& program, int& status) {
           "by a Butterworth low-pass of fourth order. \"find\": the cut-off is found, where "
           "the two forces correlate most. Default: no filter")
       ->needs(measured)
-      ->check(has_unit("Hz", "a frequency above 0 with its unit, such as 20kHz, or find"));
+      ->check(
+          refused_unless(is_cutoff, "a frequency above 0 with its unit, such as 20kHz, or find"));
   command.footer(
       "report.html needs no other file and no network. In a browser it shows the beam moving, "
       "zoomable charts, force against indentation, a timeline with error bars and the table of "

@@ -5,9 +5,9 @@
 
 #include "commands.h"
 #include "io/uncertain.h"
+#include "report/gnuplot.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/advice.h"
 #include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
 
@@ -17,7 +17,6 @@ namespace {
 struct RunOptions {
   CaseOptions input;
   std::string directory;
-  std::string within;     // empty, or a time with its unit
   std::string continued;  // empty, or a directory
   bool all = false;       // rows of the table
   bool verbose = false;
@@ -100,16 +99,6 @@ std::string write(ResultWriter& files, const Case& input, const Result& result) 
   } catch (const OutputError& error) {
     return error.what();
   }
-}
-
-// As the shell takes it.
-std::string quoted(const std::string& word) {
-  constexpr const char* plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%";
-  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-  std::string text;
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return '\'' + text + '\'';
 }
 
 bool is_runnable(const CaseOptions& input, const std::vector<std::string>& more) {

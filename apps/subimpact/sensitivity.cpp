@@ -72,10 +72,8 @@ int run_sensitivity(SensitivityCommand& command) {
     if (!write_after_printing(*directory, write)) return failed;
     if (!command.quiet) print("\nsensitivity.csv in {}\n", command.directory);
   }
-  if (study.interrupted) {
-    return session.end_interrupted("; the keys above are those whose runs had ended");
-  }
-  return study.keys.empty() ? failed : done;
+  return session.end(study.interrupted, study.keys.empty() ? failed : done,
+                     "; the keys above are those whose runs had ended");
 }
 
 }  // namespace

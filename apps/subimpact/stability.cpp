@@ -1,5 +1,3 @@
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "commands.h"
@@ -55,16 +53,6 @@ std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
   };
 }
 
-void check_names(const std::vector<std::string>& asked, const std::vector<Part>& parts) {
-  for (const std::string& part : asked) {
-    if (std::ranges::find(parts, part, &Part::name) != parts.end()) continue;
-    std::vector<std::string> names;
-    for (const Part& known : parts) names.push_back(known.name);
-    throw CaseFileError(
-        fmt::format("--parts {}: unknown part; allowed: {}", part, fmt::join(names, ", ")));
-  }
-}
-
 // A part that fails leaves the others as they are: false, with a message.
 bool run_part(const Part& part, const std::filesystem::path& directory, StatusLine& status) {
   std::string failure;
@@ -101,7 +89,6 @@ int run_stability(StabilityCommand& command) {
     check_methods(loaded.value, command.methods);
     StudySession session;
     const std::vector<Part> parts = parts_of(loaded.value, command, session);
-    check_names(command.parts, parts);
     check_beam(loaded.value, command.parts);
     OutputDirectory directory(command.directory, "stability", case_id(loaded.value));
     bool all_done = true;
@@ -134,7 +121,8 @@ void add_stability(CLI::App& program, int& status) {
       "Only these parts, separated by commas: critical (largest stable steps), contact (the same "
       "in stiff contact), damping (of implicit methods), map (right, wrong count, inaccurate, "
       "unstable, refused, failed), pairs (sub-impacts within one step), layers (against the exact "
-      "section)");
+      "section)")
+      ->check(CLI::IsMember({"critical", "contact", "damping", "map", "pairs", "layers"}));
   add_directory_option(command, options.directory,
                        "Directory for CSV and figures; made if missing. Default: the case file's "
                        "name without its ending, and -stability, in the current directory");

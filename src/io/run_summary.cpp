@@ -12,7 +12,7 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/advice.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "case/counted.h"
-#include "io/listed_files.h"
 #include "io/uncertain.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
@@ -19,16 +18,13 @@ std::string letter(std::size_t i) {
   return i < 26 ? std::string(1, static_cast<char>('A' + i)) : fmt::format("run {}", i + 1);
 }
 
-std::string text_of(const CaseKey& key, const Case& input) {
-  const std::optional<KeyValue> value = key.get(input);
-  return value ? to_text(*value) + (key.unit.empty() ? "" : " " + key.unit) : "–";
-}
-
 Json differing_keys(const std::vector<FinishedRun>& runs) {
   Json list = Json::array();
   for (const CaseKey& key : case_keys()) {
-    const Json values =
-        list_of(runs, [&](const FinishedRun& run) { return text_of(key, run.input); });
+    const Json values = list_of(runs, [&](const FinishedRun& run) -> std::string {
+      const std::optional<KeyValue> value = key.get(run.input);
+      return value ? to_text(*value) + (key.unit.empty() ? "" : " " + key.unit) : "–";
+    });
     const bool differ =
         std::ranges::any_of(values, [&](const Json& value) { return value != values.front(); });
     if (differ) list.push_back({{"key", key.name}, {"values", values}});
@@ -146,13 +142,6 @@ std::string comparison_report(const std::vector<FinishedRun>& runs,
   return whole_page(
       "pages/compare.html", page, chart_library(dygraphs),
       {"pages/data.js", "pages/axes.js", "pages/motion.js", "pages/panels.js", "pages/compare.js"});
-}
-
-void write_comparison_report(const std::filesystem::path& directory,
-                             const std::vector<FinishedRun>& runs,
-                             const std::vector<std::string>& names,
-                             const std::filesystem::path& dygraphs) {
-  write_file(directory / "comparison.html", comparison_report(runs, names, dygraphs));
 }
 
 }  // namespace subimpact

@@ -99,29 +99,26 @@ std::vector<Point> thin_for_panel(const std::vector<Point>& line, FigureSize pan
                   line_tolerance);
 }
 
-FigureScript::FigureScript(std::string name, std::string caption, FigureSize size)
-    : name_(std::move(name)), caption_(std::move(caption)), size_(size) {}
-
 FigureSize FigureScript::size() const {
-  return {size_.width, size_.height + mark_height * static_cast<int>(marks_.size())};
+  return {panels.width, panels.height + mark_height * static_cast<int>(marks.size())};
 }
 
 std::string FigureScript::text(const std::filesystem::path& scripts) const {
-  std::string marks;  // a newline between marks, as gnuplot writes it within double quotes
-  for (const std::string& text : marks_) {
-    marks += fmt::format("{}{{/:Bold {}}}", marks.empty() ? "" : "\\n", text);
-  }
-  return "# " + caption_ + "\n" +
-         figure_script(name_,
-                       settings_ + fmt::format("panels = {:#.6g}\nmarks = \"{}\"\n",
-                                               1.0 * size_.height / size().height, marks),
-                       scripts);
+  // A newline between marks, as gnuplot writes it within double quotes.
+  const std::string above =
+      marks.empty() ? "" : fmt::format("{{/:Bold {}}}", fmt::join(marks, "}\\n{/:Bold "));
+  return fmt::format(
+      "# {}\n{}", caption,
+      figure_script(name,
+                    settings + fmt::format("panels = {:#.6g}\nmarks = \"{}\"\n",
+                                           1.0 * panels.height / size().height, above),
+                    scripts));
 }
 
 FigureScript& FigureScript::set(const std::string& variable, double value) {
   // "8.000000": never an integer; gnuplot has a NaN, but no infinity.
-  settings_ += std::isfinite(value) ? fmt::format("{} = {:#.7g}\n", variable, value)
-                                    : fmt::format("{} = NaN\n", variable);
+  settings += std::isfinite(value) ? fmt::format("{} = {:#.7g}\n", variable, value)
+                                   : fmt::format("{} = NaN\n", variable);
   return *this;
 }
 
@@ -139,7 +136,7 @@ void FigureScript::table(const std::string& name, const std::string& columns,
     fmt::format_to(out, "{}\n",
                    fmt::join(std::vector<const char*>(static_cast<std::size_t>(n), "NaN"), ","));
   }
-  settings_ += fmt::to_string(text) + "EOD\n";
+  settings += fmt::to_string(text) + "EOD\n";
 }
 
 void FigureScript::line(const std::string& name, const std::vector<Point>& points, FigureSize panel,

@@ -40,16 +40,14 @@ struct AxisRange {
 using NumberRows = std::vector<std::vector<double>>;
 
 /// A figure of a run: its script (figures/<name>.gp) with the tables and variables (SI) it reads.
-class FigureScript {
- public:
-  FigureScript(std::string name, std::string caption, FigureSize size);
+struct FigureScript {
+  std::string name, caption;
+  FigureSize panels;                    ///< without the space for marks
+  std::vector<std::string> marks = {};  ///< lines above the panels: warnings about the whole figure
+  std::string settings = {};            ///< tables and variables, as gnuplot reads them
 
-  const std::string& name() const { return name_; }
-  const std::string& caption() const { return caption_; }
   /// Including the space for marks.
   FigureSize size() const;
-  /// Writes a line across the top, above the panels: a warning about the whole figure.
-  void mark(const std::string& text) { marks_.push_back(text); }
   /// The complete script for gnuplot, with tables and variables; `scripts`: see figure_script().
   std::string text(const std::filesystem::path& scripts = {}) const;
 
@@ -63,12 +61,6 @@ class FigureScript {
   /// Adds columns of the history over time as lines, tables by the names of history.csv.
   void history(std::initializer_list<const char*> columns, const std::vector<HistoryRow>& rows,
                FigureSize panel);
-
- private:
-  std::string name_, caption_;
-  FigureSize size_;
-  std::vector<std::string> marks_;
-  std::string settings_;
 };
 
 /// thin_out() to what a panel of about that size can show.

@@ -23,13 +23,6 @@ std::string sections_left_out(const std::vector<double>& sections) {
       fmt::join(sections.begin() + most_bending_panels, sections.end(), ", "), most_bending_panels);
 }
 
-// A line each, because figures are narrow.
-void mark_clauses(FigureScript& figure, const std::string& text) {
-  for (const auto clause : std::views::split(text, std::string_view("; "))) {
-    figure.mark({clause.begin(), clause.end()});
-  }
-}
-
 std::string uncertain_mark(const Result& result) {
   const std::size_t n = result.sub_impacts.size();
   const std::size_t n_certain = result.n_certain().value_or(n);
@@ -102,8 +95,11 @@ std::vector<FigureScript> figure_scripts(const Case& input, const Result& result
   const std::string caveat = outcome_caveat(result);
   const std::string uncertain = uncertain_mark(result);
   for (FigureScript& figure : figures) {
-    mark_clauses(figure, caveat);
-    if (!uncertain.empty()) figure.mark(uncertain);
+    // A line each, because figures are narrow.
+    for (const auto clause : std::views::split(caveat, std::string_view("; "))) {
+      figure.marks.emplace_back(clause.begin(), clause.end());
+    }
+    if (!uncertain.empty()) figure.marks.push_back(uncertain);
   }
   return figures;
 }
@@ -136,8 +132,8 @@ DrawnFigures draw_figures(const std::filesystem::path& directory, const Case& in
   if (overlay != nullptr) all.push_back(measured_figure(*overlay));
   for (const FigureScript& figure : all) {
     try {
-      draw_figure(directory, figure.name(), figure.text(scripts), figure.size());
-      figures.drawn.push_back({figure.name(), figure.caption()});
+      draw_figure(directory, figure.name, figure.text(scripts), figure.size());
+      figures.drawn.push_back({figure.name, figure.caption});
     } catch (const GnuplotMissing&) {
       throw;
     } catch (const OutputError& error) {  // not drawn, or not written

@@ -4,39 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
 
 #include "case/problem.h"
 #include "report/figure_script.h"
+#include "study/totals.h"
 
 namespace subimpact {
 namespace {
 
-template <class Row, class Value>
-double largest(const std::vector<Row>& rows, Value value) {
-  double found = 0.0;
-  for (const Row& row : rows) found = std::max(found, std::abs(std::invoke(value, row)));
-  return found;
-}
-
 // Adds points to a table of lines that begins with the number of the line.
 void add_line(NumberRows& rows, std::size_t number, const std::vector<Point>& points) {
   for (const Point& p : points) rows.push_back({static_cast<double>(number), p.x, p.y});
-}
-
-double growth_of_residual(std::size_t i, const Result& result) {
-  return result.sub_impacts[i].residual_indentation -
-         result.sub_impacts[i - 1].residual_indentation;
-}
-
-std::vector<std::size_t> yielding_again(const Result& result) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
-    if (growth_of_residual(i, result) > 0.0) found.push_back(i);
-  }
-  return found;
 }
 
 // $sub_impacts, and where zones and sub-zones are. Without an error estimate all count as certain.
@@ -96,15 +76,27 @@ Loop loop_of(const ContactLaw& law, const std::vector<HistoryRow>& rows) {
   return loop;
 }
 
-// As many as insets can show, the deepest ones, in order of time.
-std::vector<std::size_t> deepest(std::vector<std::size_t> sub_impacts, const Result& result) {
-  if (sub_impacts.size() <= most_insets) return sub_impacts;
-  std::stable_sort(sub_impacts.begin(), sub_impacts.end(), [&](std::size_t a, std::size_t b) {
-    return growth_of_residual(a, result) > growth_of_residual(b, result);
-  });
-  sub_impacts.resize(most_insets);
-  std::sort(sub_impacts.begin(), sub_impacts.end());
-  return sub_impacts;
+struct YieldingAgain {
+  std::size_t n = 0;                 // of later sub-impacts that yield again
+  std::vector<std::size_t> deepest;  // as many of them as insets can show, in order of time
+};
+
+YieldingAgain yielding_again(const Result& result) {
+  const auto growth = [&](std::size_t i) {
+    return result.sub_impacts[i].residual_indentation -
+           result.sub_impacts[i - 1].residual_indentation;
+  };
+  std::vector<std::size_t> all;
+  for (std::size_t i = 1; i < result.sub_impacts.size(); ++i) {
+    if (growth(i) > 0.0) all.push_back(i);
+  }
+  const std::size_t n = all.size();
+  if (n > most_insets) {
+    std::ranges::stable_sort(all, std::ranges::greater(), growth);
+    all.resize(most_insets);
+    std::ranges::sort(all);
+  }
+  return {n, all};
 }
 
 std::string caption_text(std::size_t n_drawn, std::size_t n_yielding_again) {
@@ -151,27 +143,27 @@ std::vector<std::size_t> shapes_drawn(const Result& result, std::size_t n_points
 }  // namespace
 
 FigureScript response_figure(const Case&, const Result& result) {
-  FigureScript figure("response",
+  FigureScript figure{"response",
                       "Contact force and displacements over the strike: w_c of the struck point, "
                       "w_m of the striker, f_c = w_c − w(0) the beam's deflection at the struck "
                       "point. Shaded: sub-impacts, hatched where they are not certain.",
-                      {800, 580});
+                      {800, 580}};
   figure.history({"force_N", "w_c_m", "w_m_m", "f_c_m"}, result.history, {690, 210});
   add_sub_impacts(figure, result);
   figure.set("largest_force", result.max_force);
   figure.set("largest_displacement",
-             std::max(largest(result.history, &HistoryRow::struck_displacement),
-                      largest(result.history, &HistoryRow::striker_displacement)));
+             std::max(largest_magnitude(result.history, &HistoryRow::struck_displacement),
+                      largest_magnitude(result.history, &HistoryRow::striker_displacement)));
   return figure;
 }
 
 FigureScript first_sub_impact_figure(const Case& input, const Result& result) {
-  FigureScript figure(
+  FigureScript figure{
       "first-sub-impact",
       "Contact force, and stress in the outermost fibre behind the struck point, in "
       "the first sub-impact (shaded). Broken lines: the yield stress and the "
       "instant at which a fibre of the beam first yields.",
-      {800, 580});
+      {800, 580}};
   const double end =
       result.sub_impacts.empty() ? result.outcome.time : result.end_of(result.sub_impacts.front());
   const double shown = std::min(1.08 * end, result.outcome.time);
@@ -187,9 +179,8 @@ FigureScript first_sub_impact_figure(const Case& input, const Result& result) {
 
 FigureScript indentation_figure(const Case& input, const Result& result) {
   const std::vector<SubImpact>& hits = result.sub_impacts;
-  const std::vector<std::size_t> yielding = yielding_again(result);
-  const std::vector<std::size_t> again = deepest(yielding, result);
-  FigureScript figure("indentation", caption_text(again.size(), yielding.size()), {800, 520});
+  const auto [n_again, again] = yielding_again(result);
+  FigureScript figure{"indentation", caption_text(again.size(), n_again), {800, 520}};
   const Loop loop = loop_of(*contact_law_of(input), result.history);
   const AxisRange shown{0.0, 1.06 * result.max_indentation};
   const FigureSize panel{again.empty() ? 700 : 410, 420};
@@ -217,19 +208,19 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
 }
 
 FigureScript energies_figure(const Case&, const Result& result) {
-  FigureScript figure("energies",
+  FigureScript figure{"energies",
                       "Energies, and the motion of striker (u_mf = w_m − w(0)) and struck point "
                       "(f_c = w_c − w(0)) relative to the beam's end. Above: zones, sub-zones and "
                       "sub-impacts, pale where they are not certain; zones are shaded.",
-                      {800, 660});
+                      {800, 660}};
   figure.history({"U_m_J", "U_k_J", "U_e_J", "U_p_J", "D_c_J", "D_b_J", "f_c_m", "u_mf_m"},
                  result.history, {660, 280});
   add_sub_impacts(figure, result);
   figure.set("is_damped", result.beam_damping_loss > 0.0);
   figure.set("initial_energy", result.used.initial_energy);
   figure.set("largest_displacement",
-             std::max(largest(result.history, &HistoryRow::struck_deflection),
-                      largest(result.history, &HistoryRow::striker_relative)));
+             std::max(largest_magnitude(result.history, &HistoryRow::struck_deflection),
+                      largest_magnitude(result.history, &HistoryRow::striker_relative)));
   return figure;
 }
 
@@ -246,7 +237,7 @@ FigureScript timeline_figure(const Case&, const Result& result) {
   if (any(&SubImpact::start_scatter)) {
     caption += " Purple bars: its standard deviation by the scatter of the case.";
   }
-  FigureScript figure("timeline", caption, {800, 580});
+  FigureScript figure{"timeline", caption, {800, 580}};
   add_sub_impacts(figure, result);
   const std::optional<Predictability>& found = result.predictability;
   figure.set("horizon", found && found->first_unpredictable ? found->horizon : NAN);
@@ -261,15 +252,16 @@ FigureScript bending_figure(const Case& input, const Result& result) {
   const std::size_t n_columns = n_panels > 4 ? 3 : std::min<std::size_t>(n_panels, 2);
   const int n_rows = static_cast<int>((n_panels + n_columns - 1) / n_columns);
   const FigureSize size{n_columns > 2 ? 1100 : 800, n_rows > 1 ? 360 * n_rows : 420};
-  FigureScript figure(
+  FigureScript figure{
       "bending",
       fmt::format("Bending moment against curvature of {} over the whole run{}. Dots: end of the "
                   "run.",
                   n_panels == 1 ? "a section" : "sections",
                   yields ? ", in units of first yield" : ""),
-      size);
+      size};
   if (n > n_panels) {
-    figure.mark(fmt::format("left out: sections {} to {} of output.sections", n_panels + 1, n));
+    figure.marks.push_back(
+        fmt::format("left out: sections {} to {} of output.sections", n_panels + 1, n));
   }
   NumberRows sections, loops, ends;
   for (std::size_t k = 0; k < n_panels; ++k) {
@@ -291,10 +283,10 @@ FigureScript bending_figure(const Case& input, const Result& result) {
 }
 
 FigureScript shapes_figure(const Case& input, const Result& result) {
-  FigureScript figure("shapes",
+  FigureScript figure{"shapes",
                       "Displacement and bending moment along the whole beam at some instants of "
                       "the run, from dark to light.",
-                      {800, 700});
+                      {800, 700}};
   const std::size_t n_points = result.used.n_shape_points;
   NumberRows instants, displacements, moments;
   for (const std::size_t first : shapes_drawn(result, n_points)) {
@@ -312,14 +304,14 @@ FigureScript shapes_figure(const Case& input, const Result& result) {
   figure.table("moment", "shape,x,y", moments);
   figure.table("instants", "time", instants);
   figure.set("end", result.outcome.time).set("length", input.scene.beam.length);
-  figure.set("largest_displacement", largest(result.shapes, &ShapeRow::displacement));
+  figure.set("largest_displacement", largest_magnitude(result.shapes, &ShapeRow::displacement));
   return figure;
 }
 
 FigureScript envelope_figure(const Case& input, const Result& result) {
   const Beam& beam = input.scene.beam;
   const bool yields = !result.plastic_zones.empty();
-  FigureScript figure(
+  FigureScript figure{
       "envelope",
       yields ? "Envelope of the run along the beam: largest and smallest bending moment (dashed: "
                "first yield) and strain of the outer fibre (cut off at six times first yield), and "
@@ -328,7 +320,7 @@ FigureScript envelope_figure(const Case& input, const Result& result) {
                "zones."
              : "Envelope of the run along the beam: largest and smallest bending moment, strain of "
                "the outer fibre and displacement.",
-      {800, 860});
+      {800, 860}};
   const auto add = [&](const std::string& name, auto value) {
     figure.line(name, line_of(result.envelope, &EnvelopeRow::position, value), {660, 260});
   };
@@ -348,7 +340,8 @@ FigureScript envelope_figure(const Case& input, const Result& result) {
   figure.set("length", beam.length).set("yields", yields);
   figure.set("yield_moment", beam.yield_moment());
   figure.set("yield_strain", beam.yield_stress / beam.youngs_modulus);
-  figure.set("largest_displacement", largest(result.envelope, [=](const EnvelopeRow& row) {
+  figure.set("largest_displacement",
+             largest_magnitude(result.envelope, [=](const EnvelopeRow& row) {
                const EnvelopeRow::Range& w = row.displacement;
                return yields ? row.permanent_set : std::max(w.largest.value, -w.smallest.value);
              }));
@@ -356,10 +349,10 @@ FigureScript envelope_figure(const Case& input, const Result& result) {
 }
 
 FigureScript measured_figure(const Overlay& overlay) {
-  FigureScript figure("measured",
+  FigureScript figure{"measured",
                       "The measured force and the computed one on the time of the run, their "
                       "difference (computed less measured), and both about the largest force.",
-                      {800, 820});
+                      {800, 820}};
   const auto add = [&](const std::string& name, const Signal& signal, AxisRange shown) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < signal.times.size(); ++i) {
@@ -384,11 +377,11 @@ FigureScript measured_figure(const Overlay& overlay) {
 }
 
 FigureScript strikes_figure(const Case&, const Result& result) {
-  FigureScript figure("strikes",
+  FigureScript figure{"strikes",
                       "Strike after strike, at the end of each: restitution; dent and permanent "
                       "set of all strikes so far; energy that the strike has dissipated in bending "
                       "and in the contact. Bars: errors, where they are known.",
-                      {800, 860});
+                      {800, 860}};
   NumberRows rows;
   for (const StrikeRow& row : result.strikes) {
     rows.push_back({static_cast<double>(row.strike), row.restitution, row.dent, row.permanent_set,
@@ -397,8 +390,8 @@ FigureScript strikes_figure(const Case&, const Result& result) {
   }
   figure.table("strikes", "strike,restitution,dent,set,bending,contact,e_error,set_error", rows);
   figure.set("n", static_cast<double>(rows.size()));
-  figure.set("largest_dent", largest(result.strikes, &StrikeRow::dent));
-  figure.set("largest_set", largest(result.strikes, &StrikeRow::permanent_set));
+  figure.set("largest_dent", largest_magnitude(result.strikes, &StrikeRow::dent));
+  figure.set("largest_set", largest_magnitude(result.strikes, &StrikeRow::permanent_set));
   return figure;
 }
 

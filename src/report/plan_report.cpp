@@ -15,21 +15,25 @@
 namespace subimpact {
 namespace {
 
-// Whether a case has a key of its mesh that another mesh does not take: its count of parts, which
-// may be given even where it has the default, or another one that differs from the default.
-bool must_be_taken_back(const CaseKey& key, const Case& asked, const Case& advised) {
+// What --set gives a key, so that the case that was asked about becomes the one that is advised;
+// none where it has that value already.
+std::optional<std::string> new_value(const CaseKey& key, const Case& asked, const Case& advised) {
   const char* name = key.name.c_str();
-  if (!mesh_uses(asked, name) || mesh_uses(advised, name)) return false;
-  const auto& refinement = descriptor_of(asked.model.mesh).refinement;
-  return (refinement && key.name == refinement->key) || key.get(asked) != key.get(Case());
-}
-
-// Whether a key has no effect with the mesh of a case, but with another mesh.
-bool is_of_other_mesh(const CaseKey& key, const Case& input) {
-  return !mesh_uses(input, key.name.c_str()) &&
-         std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
-           return std::ranges::find(mesh.keys, key.name) != mesh.keys.end();
-         });
+  const bool is_of_a_mesh = std::ranges::any_of(meshes(), [&](const MeshDescriptor& mesh) {
+    return std::ranges::find(mesh.keys, key.name) != mesh.keys.end();
+  });
+  if (is_of_a_mesh && !mesh_uses(advised, name)) {
+    // The count of parts may be given even where it has the default, others where they differ.
+    const auto& refinement = descriptor_of(asked.model.mesh).refinement;
+    const bool may_be_given =
+        (refinement && key.name == refinement->key) || key.get(asked) != key.get(Case());
+    return mesh_uses(asked, name) && may_be_given ? std::optional("default") : std::nullopt;
+  }
+  const std::optional<KeyValue> value = key.get(advised);
+  if (value == key.get(asked)) return std::nullopt;
+  if (!value) return "default";
+  const auto* word = std::get_if<std::string>(&*value);
+  return word ? *word : to_text(*value);
 }
 
 // The options that make of the case that was asked about the run that is advised.
@@ -38,18 +42,8 @@ std::string settings_text(const Case& asked, const PlanPoint& advised) {
   for (const CaseKey& key : case_keys()) {
     const std::string table = key.table();
     if (table == "output" || table == "accuracy" || key.name == "solver.method") continue;
-    std::optional<KeyValue> value = key.get(advised.input);
-    if (is_of_other_mesh(key, advised.input)) {
-      if (!must_be_taken_back(key, asked, advised.input)) continue;
-      value.reset();
-    } else if (value == key.get(asked)) {
-      continue;
-    }
-    const auto* word = value ? std::get_if<std::string>(&*value) : nullptr;
-    text += fmt::format(" --set {}={}", key.name,
-                        word    ? *word
-                        : value ? to_text(*value)
-                                : "default");
+    const auto value = new_value(key, asked, advised.input);
+    if (value) text += fmt::format(" --set {}={}", key.name, *value);
   }
   return text;
 }

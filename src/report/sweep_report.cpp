@@ -8,7 +8,6 @@
 #include <set>
 
 #include "case/counted.h"
-#include "io/listed_files.h"
 #include "report/page.h"
 #include "subimpact/case/case_keys.h"
 
@@ -69,11 +68,6 @@ Json words_json(const std::vector<std::string>& words) {
   return {{"words", different}, {"indices", indices}};
 }
 
-Json values_json(const SweptRuns::Column& column) {
-  if (!column.words.empty()) return words_json(column.words);
-  return column.is_key ? packed<double>(column.numbers) : packed<float>(column.numbers);
-}
-
 Json column_json(const SweptRuns::Column& column) {
   const Shown how = shown(column);
   const CaseKey* key = column.is_key ? find_case_key(column.name) : nullptr;
@@ -83,7 +77,9 @@ Json column_json(const SweptRuns::Column& column) {
           {"factor", how.factor},
           {"is_key", column.is_key},
           {"is_flag", key != nullptr && key->type == KeyType::flag},
-          {"values", values_json(column)}};
+          {"values", !column.words.empty() ? words_json(column.words)
+                     : column.is_key       ? packed<double>(column.numbers)
+                                           : packed<float>(column.numbers)}};
 }
 
 // The sub-impacts of all runs, one after another, and how many each run has; -1: left out.
@@ -201,11 +197,6 @@ std::string sweep_report(const SweptRuns& runs, const std::string& name) {
       "pages/sweep.html", page, {},
       {"pages/data.js", "pages/axes.js", "pages/panels.js", "pages/swept_runs.js", "pages/shade.js",
        "pages/sweep_map.js", "pages/run_panel.js", "pages/sweep.js"});
-}
-
-void write_sweep_report(const std::filesystem::path& directory, const SweptRuns& runs,
-                        const std::string& name) {
-  write_file(directory / "sweep.html", sweep_report(runs, name));
 }
 
 }  // namespace subimpact

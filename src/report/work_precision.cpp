@@ -116,10 +116,6 @@ void complete(LoggedPoint& row) {
       UnmatchedSubImpact{*row.unmatched_start, *row.unmatched_duration, {}};
 }
 
-std::string key_of(const std::string& id, const Setting& setting) {
-  return fmt::format("{} {} {} {:.17g}", id, setting.method, setting.fixed_step, setting.value);
-}
-
 std::string setting_text(const Trial& point) {
   return fmt::format("{} at {}: {}, largest error {:.1e} us", point.setting.method,
                      point.setting.text(), duration_text(point.seconds), point.errors.maximum * us);
@@ -135,29 +131,6 @@ std::string mark_of(Verdict verdict) {
 double shown_error(const Trial& point, const WorkPrecision& study) {
   if (mark_of(point.verdict) == "failed") return std::numeric_limits<double>::quiet_NaN();
   return us * std::max(point.errors.overall(), 0.1 * study.reference.error);
-}
-
-void draw(const std::filesystem::path& directory, const std::string& name,
-          const std::vector<WorkPrecision>& studies, const char* cost_label,
-          double (*cost)(const Trial&)) {
-  std::string labels;
-  std::string points = "panel,method,mark,error_us,cost\n";
-  for (std::size_t p = 0; p < studies.size(); ++p) {
-    labels += fmt::format("'{}' ", studies[p].label);
-    for (const Trial& point : studies[p].points) {
-      const std::string mark = mark_of(point.verdict);
-      if (mark.empty() || !(cost(point) > 0.0)) continue;
-      points += fmt::format("{},{},{},{:.17g},{:.17g}\n", p + 1, point.setting.method, mark,
-                            shown_error(point, studies[p]), cost(point));
-    }
-  }
-  const FigureSize size{static_cast<int>(120 + 400 * studies.size() + 250), 560};
-  draw_figure(
-      directory, name,
-      figure_script("work_precision", fmt::format("labels = \"{}\"\ncost_label = '{}'\nwidth = {}\n"
-                                                  "$points << EOD\n{}EOD\n",
-                                                  labels, cost_label, size.width, points)),
-      size);
 }
 
 }  // namespace
@@ -226,14 +199,15 @@ PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& c
     }
     complete(row);
     append_row(text_, columns_in_file(point_columns()), row);
-    known_[key_of(row.id, row.point.setting)] = row.point;
+    known_.emplace_back(row.id, row.point);
   });
 }
 
 std::optional<Trial> PointLog::known(const std::string& case_id, const Setting& setting) const {
-  const auto found = known_.find(key_of(case_id, setting));
-  if (found == known_.end()) return std::nullopt;
-  return found->second;
+  for (const auto& [id, point] : known_) {
+    if (id == case_id && point.setting == setting) return point;
+  }
+  return std::nullopt;
 }
 
 void PointLog::append(const std::string& case_id, const std::string& label, const Trial& point) {
@@ -244,9 +218,25 @@ void PointLog::append(const std::string& case_id, const std::string& label, cons
 
 void draw_work_precision(const std::filesystem::path& directory,
                          const std::vector<WorkPrecision>& studies) {
-  draw(directory, "work_precision", studies, "wall time (ms)",
-       [](const Trial& point) { return 1e3 * point.seconds; });
-  draw(directory, "work_precision_evaluations", studies, "evaluations of the right-hand side",
+  const int width = static_cast<int>(120 + 400 * studies.size() + 250);
+  const auto draw = [&](const char* name, const char* cost_label, auto cost) {
+    std::string labels, points = "panel,method,mark,error_us,cost\n";
+    for (std::size_t p = 0; p < studies.size(); ++p) {
+      labels += fmt::format("'{}' ", studies[p].label);
+      for (const Trial& point : studies[p].points) {
+        const std::string mark = mark_of(point.verdict);
+        if (mark.empty() || !(cost(point) > 0.0)) continue;
+        points += fmt::format("{},{},{},{:.17g},{:.17g}\n", p + 1, point.setting.method, mark,
+                              shown_error(point, studies[p]), cost(point));
+      }
+    }
+    const std::string settings =
+        fmt::format("labels = \"{}\"\ncost_label = '{}'\nwidth = {}\n$points << EOD\n{}EOD\n",
+                    labels, cost_label, width, points);
+    draw_figure(directory, name, figure_script("work_precision", settings), {width, 560});
+  };
+  draw("work_precision", "wall time (ms)", [](const Trial& point) { return 1e3 * point.seconds; });
+  draw("work_precision_evaluations", "evaluations of the right-hand side",
        [](const Trial& point) { return static_cast<double>(point.work.right_hand_sides); });
 }
 

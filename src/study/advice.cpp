@@ -1,4 +1,4 @@
-#include "subimpact/study/advice.h"
+#include "subimpact/study/run_as_asked.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "case/meshes.h"
 #include "study/refinement.h"
-#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {

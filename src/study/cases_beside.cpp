@@ -43,12 +43,6 @@ bool has_fixed_step(const Case& input) {
          input.solver.step;
 }
 
-// The difference of runs on nearly equal meshes would be taken many times. `ratio`: of the number
-// of parts to that of the mesh beside. At the order 1 a part of the difference is chance.
-double gain_of_mesh(double ratio, double order) {
-  return std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
-}
-
 std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
   try {
     const std::optional<RefinedRun> other = on_other_mesh(input, size);
@@ -57,7 +51,10 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     }
     CaseBeside beside{other->input, "mesh and time", other->description};
     const double ratio = static_cast<double>(mesh_count(input)) / mesh_count(beside.input);
-    beside.gain = gain_of_mesh(ratio, std::max(mesh_order(input).value_or(2), 2));
+    // The difference of runs on nearly equal meshes would be taken many times. At the order 1 a
+    // part of the difference is chance.
+    const double order = std::max(mesh_order(input).value_or(2), 2);
+    beside.gain = std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
     beside.input.output = output_beside(input);
     // Of a run in natural modes nothing but the case can be refused, and resolving it would take
     // most of the time of a short run.

@@ -164,19 +164,12 @@ std::string_view to_string(Verdict verdict) {
 }
 
 Verdict judge(const Result& run, const EventErrors& errors) {
-  switch (run.outcome.kind) {
-    case OutcomeKind::completed:
-      return errors.all_correspond() ? Verdict::right : Verdict::wrong_count;
-    case OutcomeKind::inaccurate:
-    case OutcomeKind::chattering:
-      return Verdict::inaccurate;
-    case OutcomeKind::unstable:
-    case OutcomeKind::left_validity:  // of a scene whose reference stays within it
-      return Verdict::unstable;
-    case OutcomeKind::solver_failed:
-    case OutcomeKind::stopped:
-      return Verdict::failed;
-  }
+  using enum OutcomeKind;
+  const OutcomeKind kind = run.outcome.kind;
+  if (kind == completed) return errors.all_correspond() ? Verdict::right : Verdict::wrong_count;
+  if (kind == inaccurate || kind == chattering) return Verdict::inaccurate;
+  // The reference of the scene stays within the validity.
+  if (kind == unstable || kind == left_validity) return Verdict::unstable;
   return Verdict::failed;
 }
 

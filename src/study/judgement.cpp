@@ -11,7 +11,6 @@
 
 #include "numerics/median.h"
 #include "numerics/units.h"
-#include "study/mesh_limits.h"
 #include "study/mesh_resolution.h"
 #include "study/totals.h"
 #include "subimpact/study/match.h"

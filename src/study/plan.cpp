@@ -34,21 +34,17 @@ struct Family {
   bool operator==(const Family&) const = default;
 };
 
-std::vector<Family> families_without_damping(const Case& input) {
-  if (may_yield(input)) {
-    return {{MeshKind::cells, 1.0, Method::central_difference},
-            {MeshKind::hermite, 1.0, Method::nystrom},
-            {MeshKind::hermite, grading, Method::nystrom}};
-  }
-  return {{MeshKind::spectral, 1.0, Method::exponential},
-          {MeshKind::hermite, 1.0, Method::exponential},
-          {MeshKind::hermite, grading, Method::exponential},
-          {MeshKind::cells, 1.0, Method::exponential},
-          {MeshKind::cells, 1.0, Method::central_difference}};
-}
-
 std::vector<Family> families_of(const Case& input) {
-  std::vector<Family> families = families_without_damping(input);
+  std::vector<Family> families = {{MeshKind::spectral, 1.0, Method::exponential},
+                                  {MeshKind::hermite, 1.0, Method::exponential},
+                                  {MeshKind::hermite, grading, Method::exponential},
+                                  {MeshKind::cells, 1.0, Method::exponential},
+                                  {MeshKind::cells, 1.0, Method::central_difference}};
+  if (may_yield(input)) {
+    families = {{MeshKind::cells, 1.0, Method::central_difference},
+                {MeshKind::hermite, 1.0, Method::nystrom},
+                {MeshKind::hermite, grading, Method::nystrom}};
+  }
   for (Family& family : families) family.method = method_for_damping(input, family.method);
   families.erase(std::unique(families.begin(), families.end()), families.end());
   return families;
@@ -94,10 +90,6 @@ void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
                   outcome.reason.empty() ? "the first contact lasts to the end" : outcome.reason));
 }
 
-double error_of(const SubImpact& s) {
-  return std::max(s.start_error.value_or(0.0), s.end_error.value_or(0.0));
-}
-
 // Whether the errors of all sub-impacts are small beside their durations and the separations about
 // them, those of the reference included. A tolerance may be larger.
 bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubImpact>& reference) {
@@ -105,8 +97,9 @@ bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubIm
     const SubImpact& s = reference[i];
     double error = std::abs(run[i].start - s.start);
     if (s.end && run[i].end) error = std::max(error, std::abs(*run[i].end - *s.end));
+    error += std::max(s.start_error.value_or(0.0), s.end_error.value_or(0.0));
     for (const LengthBeside& beside : lengths_beside(reference, i)) {
-      if (error + error_of(s) > recognisable * beside.length) return false;
+      if (error > recognisable * beside.length) return false;
     }
   }
   return true;

@@ -42,13 +42,6 @@ std::optional<double> number_of(const std::optional<KeyValue>& value) {
   return std::nullopt;
 }
 
-std::optional<KeyValue> value_of(const CaseKey& key, const Settings& settings, const Case& base) {
-  for (const auto& [name, value] : settings) {
-    if (name == key.name) return value;
-  }
-  return key.get(base);
-}
-
 double scattered(const CaseKey& key, double value, double deviation, SplitMix64& random) {
   for (int draw = 0; draw < most_draws; ++draw) {
     const double other = value * std::exp(deviation * normal(random));
@@ -57,15 +50,6 @@ double scattered(const CaseKey& key, double value, double deviation, SplitMix64&
   throw InvalidCase(key.name, fmt::format("scatters out of its range: no value of {} draws about "
                                           "{:g} is allowed; make its scatter smaller",
                                           most_draws, value));
-}
-
-void set(Settings& settings, const std::string& name, const KeyValue& value) {
-  for (auto& [known, old] : settings) {
-    if (known != name) continue;
-    old = value;
-    return;
-  }
-  settings.emplace_back(name, value);
 }
 
 void check_axis(const PopulationAxis& axis, std::set<std::string>& seen) {
@@ -153,8 +137,10 @@ Settings Population::settings(const Case& base, std::size_t number) const {
   random.next();
   for (const auto& [name, deviation] : scatter) {
     const CaseKey& key = known_key(name);
-    const double value = *number_of(value_of(key, settings, base));
-    set(settings, name, scattered(key, value, deviation, random));
+    auto place = std::ranges::find(settings, name, &Settings::value_type::first);
+    const double value = *number_of(place != settings.end() ? place->second : key.get(base));
+    if (place == settings.end()) place = settings.emplace(place, name, KeyValue());
+    place->second = scattered(key, value, deviation, random);
   }
   return settings;
 }

@@ -9,6 +9,7 @@
 
 #include "case/meshes.h"
 #include "study/mesh_resolution.h"
+#include "study/totals.h"
 #include "subimpact/study/judgement.h"
 
 namespace subimpact {
@@ -35,22 +36,15 @@ std::vector<CaseBeside> cases_that_go_on(const Case& input) {
 std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& request) {
   if (input.parts.start && request.error_bars != ErrorBars::off) return cases_that_go_on(input);
   if (!request.error_bars) return cases_beside_on_given_mesh(input);
-  switch (*request.error_bars) {
-    case ErrorBars::time:
-      if (mesh_has_own_step(input)) {
-        throw InvalidCase(
-            "model.mesh",
-            "is \"mixed\", on which the step belongs to the mesh, so that time has no "
-            "error of its own; allowed: error bars of mesh and time together, without "
-            "--error-bars, or by part; leave \"time\" out");
-      }
-      return cases_beside_in_time(input);
-    case ErrorBars::all:
-      return cases_beside_by_part(input);
-    case ErrorBars::off:
-      break;
+  if (request.error_bars == ErrorBars::off) return {};
+  if (request.error_bars == ErrorBars::all) return cases_beside_by_part(input);
+  if (mesh_has_own_step(input)) {
+    throw InvalidCase("model.mesh",
+                      "is \"mixed\", on which the step belongs to the mesh, so that time has no "
+                      "error of its own; allowed: error bars of mesh and time together, without "
+                      "--error-bars, or by part; leave \"time\" out");
   }
-  return {};
+  return cases_beside_in_time(input);
 }
 
 Result simulate_as_given(const Case& input, RunRequest& request) {
@@ -97,29 +91,6 @@ std::optional<double> end_of_first(const Case& input) {
   }
 }
 
-}  // namespace
-
-std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
-                                        const std::optional<ErrorBars>& error_bars) {
-  const OpenChoices open = open_choices(given);
-  if (input.parts.start) {
-    if (!input.accuracy.event_times) return std::nullopt;
-    throw InvalidCase("accuracy.event_times",
-                      "is given, but a run that goes on from another one stays on its mesh; leave "
-                      "it out");
-  }
-  if (input.accuracy.event_times) {
-    if (!error_bars) return open;
-    throw InvalidCase("accuracy.event_times",
-                      "cannot go with error bars of another kind: the errors of a searched mesh "
-                      "come from coarser ones; leave out one of the two");
-  }
-  if (open.all() && !error_bars) return open;
-  return std::nullopt;
-}
-
-namespace {
-
 WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   const std::optional<OpenChoices> open = choices_left(input, given, request.error_bars);
@@ -139,8 +110,6 @@ WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& reques
   return run;
 }
 
-double magnitude(double largest, double value) { return std::max(largest, std::abs(value)); }
-
 StrikeRow row_of(int strike, const WithinRun& run) {
   const Result& result = run.result;
   const Energies& end = result.final_energies;
@@ -152,12 +121,8 @@ StrikeRow row_of(int strike, const WithinRun& run) {
   row.peak_force = result.max_force;
   row.impulse = result.impulse();
   row.dent = result.sub_impacts.back().residual_indentation;
-  for (const EnvelopeRow& at : result.envelope) {
-    row.permanent_set = magnitude(row.permanent_set, at.permanent_set);
-  }
-  for (const PlasticZone& zone : result.plastic_zones) {
-    row.hinge_rotation = magnitude(row.hinge_rotation, zone.rotation);
-  }
+  row.permanent_set = largest_magnitude(result.envelope, &EnvelopeRow::permanent_set);
+  row.hinge_rotation = largest_magnitude(result.plastic_zones, &PlasticZone::rotation);
   row.striker_energy = end.striker;
   row.vibration = end.beam_kinetic + end.bending_elastic;
   row.bending_dissipated = end.bending_plastic + end.beam_damping;
@@ -201,6 +166,25 @@ WithinRun strike_repeatedly(Case next, const GivenKeys& given, RunRequest& reque
 }
 
 }  // namespace
+
+std::optional<OpenChoices> choices_left(const Case& input, const GivenKeys& given,
+                                        const std::optional<ErrorBars>& error_bars) {
+  const OpenChoices open = open_choices(given);
+  if (input.parts.start) {
+    if (!input.accuracy.event_times) return std::nullopt;
+    throw InvalidCase("accuracy.event_times",
+                      "is given, but a run that goes on from another one stays on its mesh; leave "
+                      "it out");
+  }
+  if (input.accuracy.event_times) {
+    if (!error_bars) return open;
+    throw InvalidCase("accuracy.event_times",
+                      "cannot go with error bars of another kind: the errors of a searched mesh "
+                      "come from coarser ones; leave out one of the two");
+  }
+  if (open.all() && !error_bars) return open;
+  return std::nullopt;
+}
 
 WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest request) {
   if (input.strikes > 1) return strike_repeatedly(input, given, request);

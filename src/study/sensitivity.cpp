@@ -81,6 +81,20 @@ std::vector<Case> shifted_cases(const Case& base, const std::vector<const CaseKe
   return cases;
 }
 
+// A number of the base run and of the shifted runs of a key, in the order of shifted_cases(); none
+// where one of these lacks it.
+template <class ValueIn>
+std::optional<Stencil> stencil_of(double base, ValueIn value_in) {
+  Stencil s;
+  s.base = base;
+  for (std::size_t run = 0; run < n_runs_per_key; ++run) {
+    const std::optional<double> value = value_in(run);
+    if (!value) return std::nullopt;
+    (run % 2 == 0 ? s.plus : s.minus)[run / 2] = *value;
+  }
+  return s;
+}
+
 Smoothness smoothness_of(const Result& base) {
   return base.n_yielded_sections > 0 ? Smoothness::between_thresholds : Smoothness::everywhere;
 }
@@ -119,19 +133,12 @@ class Differences {
   }
 
   std::optional<Stencil> stencil(EventQuantity quantity, std::size_t i, std::size_t key) const {
-    Stencil s;
     const std::optional<double> base = value_of(base_[i], quantity);
     if (!base) return std::nullopt;
-    s.base = *base;
-    for (std::size_t shift = 0; shift < sensitivity_shifts.size(); ++shift) {
-      for (const bool minus : {false, true}) {
-        const SubImpact* other = run_of(key, shift, minus).of[i];
-        const auto value = other != nullptr ? value_of(*other, quantity) : std::nullopt;
-        if (!value) return std::nullopt;
-        (minus ? s.minus : s.plus)[shift] = *value;
-      }
-    }
-    return s;
+    return stencil_of(*base, [&](std::size_t run) {
+      const SubImpact* other = shifted_[key * n_runs_per_key + run].of[i];
+      return other != nullptr ? value_of(*other, quantity) : std::nullopt;
+    });
   }
 
   bool follows_new_one(std::size_t i, std::size_t key) const {
@@ -142,10 +149,6 @@ class Differences {
   Smoothness smoothness() const { return smoothness_; }
 
  private:
-  const Counterparts& run_of(std::size_t key, std::size_t shift, bool minus) const {
-    return shifted_[key * n_runs_per_key + 2 * shift + (minus ? 1 : 0)];
-  }
-
   double error_of_one(EventQuantity quantity, std::size_t i, std::size_t like) const {
     std::vector<double> noises;
     for (std::size_t key = 0; key < n_keys_; ++key) {
@@ -210,17 +213,13 @@ std::vector<NearMissSensitivity> near_misses_of(const Result& base,
     const NearMiss& here = base.near_misses[i];
     NearMissSensitivity row{i, first_in_doubt(base, here), {}};
     for (std::size_t key = 0; key < n_keys; ++key) {
-      std::array<double, n_runs_per_key> margins{};
-      bool known = true;
-      for (std::size_t k = 0; k < n_runs_per_key && known; ++k) {
+      const auto s = stencil_of(here.margin, [&](std::size_t k) -> std::optional<double> {
         const std::size_t run = key * n_runs_per_key + k;
-        const auto partner = i < partners[run].size() ? partners[run][i] : std::nullopt;
-        known = partner.has_value();
-        if (known) margins[k] = shifted_runs[run].near_misses[*partner].margin;
-      }
-      const Stencil s{here.margin, {margins[0], margins[2]}, {margins[1], margins[3]}};
-      row.by_key.push_back(known ? std::optional(derivative_of(s, noise_of(s), smoothness_of(base)))
-                                 : std::nullopt);
+        if (i >= partners[run].size() || !partners[run][i]) return std::nullopt;
+        return shifted_runs[run].near_misses[*partners[run][i]].margin;
+      });
+      row.by_key.push_back(s ? std::optional(derivative_of(*s, noise_of(*s), smoothness_of(base)))
+                             : std::nullopt);
     }
     list.push_back(std::move(row));
   }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "case/counted.h"
 #include "study/method_choice.h"
@@ -56,31 +57,22 @@ std::vector<MapRow> rows_of_map() {
 std::vector<OutcomePoint> points_of(const Case& input, const std::vector<std::string>& methods) {
   const double highest_frequency = resolve(with_method(input, "erk")).settings().highest_frequency;
   std::vector<OutcomePoint> points;
-  const auto add = [&](const char* group, const MapRow& row, double x, const Case& chosen) {
-    OutcomePoint& point = points.emplace_back();
-    point.group = group;
-    point.row = row.name;
-    point.x = x;
-    point.input = chosen;
-  };
   for (const MapRow& row : rows_of_map()) {
     if (!asked_for(methods, row.method)) continue;
     Case chosen = with_method(input, row.method);
     Case without_step = chosen;
     without_step.solver.step.reset();
     if (!can_run(without_step)) continue;
-    if (row.fixed_step) {
-      chosen.study.beyond_critical = row.forced;
-      for (const double angle : angles) {
-        chosen.solver.step = angle / highest_frequency;
-        add("fixed step", row, angle, chosen);
-      }
-      continue;
-    }
-    chosen.solver.max_order = row.max_order;
-    for (const double rtol : tolerances) {
-      chosen.solver.rtol = rtol;
-      add("tolerance", row, rtol, chosen);
+    if (row.fixed_step) chosen.study.beyond_critical = row.forced;
+    if (!row.fixed_step) chosen.solver.max_order = row.max_order;
+    for (const double x : row.fixed_step ? std::span<const double>(angles) : tolerances) {
+      if (row.fixed_step) chosen.solver.step = x / highest_frequency;
+      if (!row.fixed_step) chosen.solver.rtol = x;
+      OutcomePoint& point = points.emplace_back();
+      point.group = row.fixed_step ? "fixed step" : "tolerance";
+      point.row = row.name;
+      point.x = x;
+      point.input = chosen;
     }
   }
   return points;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "subimpact/study/sensitivity.h"
 
@@ -11,6 +13,8 @@ namespace subimpact {
 
 /// One number of a base run and of the four shifted runs of a key.
 struct Stencil {
+  static constexpr double shift_ratio = sensitivity_shifts[0] / sensitivity_shifts[1];
+
   double base = 0.0;
   std::array<double, sensitivity_shifts.size()> plus{}, minus{};
 
@@ -24,22 +28,50 @@ struct Stencil {
   double bend(std::size_t i) const { return 0.5 * (plus[i] - base + (minus[i] - base)); }
 };
 
-/// What the errors of single runs come to in the second differences.
-double noise_of(const Stencil& s);
+/// What the errors of single runs come to in the second differences: the bend at the smaller shift,
+/// less what follows for it from the larger one if the number is smooth, is the error of one run,
+/// times the root of 3/2.
+inline double noise_of(const Stencil& s) {
+  return std::abs(s.bend(1) - s.bend(0) / (s.shift_ratio * s.shift_ratio)) / std::sqrt(1.5);
+}
 
 /// The difference of the two slopes beyond what the errors of runs (`error`: of one) account for.
-double bend_of_slope(const Stencil& s, double error);
+inline double bend_of_slope(const Stencil& s, double error) {
+  return std::max(0.0, std::abs(s.slope(0) - s.slope(1)) - error / sensitivity_shifts[1]);
+}
 
 /// Where sections yield, a section that just does not flow for one value of a key does so for
 /// another, for a time that grows as the root of the distance: slopes then have a root's error.
 enum class Smoothness { everywhere, between_thresholds };
 
 /// The derivative and its error, as sensitivity() describes. `error`: of one run.
-Derivative derivative_of(const Stencil& s, double error, Smoothness smoothness);
+inline Derivative derivative_of(const Stencil& s, double error, Smoothness smoothness) {
+  // Stated error over the one that a difference stands for.
+  constexpr double safety = 3.0;
+  // What extrapolation adds to the slope over the smaller shift, of its difference from the other.
+  constexpr double gain_if_smooth = 1.0 / (Stencil::shift_ratio * Stencil::shift_ratio - 1.0);
+  // What may be left of an error that grows as the root of the shift, in the same unit.
+  constexpr double left_by_thresholds = 0.46;  // 1/(sqrt(shift_ratio) - 1)
+  if (s.is_constant()) return {};
+  const double step = s.slope(1) - s.slope(0);
+  const double noise = error + std::numeric_limits<double>::epsilon() * std::abs(s.base);
+  const double gain = smoothness == Smoothness::everywhere ? gain_if_smooth : 0.0;
+  const double left = smoothness == Smoothness::everywhere ? gain_if_smooth : left_by_thresholds;
+  const double of_larger = std::abs(step) * (1.0 + left) + noise / sensitivity_shifts[0];
+  const double of_smaller = std::abs(step) * left + noise / sensitivity_shifts[1];
+  if (of_larger < of_smaller) return {s.slope(0), safety * of_larger};
+  return {s.slope(1) + gain * step, safety * of_smaller};
+}
 
 /// Whether the slopes to either side differ: by as much over the smaller shift as over the larger
 /// one. For smooth numbers it is less by the ratio of the shifts, for the errors of runs more.
 /// `error`: of the base run.
-bool has_kink(const Stencil& s, double error);
+inline bool has_kink(const Stencil& s, double error) {
+  constexpr double kink_share = 1e-3;  // of the slope
+  const double larger = std::abs(s.bend(0)) / sensitivity_shifts[0];
+  const double smaller = std::abs(s.bend(1)) / sensitivity_shifts[1];
+  return smaller > 0.5 * larger && smaller < 2.0 * larger &&
+         smaller > kink_share * std::abs(s.slope(1)) && std::abs(s.bend(1)) > 3.0 * error;
+}
 
 }  // namespace subimpact

@@ -1,9 +1,10 @@
 #include "study/totals.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <map>
+
+#include "numerics/richardson.h"
+#include "subimpact/study/match.h"
+#include "subimpact/study/other_mesh.h"
 
 namespace subimpact {
 namespace {
@@ -18,14 +19,6 @@ constexpr double of_count = 0.0;           // the difference itself
 // Of the largest strain, over itself: larger where strains gather in a hinge and grow without limit
 // on finer meshes, so that no error is stated.
 constexpr double largest_error_of_strain = 0.5;
-
-// The largest magnitude of a member in a list.
-template <class Row>
-double largest(const std::vector<Row>& rows, double Row::*value) {
-  double most = 0.0;
-  for (const Row& row : rows) most = std::max(most, std::abs(row.*value));
-  return most;
-}
 
 double dissipated(const Energies& end) {
   return end.bending_plastic + end.contact_plastic + end.beam_damping;
@@ -64,8 +57,8 @@ const Quantity quantities[] = {
     {"max_displacement_m", [](Run run, double) { return run.peaks.displacement.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::displacement},
     {"max_moment_Nm", [](Run run, double) { return run.peaks.moment.largest; }, usual_safety, From::shapes, HUGE_VAL, &FieldPeaks::moment},
     {"max_strain", [](Run run, double) { return run.peaks.strain.largest; }, usual_safety, From::shapes, largest_error_of_strain, &FieldPeaks::strain},
-    {"permanent_set_m", [](Run run, double) { return largest(run.envelope, &EnvelopeRow::permanent_set); }, usual_safety, From::shapes},
-    {"hinge_rotation_rad", [](Run run, double) { return largest(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
+    {"permanent_set_m", [](Run run, double) { return largest_magnitude(run.envelope, &EnvelopeRow::permanent_set); }, usual_safety, From::shapes},
+    {"hinge_rotation_rad", [](Run run, double) { return largest_magnitude(run.plastic_zones, &PlasticZone::rotation); }, usual_safety, From::shapes},
     {"striker_energy_share", [](Run run, double v0) { return std::pow(run.striker_velocity / v0, 2); }},
     {"dissipated_J", [](Run run, double) { return dissipated(run.final_energies); }, safety_of_dissipated},
 };
@@ -144,6 +137,37 @@ void set_totals(const Case& input, const Result& run, std::span<const RunBeside>
     estimate.zones.push_back({total([](Zone z, Run) { return z.start; }), total(end_of),
                               total([](Zone z, Run) { return z.impulse; }),
                               total([](Zone z, Run) { return 1.0 * z.n_sub_impacts; }, of_count)});
+  }
+}
+
+void set_mesh_limits(const Case& input, Result& run, std::span<const RunBeside> beside) {
+  if (beside.size() < 3 || !mesh_order(input)) return;
+  constexpr double order_uncertainty = 0.35;  // of the ratio of differences for an order
+  const double order = *mesh_order(input), h = 1.0 / mesh_count(input);
+  const double middle_h = 1.0 / mesh_count(beside[1].of.input);
+  const double expected =
+      ratio_of_differences(1.0 / mesh_count(beside[2].of.input), middle_h, h, order);
+  const auto limit = [&](double coarse, double middle, double fine) -> std::optional<double> {
+    const double found = (coarse - middle) / (middle - fine);
+    if (!(std::abs(found / expected - 1.0) <= order_uncertainty)) return std::nullopt;
+    return richardson_limit(middle, fine, middle_h / h, order);
+  };
+  const Counterparts in_middle = counterparts(run.sub_impacts, beside[1].result.sub_impacts);
+  const Counterparts in_coarse = counterparts(run.sub_impacts, beside[2].result.sub_impacts);
+  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
+    SubImpact& here = run.sub_impacts[i];
+    const SubImpact* middle = in_middle.of[i];
+    const SubImpact* coarse = in_coarse.of[i];
+    if (!middle || !coarse) continue;
+    if (i > 0) here.start_mesh_limit = limit(coarse->start, middle->start, here.start);
+    if (here.end && middle->end && coarse->end) {
+      here.end_mesh_limit = limit(*coarse->end, *middle->end, *here.end);
+    }
+    if (!here.start_mesh_limit && !here.end_mesh_limit) continue;
+    const double of_start = std::abs(here.start_mesh_limit.value_or(here.start) - here.start);
+    const double of_end =
+        here.end ? std::abs(here.end_mesh_limit.value_or(*here.end) - *here.end) : 0.0;
+    here.mesh_limit_error = std::max({here.error_time.value_or(0.0), of_start, of_end});
   }
 }
 

@@ -75,11 +75,6 @@ void run_sweep(const Case& compared, const std::vector<Setting>& sweep,
 
 }  // namespace
 
-const std::vector<double>& recommended_errors() {
-  static const std::vector<double> errors = {1e-6, 1e-7, 1e-8, 1e-9};
-  return errors;
-}
-
 WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& options) {
   std::vector<std::vector<Setting>> sweeps;
   for (const std::string& method :
@@ -89,7 +84,7 @@ WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& opti
   if (options.announce) options.announce("reference");
   WorkPrecision study;
   study.reference =
-      compute_reference(input, reference_share * recommended_errors().back(), options.progress);
+      compute_reference(input, reference_share * recommended_errors.back(), options.progress);
   study.interrupted = study.reference.result.outcome.kind == OutcomeKind::stopped;
   Case compared = input;
   compared.end_time = study.reference.horizon;
@@ -101,7 +96,7 @@ WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& opti
 
 std::vector<Recommendation> recommendations_from(const std::vector<Trial>& points) {
   std::vector<Recommendation> list;
-  for (const double wanted : recommended_errors()) {
+  for (const double wanted : recommended_errors) {
     Recommendation recommendations{wanted, {}, {}};
     std::optional<std::size_t> cheapest, steady;
     const auto take = [&](std::optional<std::size_t>& best, std::size_t i) {

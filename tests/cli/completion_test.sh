@@ -3,7 +3,8 @@
 # option that --help lists, keys after --set, and files where nothing else is known.
 set -euo pipefail
 program=$1
-source <("$program" completion)
+subimpact() { "$program" "$@"; }
+source <(subimpact completion)
 [[ $(complete -p subimpact) == *"-o default"*"-F _subimpact subimpact" ]]
 
 # completed WORD...: what the last word may become.
@@ -27,5 +28,6 @@ done
 is "$(completed new ba)" ball-drop
 is "$(completed run case.toml --set beam.len)" beam.length=
 is "$(completed run case.toml --method exp)" exponential
+is "$(completed stability case.toml --parts cri)" critical
 is "$(completed run case.toml --out '')" ""
 is "$(completed run cas)" ""

@@ -257,7 +257,7 @@ TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
   const FigureScript figure = timeline_figure(input, result);
   expect_in(figure.text(), ",1,2.6e-07,2.5e-06\n");  // of a sub-impact: certain, error, scatter
   expect_in(figure.text(), "horizon = 0.0003333333");
-  expect_in(figure.caption(), "Purple bars: its standard deviation");
+  expect_in(figure.caption, "Purple bars: its standard deviation");
   draw_figure(directory.path, "timeline", figure.text());
   const std::string svg = directory.read("timeline.svg");
   expect_in(svg, "error of the start", "its scatter", "not predictable");

@@ -8,7 +8,7 @@
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/simulate/options.h"
-#include "subimpact/study/advice.h"
+#include "subimpact/study/run_as_asked.h"
 #include "testing.h"
 #include "unwrapped.h"
 

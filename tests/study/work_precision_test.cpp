@@ -97,7 +97,7 @@ TEST(AWorkPrecisionStudy, FindsErrorsThatFallAsCostRisesAndMarksWhatBlowsUp) {
   EXPECT_LT(1e6 * erk.back().errors.maximum, 1e-6);
 
   const std::vector<Recommendation> recommendations = recommendations_from(study.points);
-  ASSERT_EQ(recommendations.size(), recommended_errors().size());
+  ASSERT_EQ(recommendations.size(), recommended_errors.size());
   for (const Recommendation& item : recommendations) {
     ASSERT_TRUE(item.point.has_value());
     EXPECT_LE(item.point->errors.maximum, item.wanted);

@@ -3,7 +3,6 @@
 /// Studies as text, CSV files and figures. What writes files throws OutputError.
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -56,7 +55,7 @@ class PointLog {
  private:
   OutputDirectory& directory_;
   std::string text_;
-  std::map<std::string, Trial> known_;
+  std::vector<std::pair<std::string, Trial>> known_;  // by the id of the case
 };
 
 /// Identifies a case: a fingerprint of the program's version and of all keys of the case but those

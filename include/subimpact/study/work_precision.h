@@ -2,6 +2,7 @@
 
 /// Cost against error, method by method and setting by setting.
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -28,7 +29,7 @@ struct WorkPrecision {
 };
 
 /// Errors of event times for which settings are recommended, s.
-const std::vector<double>& recommended_errors();
+inline constexpr std::array recommended_errors = {1e-6, 1e-7, 1e-8, 1e-9};
 
 struct WorkPrecisionOptions {
   std::vector<std::string> methods;  ///< empty: default_methods()
@@ -50,7 +51,7 @@ struct WorkPrecisionOptions {
 /// errors reach those of the reference. Throws InvalidCase, for methods before anything is run.
 WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& options = {});
 
-/// The cheapest setting for each of recommended_errors(): all sub-impacts correspond, and no event
+/// The cheapest setting for each of recommended_errors: all sub-impacts correspond, and no event
 /// time is off by more.
 std::vector<Recommendation> recommendations_from(const std::vector<Trial>& points);
 

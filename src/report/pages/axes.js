@@ -146,23 +146,21 @@ class Axes {
     draw.setLineDash([]);
   }
 
-  // Keeps what is drawn so far; restore() draws that again.
-  keep() {
-    this.kept = document.createElement('canvas');
-    Object.assign(this.kept, {width: this.canvas.width, height: this.canvas.height});
-    if (this.kept.width > 0 && this.kept.height > 0) this.kept.getContext('2d').drawImage(this.canvas, 0, 0);
-  }
-  restore() {
-    if (!(this.kept.width > 0 && this.kept.height > 0)) return;
-    this.draw.clearRect(0, 0, this.width, this.height);
-    this.draw.drawImage(this.kept, 0, 0, this.width, this.height);
-  }
-
   text(words, x, y, align = 'left', name = 'text') {
     this.draw.font = '12px system-ui, sans-serif';
     this.draw.fillStyle = colour(name);
     this.draw.textAlign = align;
     this.draw.textBaseline = 'middle';
     this.draw.fillText(words, x, y);
+  }
+
+  // Samples with words, side by side: [words, width of the sample, paint(x, y)].
+  key(entries, y) {
+    let x = this.left + 12;
+    for (const [words, width, paint] of entries) {
+      paint(x, y);
+      this.text(words, x + width + 6, y);
+      x += width + 21 + this.draw.measureText(words).width;
+    }
   }
 }

@@ -142,27 +142,14 @@ class Loop {
   constructor(strike, canvas, view) {
     Object.assign(this, {strike, canvas, view, dot: overlay(canvas, 'dot')});
     const {times, events} = strike;
-    this.pieces = [];
-    let next = 0, branch = 'apart', piece = null;
-    for (let i = 0; i < times.length; ++i) {
+    this.pieces = events.map(({time, kind}, k) => {
+      const from = Math.max(countUpTo(times, time) - 1, 0);
+      let to = k + 1 < events.length ? countUpTo(times, events[k + 1].time) : times.length;
       // An event has two rows: the first ends a branch, the second begins the next one.
-      const ends = times[i + 1] === times[i];
-      let turned = false;
-      while (next < events.length && (events[next].time < times[i] || (!ends && events[next].time === times[i]))) {
-        branch = eventKinds[events[next++].kind].branch;
-        turned = true;
-      }
-      if (branch === 'apart') {
-        piece = null;
-        continue;
-      }
-      if (piece === null || turned) {
-        const joins = i > 0 && (piece !== null || times[i - 1] === times[i]);
-        piece = {branch, rows: joins ? [i - 1] : []};
-        this.pieces.push(piece);
-      }
-      piece.rows.push(i);
-    }
+      if (k + 1 < events.length && times[to - 2] === times[to - 1]) --to;
+      const rows = Array.from({length: Math.max(to - from, 0)}, (_, i) => from + i);
+      return {branch: eventKinds[kind].branch, rows};
+    }).filter(({branch}) => branch !== 'apart');
   }
 
   static branchStyle = {
@@ -313,18 +300,11 @@ class Timeline {
     draw.stroke();
   }
   drawKey(axes) {
-    const words = [['contact', 'contacts'], ['separation', 'separations'], ['open', 'open: not certain']];
-    words.forEach(([kind, text], i) => {
-      const x = axes.left + 12 + 100 * i;
-      this.drawMark(axes, kind, x, 8, kind !== 'open');
-      axes.text(text, x + 9, 8);
-    });
-    let x = axes.left + 12;
-    for (const {words: text, colour: tone, width} of [...this.bars].reverse()) {
-      axes.line([[x, 19], [x, 33]], {colour: colour(tone), width});
-      axes.text(text, x + 9, 26);
-      x += 24 + axes.draw.measureText(text).width;
-    }
+    const kinds = [['contacts', 'contact'], ['separations', 'separation'], ['open: not certain', 'open']];
+    axes.key(kinds.map(([words, kind]) =>
+      [words, 4, (x, y) => this.drawMark(axes, kind, x, y, kind !== 'open')]), 8);
+    axes.key([...this.bars].reverse().map(({words, colour: tone, width}) =>
+      [words, 3, (x, y) => axes.line([[x, y - 7], [x, y + 7]], {colour: colour(tone), width})]), 26);
   }
   drawTime() {
     const {axes, view, strike, cursor} = this;
@@ -353,11 +333,8 @@ function drawAlongBeam(strike, canvas, {lines, label, zones = []}) {
                 {colour: colour(name), width: 1.8, dash: dash ?? []});
     });
   });
-  lines.forEach(({name}, k) => {
-    const x = axes.left + 6 + 150 * k;
-    axes.line([[x, 10], [x + 26, 10]], {colour: colour(lineStyles[k].colour), width: 1.8, dash: lineStyles[k].dash ?? []});
-    axes.text(name, x + 32, 10);
-  });
+  axes.key(lines.map(({name}, k) => [name, 26, (x, y) => axes.line(
+    [[x, y], [x + 26, y]], {colour: colour(lineStyles[k].colour), width: 1.8, dash: lineStyles[k].dash ?? []})]), 10);
 }
 
 // Light, dark or as the system is. `restyle` draws in the new colours.

@@ -13,8 +13,7 @@ class Shade {
     this.log = !column.words && this.low > 0 && this.high / this.low > 1e3;
   }
   share(value) {
-    if (!(this.high > this.low)) return 0.5;
-    return this.log ? Math.log(value / this.low) / Math.log(this.high / this.low) : (value - this.low) / (this.high - this.low);
+    return this.high > this.low ? Axes.share({range: [this.low, this.high], log: this.log}, value) : 0.5;
   }
   // The colour of a value as red, green and blue; null where there is none.
   rgb(value) {
@@ -49,13 +48,10 @@ class Shade {
     const axes = new Axes(canvas, {x: {range: [from, to], label: column.title, log: this.log}, y: {range: [0, 1]}, top: 2});
     const {draw} = axes;
     if (column.words) {
-      let x = axes.left;
-      column.words.forEach((word, k) => {
+      axes.key(column.words.map((word, k) => [word, 18, (x, y) => {
         draw.fillStyle = this.of(k);
-        draw.fillRect(x, 6, 18, 12);
-        axes.text(word, x + 24, 12);
-        x += 44 + draw.measureText(word).width;
-      });
+        draw.fillRect(x, y - 6, 18, 12);
+      }]), 12);
       return;
     }
     for (let x = axes.left; x < axes.right; ++x) {

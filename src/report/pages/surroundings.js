@@ -1,11 +1,14 @@
 'use strict';
 // What acts on the beam besides the striker: springs and bedding from the ground, loads as arrows.
 
-// The y of the beam's axis on the canvas, between the points that are drawn.
-function heightAt(axes, points, x) {
-  const at = Math.max(1, points.findIndex((point) => point[0] >= x));
-  const [[x0, y0], [x1, y1]] = [points[at - 1], points[at]];
-  return y0 + (y1 - y0) * Math.min(1, Math.max(0, (x - x0) / (x1 - x0)));
+// The y of a line of points [x, y], x ascending, at an x: straight between points, constant outside.
+// The beam's axis on the canvas is such a line, and so is a force over time.
+function heightAt(points, x) {
+  const after = points.findIndex((point) => point[0] > x);
+  if (after < 0) return points[points.length - 1][1];
+  if (after === 0) return points[0][1];
+  const [[x0, y0], [x1, y1]] = [points[after - 1], points[after]];
+  return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
 }
 
 function drawGround(axes, strike, points, thick) {
@@ -13,7 +16,7 @@ function drawGround(axes, strike, points, thick) {
   const ground = axes.bottom - 6;
   axes.line([[axes.left, ground], [axes.right, ground]], {colour: colour('soft'), width: 3});
   const spring = (x, wide) => {
-    const top = heightAt(axes, points, x) + thick / 2;
+    const top = heightAt(points, x) + thick / 2;
     const zigzag = Array.from({length: 9}, (_, i) => [x + (i % 2 ? wide : -wide), top + (ground - top) * (i + 0.5) / 9]);
     axes.line([[x, top], ...zigzag, [x, ground]], {colour: colour('soft'), width: 1.5});
   };
@@ -22,20 +25,11 @@ function drawGround(axes, strike, points, thick) {
   for (let i = 0; i < 24; ++i) spring(axes.left + (i + 0.5) / 24 * (axes.right - axes.left), 2);
 }
 
-// The force of a table [[t, F], ..] at a time: linear between its entries, constant outside.
-function forceAt(table, time) {
-  const after = table.findIndex(([t]) => t > time);
-  if (after < 0) return table[table.length - 1][1];
-  if (after === 0) return table[0][1];
-  const [[t0, f0], [t1, f1]] = [table[after - 1], table[after]];
-  return f0 + (f1 - f0) * (time - t0) / (t1 - t0);
-}
-
 // Arrows that end at the beam, on the side from which a force pushes, as long as it is strong.
 function drawLoads(axes, strike, points, thick, time) {
   const arrow = (x, share) => {
     if (Math.abs(share) < 0.02) return;
-    const way = Math.sign(share), tip = heightAt(axes, points, x) - way * thick / 2;
+    const way = Math.sign(share), tip = heightAt(points, x) - way * thick / 2;
     const tail = tip - way * (10 + 40 * Math.abs(share));
     const style = {colour: colour('line3'), width: 2};
     axes.line([[x, tail], [x, tip]], style);
@@ -43,7 +37,7 @@ function drawLoads(axes, strike, points, thick, time) {
   };
   for (const {position, table} of strike.forces) {
     const largest = table.reduce((most, [, force]) => Math.max(most, Math.abs(force)), 0);
-    arrow(axes.toX(position), forceAt(table, time) / (largest || 1));
+    arrow(axes.toX(position), heightAt(table, time) / (largest || 1));
   }
   if (strike.load === 0) return;
   for (let i = 0; i < 16; ++i) {

@@ -35,6 +35,7 @@ class SweepMap {
   constructor(runs, canvas, listener) {
     Object.assign(this, {runs, canvas, listener});
     this.chosen = this.hovered = -1;
+    this.rings = {chosen: overlay(canvas, 'ring chosen'), hovered: overlay(canvas, 'ring hovered')};
     canvas.addEventListener('mousemove', (event) => this.hover(this.runAt(event.offsetX, event.offsetY), event));
     canvas.addEventListener('mouseleave', () => this.hover(-1));
     canvas.addEventListener('click', (event) => {
@@ -97,7 +98,6 @@ class SweepMap {
     for (const runs of this.groups.values()) this.isGrid ? this.addCells(runs) : this.addPoints(runs);
     axes.inside((draw) => this.marks.forEach((mark) => this.drawMark(draw, mark)));
     this.drawKey();
-    axes.keep();
     this.drawHighlights();
     this.shade.draw(byId('scale'));
   }
@@ -121,10 +121,10 @@ class SweepMap {
     }
   }
 
-  static outline(draw, {left, top, width, height, isPoint}, margin = 0) {
+  static outline(draw, {left, top, width, height, isPoint}) {
     draw.beginPath();
-    if (isPoint) draw.arc(left + width / 2, top + height / 2, width / 2 + margin, 0, 2 * Math.PI);
-    else draw.rect(left - margin, top - margin, width + 2 * margin, height + 2 * margin);
+    if (isPoint) draw.arc(left + width / 2, top + height / 2, width / 2, 0, 2 * Math.PI);
+    else draw.rect(left, top, width, height);
   }
 
   drawMark(draw, mark) {
@@ -158,49 +158,40 @@ class SweepMap {
   }
 
   drawKey() {
-    const {axes} = this;
+    const {axes, shade, visible} = this;
     const {draw} = axes;
-    const box = (left) => ({left, top: 5, width: 14, height: 14});
-    let x = axes.left;
-    const entry = (words, paint) => {
-      paint(box(x));
-      axes.text(words, x + 20, 12);
-      x += 40 + draw.measureText(words).width;
-    };
-    if (this.visible.some((run) => this.runs.certainty(run) === 'uncertain')) {
-      entry('count not certain', (mark) => {
-        SweepMap.outline(draw, mark);
+    const entries = [];
+    const add = (words, paint) => entries.push([words, 14, (x, y) => {
+      const mark = {left: x, top: y - 7, width: 14, height: 14};
+      SweepMap.outline(draw, mark);
+      paint(mark);
+    }]);
+    if (visible.some((run) => this.runs.certainty(run) === 'uncertain')) {
+      add('count not certain', (mark) => {
         draw.strokeStyle = colour('soft');
         draw.stroke();
         this.drawCross(mark, colour('text'));
       });
     }
-    if (this.visible.some((run) => this.shade.of(this.shade.column.values[run]) === null)) {
-      entry('no value', (mark) => {
-        SweepMap.outline(draw, mark);
+    if (visible.some((run) => shade.of(shade.column.values[run]) === null)) {
+      add('no value', (mark) => {
         draw.fillStyle = colour('grid');
         draw.fill();
         this.drawLack(mark);
       });
     }
+    axes.key(entries, 12);
   }
 
+  // Rings around the run that is chosen and the one that is pointed at.
   drawHighlights() {
-    const {axes} = this;
-    axes.restore();
-    const {draw} = axes;
-    const ring = (run, width) => {
-      const mark = this.marks.find((other) => other.run === run);
-      if (!mark) return;
-      for (const [margin, tone] of [[width, 'paper'], [0.5 * width, 'text']]) {
-        SweepMap.outline(draw, mark, margin);
-        draw.strokeStyle = colour(tone);
-        draw.lineWidth = width;
-        draw.stroke();
-      }
-    };
-    if (this.hovered >= 0) ring(this.hovered, 1.5);
-    if (this.chosen >= 0) ring(this.chosen, 2.5);
+    for (const [name, ring] of Object.entries(this.rings)) {
+      const mark = this.marks.find(({run}) => run === this[name]);
+      ring.hidden = !mark;
+      if (!mark) continue;
+      ring.classList.toggle('round', Boolean(mark.isPoint));
+      for (const side of ['left', 'top', 'width', 'height']) ring.style[side] = `${mark[side]}px`;
+    }
   }
 
   runAt(x, y) {
