@@ -1,27 +1,18 @@
-#include "simulate/continuation.h"
-
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "model/modal_mesh.h"
+#include "simulate/recorder.h"
+#include "simulate/refuse.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
 
-// Of the first frequency of a beam, rad/s.
-double first_frequency(const RunParts& parts) { return 2.0 * M_PI / parts.settings.first_period; }
-
-[[noreturn]] void refuse(const char* key, const std::string& cause) {
-  throw InvalidCase(key, cause);
-}
-
 void check_same(const char* key, const std::string& here, const std::string& there) {
   if (here == there) return;
-  refuse(key, fmt::format("gives \"{}\", but the run to go on from has \"{}\"; use the same", here,
-                          there));
+  refuse(key, "gives \"{}\", but the run to go on from has \"{}\"; use the same", here, there);
 }
 
 }  // namespace
@@ -85,16 +76,16 @@ void check_continuation(const Problem& problem, const Options& options,
   check_same("model.section", used.section, start.section);
   check_same("contact.law", used.contact_law, start.contact_law);
   if (start.striker.position != problem.striker.position) {
-    refuse("striker.position", fmt::format("is {}, but the run to go on from struck at {}, where "
-                                           "the dent is; use the same",
-                                           problem.striker.position, start.striker.position));
+    refuse("striker.position",
+           "is {}, but the run to go on from struck at {}, where the dent is; use the same",
+           problem.striker.position, start.striker.position);
   }
   if (goes_on(problem)) {
     if (options.end_time > start.time) return;
     refuse("time.end",
-           fmt::format("is {:.6g} s, but the run to go on from ended at {:.6g} s; allowed: later "
-                       "times; or set strike.rest for another strike",
-                       options.end_time, start.time));
+           "is {:.6g} s, but the run to go on from ended at {:.6g} s; allowed: later times; or set "
+           "strike.rest for another strike",
+           options.end_time, start.time);
   }
   const Beam& beam = problem.beam;
   const std::pair<const char*, bool> others[] = {
@@ -124,15 +115,15 @@ void begin_from(const RunState& start, RunParts& parts) {
     parts.beam.exchange(snapshot, y);
     snapshot.finish();
   } catch (const std::runtime_error& error) {
-    refuse("model", fmt::format("does not take the state to go on from: {}", error.what()));
+    refuse("model", "does not take the state to go on from: {}", error.what());
   }
   if (goes_on(parts.problem)) return parts.beam.resume(y);
   const bool at_rest = parts.problem.at_rest.value_or(false);
   try {
-    parts.beam.begin_strike(y, at_rest, first_frequency(parts));
+    parts.beam.begin_strike(y, at_rest, 2.0 * M_PI / parts.settings.first_period);
   } catch (const std::domain_error& error) {
-    if (at_rest) refuse("strike.rest", fmt::format("is true, but {}; use false", error.what()));
-    refuse("striker.velocity", fmt::format("is too low: {}; use strike.rest = true", error.what()));
+    if (at_rest) refuse("strike.rest", "is true, but {}; use false", error.what());
+    refuse("striker.velocity", "is too low: {}; use strike.rest = true", error.what());
   }
 }
 

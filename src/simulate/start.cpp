@@ -1,13 +1,9 @@
-#include "simulate/start.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "subimpact/simulate/error.h"
-#include "system/equilibrium.h"
+#include "simulate/refuse.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -29,45 +25,49 @@ std::size_t n_held(const Beam& beam) {
 
 void check_motion(const Beam& beam) {
   if (!beam.moves_at_start()) return;
-  const bool turns = beam.angular_velocity != 0.0;
-  const auto refuse = [&](const std::string& why) {
-    throw InvalidCase(
-        turns ? "beam.angular_velocity" : "beam.velocity",
-        fmt::format("is {:g}, but {}", turns ? beam.angular_velocity : beam.velocity, why));
-  };
-  if (beam.fixed) refuse("beam.fixed = true: the beam does not move; leave it out");
+  const auto [key, value] = beam.angular_velocity != 0.0
+                                ? std::pair("beam.angular_velocity", beam.angular_velocity)
+                                : std::pair("beam.velocity", beam.velocity);
+  if (beam.fixed) {
+    refuse(key, "is {:g}, but beam.fixed = true: the beam does not move; leave it out", value);
+  }
   if (beam.start == BeamStart::equilibrium) {
-    refuse("beam.start = \"equilibrium\" is a state of rest; leave one of them out");
+    refuse(key,
+           "is {:g}, but beam.start = \"equilibrium\" is a state of rest; leave one of them out",
+           value);
   }
   for (const int end : {0, 1}) {
     if (beam.ends[end] == EndSupport::clamped) {
-      refuse("a clamped end lets the beam neither move nor turn; allowed: 0; leave it out");
+      refuse(key,
+             "is {:g}, but a clamped end lets the beam neither move nor turn; allowed: 0; leave it "
+             "out",
+             value);
     }
     if (beam.ends[end] == EndSupport::free) continue;
     const double speed = std::abs(beam.angular_velocity) * beam.length + std::abs(beam.velocity);
     if (std::abs(beam.velocity_at(end)) <= rounding * speed) continue;
     refuse(
-        fmt::format("with it the pinned end at x = {} would move at {:g} m/s; allowed: a motion "
-                    "about that end: beam.velocity = 0, and beam.pivot = {} (its default where "
-                    "the other end is free)",
-                    end == 0 ? "0" : "length", beam.velocity_at(end), end));
+        key,
+        "is {:g}, but with it the pinned end at x = {} would move at {:g} m/s; allowed: a motion "
+        "about that end: beam.velocity = 0, and beam.pivot = {} (its default where the other end "
+        "is free)",
+        value, end == 0 ? "0" : "length", beam.velocity_at(end), end);
   }
 }
 
 void check_equilibrium(const Problem& problem) {
   const Beam& beam = problem.beam;
   if (beam.start != BeamStart::equilibrium) return;
-  const auto refuse = [](const char* why) {
-    throw InvalidCase("beam.start", fmt::format("is \"equilibrium\", but {}", why));
-  };
   if (problem.gravity == 0.0 && !beam.has_loads()) {
-    refuse(
-        "no load acts on the beam; give scene.gravity, beam.load or beam.forces, or leave it out");
+    refuse("beam.start",
+           "is \"equilibrium\", but no load acts on the beam; give scene.gravity, beam.load or "
+           "beam.forces, or leave it out");
   }
   if (!beam.fixed && n_held(beam) < 2) {
-    refuse(
-        "nothing holds the beam against its loads; allowed with a clamped end, two pinned ends, "
-        "two springs at different points or a bedding; leave it out, or add such supports");
+    refuse("beam.start",
+           "is \"equilibrium\", but nothing holds the beam against its loads; allowed with a "
+           "clamped end, two pinned ends, two springs at different points or a bedding; leave it "
+           "out, or add such supports");
   }
 }
 
@@ -77,14 +77,12 @@ void check_approach(const Problem& problem) {
   const bool apart = problem.striker.gap > 0.0;
   if (bodies.approach() > 0.0 || (apart && forced)) return;
   const double of_beam = problem.beam.velocity_at(problem.striker.position);
-  const char* key = problem.beam.moves_at_start() ? "beam.velocity" : "striker.velocity";
-  throw InvalidCase(
-      key, fmt::format("gives the struck point {:g} m/s, and the {} {:g} m/s, so that they do not "
-                       "approach each other; allowed: a velocity of the striker minus that of the "
-                       "beam above 0 (a beam that moves towards a stop has a negative velocity){}",
-                       of_beam, problem.striker.fixed ? "stop has" : "striker has",
-                       bodies.striker_velocity(),
-                       forced ? ", or a striker.gap above 0 that gravity and loads close" : ""));
+  refuse(problem.beam.moves_at_start() ? "beam.velocity" : "striker.velocity",
+         "gives the struck point {:g} m/s, and the {} {:g} m/s, so that they do not approach each "
+         "other; allowed: a velocity of the striker minus that of the beam above 0 (a beam that "
+         "moves towards a stop has a negative velocity){}",
+         of_beam, problem.striker.fixed ? "stop has" : "striker has", bodies.striker_velocity(),
+         forced ? ", or a striker.gap above 0 that gravity and loads close" : "");
 }
 
 void check_elastic(const StruckBeam& beam, std::span<const double> q) {
@@ -98,11 +96,10 @@ void check_elastic(const StruckBeam& beam, std::span<const double> q) {
     largest = std::max(largest, std::abs(kappa[i]) / limit);
   }
   if (largest < 1.0) return;
-  throw InvalidCase("beam.start",
-                    fmt::format("is \"equilibrium\", but under its loads the beam would be bent to "
-                                "{:.3g} times its yield curvature; allowed: loads that leave it "
-                                "elastic; reduce them, or start straight",
-                                largest));
+  refuse("beam.start",
+         "is \"equilibrium\", but under its loads the beam would be bent to {:.3g} times its yield "
+         "curvature; allowed: loads that leave it elastic; reduce them, or start straight",
+         largest);
 }
 
 std::vector<double> rigid_velocities(const Problem& problem, const StruckBeam& beam) {
@@ -112,25 +109,24 @@ std::vector<double> rigid_velocities(const Problem& problem, const StruckBeam& b
   std::vector<double> v(mesh.momentum_functional().begin(), mesh.momentum_functional().end());
   const bool turns = of.angular_velocity != 0.0;
   const auto moment = mesh.moment_functional();
-  const auto refuse = [&] {
-    throw InvalidCase(
-        turns ? "beam.angular_velocity" : "beam.velocity",
-        "is given, but this mesh cannot move as a rigid body; use another model.mesh");
+  const auto refuse_mesh = [&] {
+    refuse(turns ? "beam.angular_velocity" : "beam.velocity",
+           "is given, but this mesh cannot move as a rigid body; use another model.mesh");
   };
-  if (turns && moment.empty()) refuse();
+  if (turns && moment.empty()) refuse_mesh();
   for (std::size_t i = 0; i < v.size(); ++i) {
     v[i] = turns ? at_zero * v[i] + of.angular_velocity * moment[i] : of.velocity * v[i];
   }
   beam.mass_solver().solve(v);
   const double expected = of.velocity_at(problem.striker.position);
   const double speed = std::abs(of.angular_velocity) * of.length + std::abs(of.velocity);
-  if (!(std::abs(mesh.struck_point()(v) - expected) <= 1e-6 * speed)) refuse();
+  if (!(std::abs(mesh.struck_point()(v) - expected) <= 1e-6 * speed)) refuse_mesh();
   return v;
 }
 
 }  // namespace
 
-void check_start(const Problem& problem, const Options& /*options*/) {
+void check_start(const Problem& problem) {
   check_motion(problem.beam);
   check_equilibrium(problem);
   check_approach(problem);
@@ -143,12 +139,11 @@ void set_start(const Problem& problem, StruckBeam& beam) {
   const std::size_t n = beam.mesh().n_unknowns();
   State y(2 * (n + 1), 0.0);
   if (problem.beam.start == BeamStart::equilibrium && !problem.beam.fixed) {
-    const auto q = equilibrium(beam);
+    const auto q = beam.equilibrium();
     if (!q) {
-      throw InvalidCase(
-          "beam.start",
-          "is \"equilibrium\", but on this mesh the stiffness of the held beam is not "
-          "positive definite; use a coarser mesh");
+      refuse("beam.start",
+             "is \"equilibrium\", but on this mesh the stiffness of the held beam is not positive "
+             "definite; use a coarser mesh");
     }
     check_elastic(beam, *q);
     std::ranges::copy(*q, y.begin());
