@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "integrate/sundials.h"
-#include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
+#include "model/modes.h"
 #include "numerics/mass_solver.h"
 #include "simulate/methods.h"
 #include "simulate/refuse.h"

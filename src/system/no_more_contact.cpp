@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/slow_motion.h"
+#include "model/modes.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {

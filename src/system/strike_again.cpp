@@ -138,12 +138,7 @@ void StruckBeam::come_to_rest(std::span<double> w, double first_frequency) {
     std::ranges::fill(moments_, sections_.stiffness());
     mesh_->add_stiffness(moments_, near);
   }
-  const double held = share_of_mass * first_frequency * first_frequency;
-  for (std::size_t i = 0; i < n_; ++i) {
-    for (std::size_t j = i; j < std::min(n_, i + near.half_bandwidth() + 1); ++j) {
-      near.at(i, j) += held * mesh_->mass()(i, j);
-    }
-  }
+  near.add(share_of_mass * first_frequency * first_frequency, mesh_->mass());
   const std::optional<BandedMatrix> factor = near.cholesky_factor();
   std::vector<double> constant(n_), residual(n_), solved, direction(n_, 0.0), change(n_);
   std::ranges::fill(w, 0.0);

@@ -230,7 +230,9 @@ class StruckBeam final : public MechanicalSystem {
   // Adds the forces of the beam's damping, all or those of beta.
   void add_stiffness_damping(std::span<const double> velocities, std::span<double> forces);
   void add_damping(std::span<const double> velocities, std::span<double> forces);
-  void add_modal_loads(std::span<double> accelerations) const;
+  // Accelerations under a contact force (N); `velocities`: empty without damping.
+  void respond(std::span<const double> unknowns, std::span<const double> velocities, double contact,
+               std::span<double> result);
   void use_modes();
   void come_to_rest(std::span<double> w, double first_frequency);
   BeamJacobian& jacobian() const;
