@@ -8,7 +8,7 @@
 
 #include "case/problem.h"
 #include "model/contact_laws.h"
-#include "model/flexural_frequencies.h"
+#include "model/modes.h"
 #include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
 

@@ -1,4 +1,4 @@
-#include "integrate/damped_oscillator.h"
+#include "integrate/oscillator_step.h"
 
 #include <algorithm>
 #include <array>

@@ -64,6 +64,14 @@ void Exponential::restart(double t, const State& y) {
   bound_ = -1.0;
 }
 
+void Exponential::end_step(const OscillatorStep& taken) {
+  if (!step_loads_.value.empty()) taken.add_loads(step_loads_, y1_);
+  lambda1_ = displacement(y1_.data());
+  rate1_ = displacement(y1_.data() + n_);
+  t1_ = t0_ + taken.length();
+  force_length_ = taken.length();
+}
+
 void Exponential::step() {
   size_ = dot_of_size(oscillators_.displacements().data(), y1_.data(), n_);
   std::swap(y0_, y1_);
@@ -154,11 +162,7 @@ void Exponential::free_step() {
     const double h = trial.length();
     const double uncertainty = falls ? error_of_cubic(h) : h * h * h * h * bound_;
     trial.advance_freely(y0_, y1_);
-    if (!step_loads_.value.empty()) trial.add_loads(step_loads_, y1_);
-    lambda1_ = displacement(y1_.data());
-    rate1_ = displacement(y1_.data() + n_);
-    t1_ = t0_ + h;
-    force_length_ = h;
+    end_step(trial);
     if (options_.fixed_step || level_ >= deepest_level ||
         resolves_side({lambda0, rate0, lambda1_, rate1_}, h, uncertainty)) {
       return;
@@ -230,12 +234,8 @@ void Exponential::forced_step() {
     if (solve(trial, free, forces, lambda)) {
       work_.right_hand_sides += n_force_nodes;
       trial.advance(y0_, forces, y1_);
-      if (!step_loads_.value.empty()) trial.add_loads(step_loads_, y1_);
-      lambda1_ = displacement(y1_.data());
-      rate1_ = displacement(y1_.data() + n_);
-      t1_ = t0_ + h;
+      end_step(trial);
       force_ = ForcePolynomial(forces);
-      force_length_ = h;
       if (options_.fixed_step) return;
       const double defect = std::max(std::abs(force_(0.0) - start.value),
                                      std::abs(force_(1.0) - oscillators_.force(lambda1_).value));

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "integrate/damped_oscillator.h"
 #include "numerics/gauss.h"
 #include "numerics/lanes.h"
 #include "numerics/sin_cos.h"

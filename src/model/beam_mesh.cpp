@@ -82,11 +82,7 @@ double BeamMesh::shear_energy(std::span<const double> unknowns) const {
 }
 
 void BeamMesh::add_stiffness(std::span<const double> tangents, BandedMatrix& result) const {
-  for (std::size_t k = 0; k <= shear_stiffness_.half_bandwidth(); ++k) {
-    for (std::size_t i = 0; i + k < shear_stiffness_.size(); ++i) {
-      result.at(i, i + k) += shear_stiffness_.at(i, i + k);
-    }
-  }
+  result.add(1.0, shear_stiffness_);
   for (std::size_t i = 0; i < n_sections(); ++i) {
     const SectionStencil row = section_stencil(i);
     const double factor = weights_[i] * tangents[i];

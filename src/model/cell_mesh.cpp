@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "model/cell_modes.h"
+#include "model/modes.h"
 #include "numerics/lanes.h"
 
 namespace subimpact {

@@ -14,7 +14,8 @@ namespace subimpact {
 namespace {
 
 constexpr int n_histories = 8;
-constexpr int n_panels = 64;  // of an integral, even
+constexpr int n_panels = 16;   // of the integral of what may not be smooth
+constexpr int n_samples = 64;  // of a force that must push
 constexpr double tolerance = 1e-3;
 constexpr double slope_tolerance = 2e-2;  // a slope may begin as the square root of the indentation
 
@@ -28,16 +29,18 @@ void require(bool holds, fmt::format_string<const Values&...> broken, const Valu
   if (!holds) throw BrokenRule(fmt::format(broken, values...));
 }
 
-// By Simpson's rule in s, x = from + (to - from) s^3: forces change fastest where a branch begins.
+// By Gauss's rule on panels in s, x = from + (to - from) s^2: exact for powers of half an integer
+// of the distance from `from`, where forces change fastest.
 template <class F>
-double integral(F f, double from, double to) {
-  constexpr double h = 1.0 / n_panels;
-  double sum = 3.0 * f(to);
-  for (int i = 1; i < n_panels; ++i) {
-    const double s = i * h;
-    sum += (i % 2 == 0 ? 2.0 : 4.0) * 3.0 * s * s * f(from + (to - from) * s * s * s);
+double integral(F f, double from, double to, int panels = 4) {
+  double sum = 0.0;
+  for (int panel = 0; panel < panels; ++panel) {
+    for (std::size_t i = 0; i < gauss<5>.points.size(); ++i) {
+      const double s = (panel + gauss<5>.points[i]) / panels;
+      sum += gauss<5>.weights[i] * 2.0 * s * f(from + (to - from) * s * s);
+    }
   }
-  return (to - from) * sum * h / 3.0;
+  return (to - from) * sum / panels;
 }
 
 // The rules one by one, each for indentations up to `depth`.
@@ -106,19 +109,19 @@ class Rules {
   template <class Force, class Slope>
   void check_branch(const char* branch, double from, double to, Force force, Slope slope,
                     double energy, ContactHistory history) const {
-    for (int i = 1; i <= n_panels; ++i) {
-      const double x = from + (to - from) * i / n_panels;
+    for (int i = 1; i <= n_samples; ++i) {
+      const double x = from + (to - from) * i / n_samples;
       require(force(x) >= -tolerance * force_,
               "its {} force at {:.4g} m is {:.4g} N, {}: contact pushes", branch, x, force(x),
               words(history));
     }
-    const double work = integral(force, from, to);
+    const double work = integral(force, from, to, n_panels);
     require(std::abs(work - energy) <= tolerance * energy_,
             "from {:.4g} to {:.4g} m the work of its {} force is {:.4g} J, but its energies grow "
             "by {:.4g} J, {}",
             from, to, branch, work, energy, words(history));
     const double growth = force(to) - force(from);
-    const double rise = integral(slope, from, to);
+    const double rise = integral(slope, from, to, n_panels);
     require(std::abs(rise - growth) <= slope_tolerance * force_,
             "from {:.4g} to {:.4g} m its {} force grows by {:.4g} N, but the integral of its slope "
             "is {:.4g} N, {}",
@@ -136,21 +139,6 @@ class Rules {
   double force_, energy_;  // scales, N and J
   double last_residual_ = 0.0, last_threshold_ = 0.0;
 };
-
-// By Gauss's rule on four panels in s, x = from + (to - from) s^2: exact for powers of half an
-// integer of the distance from `from`.
-template <class F>
-double work_of(F force, double from, double to) {
-  constexpr int panels = 4;
-  double sum = 0.0;
-  for (int panel = 0; panel < panels; ++panel) {
-    for (std::size_t i = 0; i < gauss<5>.points.size(); ++i) {
-      const double s = (panel + gauss<5>.points[i]) / panels;
-      sum += gauss<5>.weights[i] * 2.0 * s * force(from + (to - from) * s * s);
-    }
-  }
-  return (to - from) * sum / panels;
-}
 
 template <class F>
 double difference(F force, double x, double size) {
@@ -185,14 +173,14 @@ double ContactLaw::plastic_slope(double indentation) const {
 double ContactLaw::recoverable_energy(ContactHistory history, double indentation) const {
   const double residual = residual_indentation(history);
   if (!(indentation > residual)) return 0.0;
-  return work_of([&](double x) { return force(history, x); }, residual, indentation);
+  return integral([&](double x) { return force(history, x); }, residual, indentation);
 }
 
 double ContactLaw::dissipated_energy(ContactHistory history) const {
   const double reached = history.max_indentation, first_yield = yield_threshold({});
   if (!(reached > first_yield)) return 0.0;
-  return work_of([&](double x) { return force({}, x); }, 0.0, first_yield) +
-         work_of([&](double x) { return plastic_force(x); }, first_yield, reached) -
+  return integral([&](double x) { return force({}, x); }, 0.0, first_yield) +
+         integral([&](double x) { return plastic_force(x); }, first_yield, reached) -
          recoverable_energy(history, reached);
 }
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/hermite_modes.h"
+#include "model/modes.h"
 #include "numerics/lanes.h"
 
 /// Waves in a chain of equal Hermite elements, and the shapes of the natural modes that are made of

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "model/hermite_modes.h"
+#include "model/modes.h"
 #include "numerics/bracketed_root.h"
 
 namespace subimpact {
@@ -298,17 +298,14 @@ double HermiteMesh::highest_element_frequency_squared(double bending_stiffness) 
 }
 
 double HermiteMesh::highest_frequency(double bending_stiffness) const {
-  BandedMatrix stiffness(n_unknowns(), 3);
+  BandedMatrix stiffness(n_unknowns(), 3), opposite = stiffness;
   add_stiffness(std::vector<double>(n_sections(), bending_stiffness), stiffness);
+  opposite.add(-1.0, stiffness);
   // s lies above the spectrum if s Mass - K is positive definite. No assembly exceeds the highest
   // frequency of its elements by themselves (Irons and Treharne).
-  BandedMatrix shifted(n_unknowns(), 3);
   const auto within_spectrum = [&](double s) {
-    for (std::size_t i = 0; i < n_unknowns(); ++i) {
-      for (std::size_t j = i; j < std::min(i + 4, n_unknowns()); ++j) {
-        shifted.at(i, j) = s * mass_.at(i, j) - stiffness.at(i, j);
-      }
-    }
+    BandedMatrix shifted = opposite;
+    shifted.add(s, mass_);
     return !shifted.cholesky_factor();
   };
   const double bound = highest_element_frequency_squared(bending_stiffness);

@@ -1,4 +1,4 @@
-#include "model/hermite_modes.h"
+#include "model/modes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -50,15 +50,12 @@ class MatrixMesh final : public BeamMesh {
   // x Mass - K is positive definite above the largest eigenvalue x, and only there.
   double highest_frequency(double bending_stiffness) const override {
     const std::size_t bandwidth = std::max(stiffness_bandwidth(), mass_.half_bandwidth());
-    BandedMatrix stiffness(n_unknowns(), bandwidth);
+    BandedMatrix stiffness(n_unknowns(), bandwidth), opposite = stiffness;
     add_stiffness(std::vector<double>(n_sections(), bending_stiffness), stiffness);
+    opposite.add(-1.0, stiffness);
     const auto is_above = [&](double x) {
-      BandedMatrix shifted(n_unknowns(), bandwidth);
-      for (std::size_t i = 0; i < n_unknowns(); ++i) {
-        for (std::size_t j = i; j < std::min(i + bandwidth + 1, n_unknowns()); ++j) {
-          shifted.at(i, j) = x * mass_(i, j) - stiffness.at(i, j);
-        }
-      }
+      BandedMatrix shifted = opposite;
+      shifted.add(x, mass_);
       return shifted.cholesky_factor().has_value();
     };
     double above = 1.0;

@@ -74,15 +74,13 @@ class MixedMesh final : public BeamMesh {
   std::size_t first_moment() const { return first_moment_; }
   std::size_t n_kept_cells() const { return lengths_.size(); }
   double cell_length(std::size_t cell) const { return lengths_[cell]; }
-  double node_mass(std::size_t node) const { return node_masses_[node]; }  ///< lumped, kg
-  double rotary_inertia() const { return rotary_inertia_; }                ///< J, kg m
-  double mass_per_length() const { return mass_per_length_; }              ///< kg/m
+  double rotary_inertia() const { return rotary_inertia_; }    ///< J, kg m
+  double mass_per_length() const { return mass_per_length_; }  ///< kg/m
   double copies_of_part() const { return copies(); }
   std::size_t struck_node() const { return struck_node_; }
   bool is_clamped(std::size_t node) const;
   /// Whether an ideal hinge may form at a node: at the strike and at clamped ends.
   bool may_hinge(std::size_t node) const { return node == struck_node_ || is_clamped(node); }
-  double node_position(std::size_t node) const { return node_positions_[node]; }  ///< m
 
  private:
   class Solver;

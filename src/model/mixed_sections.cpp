@@ -1,8 +1,6 @@
 #include "model/mixed_sections.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace subimpact {
 namespace {
@@ -164,8 +162,8 @@ void MixedSections::narrow_windows(std::size_t cell) {
   }
 }
 
-MixedSections::Energies MixedSections::energies() const {
-  Energies sum;
+BendingEnergies MixedSections::energies() const {
+  BendingEnergies sum, all;
   const std::size_t n = elastic_.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t node = i + mesh_.first_moment();
@@ -177,19 +175,19 @@ MixedSections::Energies MixedSections::energies() const {
   sum.elastic *= 0.5 * stiffness_;
   if (flow_) {
     for (std::size_t index = 0; index < flow_->cells.n_made(); ++index) {
-      sum.elastic += flow_->cells.energies_at_rest(index).elastic;
-      sum.plastic += flow_->cells.energies_at_rest(index).plastic;
+      sum.add(1.0, flow_->cells.energies_at_rest(index));
     }
     for (std::size_t k = 0; flowed_ && k < active_.size(); ++k) {
-      const auto [elastic, plastic] =
+      BendingEnergies more =
           flow_->cells.energies(active_[k], moments_at(flow_->cells.cell_of(active_[k])));
-      sum.elastic += elastic - flow_->cells.energies_at_rest(active_[k]).elastic;
-      sum.plastic += plastic - flow_->cells.energies_at_rest(active_[k]).plastic;
+      more.add(-1.0, flow_->cells.energies_at_rest(active_[k]));
+      sum.add(1.0, more);
     }
     const double unit = stiffness_ * yield_curvature_ * yield_curvature_;
     sum.plastic += unit * flow_->equations.hinge_work();
   }
-  return {mesh_.copies_of_part() * sum.elastic, mesh_.copies_of_part() * sum.plastic};
+  all.add(mesh_.copies_of_part(), sum);
+  return all;
 }
 
 void MixedSections::read_bending(std::span<double> curvatures, std::span<double> moments) const {

@@ -56,10 +56,7 @@ class MixedSections {
   void read_bending(std::span<double> curvatures, std::span<double> moments) const;
   /// Of the outermost fibre away from the striker, Pa; `outer_stiffness` = E h/2, N/m.
   double outer_stress_at_strike(double outer_stiffness) const;
-  struct Energies {
-    double elastic = 0.0, plastic = 0.0;  ///< J
-  };
-  Energies energies() const;
+  BendingEnergies energies() const;
 
   /// Of y, J, with the work that forces have done on w - y = s up to the last commit.
   double kinetic_energy(std::span<const double> velocities) const {

@@ -41,7 +41,7 @@ SectionHistory& SectionField::stored_history(std::size_t section) {
     slot = static_cast<int>(memory_.size());
     memory_.emplace_back();
     memory_.back().reversals.reserve(8);
-    at_rest_.push_back({});
+    at_rest_.emplace_back();
   }
   return memory_[static_cast<std::size_t>(slot)];
 }
@@ -135,7 +135,7 @@ void SectionField::commit_reversal(std::size_t section, double curvature) {
 }
 
 void SectionField::follow_history(std::size_t section) {
-  at_rest_[static_cast<std::size_t>(slot_[section])].is_known = false;
+  at_rest_[static_cast<std::size_t>(slot_[section])].reset();
   const ElasticWindow window = law_->window(history(section));
   low_[section] = window.low;
   high_[section] = window.high;
@@ -187,35 +187,31 @@ std::size_t SectionField::commit(std::span<const double> curvatures,
   return n_flowed;
 }
 
-const SectionField::AtRest& SectionField::at_rest(std::size_t section) const {
-  AtRest& rest = at_rest_[static_cast<std::size_t>(slot_[section])];
-  if (rest.is_known) return rest;
+const BendingEnergies& SectionField::at_rest(std::size_t section) const {
+  std::optional<BendingEnergies>& rest = at_rest_[static_cast<std::size_t>(slot_[section])];
+  if (rest) return *rest;
   const SectionHistory& now = history(section);
   const double inside = 0.5 * (low_[section] + high_[section]);
   const double moment = stiffness_ * inside - offset_[section];
   const double elastic = law_->elastic_energy(now, inside);
-  rest = {elastic - 0.5 * moment * moment / stiffness_, law_->work(now, inside) - elastic, true};
-  return rest;
+  rest = {elastic - 0.5 * moment * moment / stiffness_, law_->work(now, inside) - elastic};
+  return *rest;
 }
 
-SectionField::Energies SectionField::energies(std::span<const double> curvatures,
-                                              std::span<const double> weights) const {
+BendingEnergies SectionField::energies(std::span<const double> curvatures,
+                                       std::span<const double> weights) const {
   const double half_compliance = stiffness_ > 0.0 ? 0.5 / stiffness_ : 0.0;
-  Energies sum;
+  BendingEnergies sum;
   for (std::size_t i = 0; i < curvatures.size(); ++i) {
     const double k = curvatures[i];
     if (k >= low_[i] && k <= high_[i]) {
       const double moment = stiffness_ * k - offset_[i];
       sum.elastic += weights[i] * half_compliance * moment * moment;
-      if (!has_yielded(i)) continue;
-      const AtRest& rest = at_rest(i);
-      sum.elastic += weights[i] * rest.elastic;
-      sum.plastic += weights[i] * rest.plastic;
+      if (has_yielded(i)) sum.add(weights[i], at_rest(i));
       continue;
     }
     const double elastic = law_->elastic_energy(history(i), k);
-    sum.elastic += weights[i] * elastic;
-    sum.plastic += weights[i] * (law_->work(history(i), k) - elastic);
+    sum.add(weights[i], {elastic, law_->work(history(i), k) - elastic});
   }
   return sum;
 }

@@ -79,12 +79,9 @@ class SectionField {
   bool has_yielded(std::size_t section) const;
   std::size_t n_yielded() const { return n_yielded_; }
 
-  struct Energies {
-    double elastic = 0.0;  ///< J
-    double plastic = 0.0;  ///< J
-  };
   /// Energies with integration weights (m) of the sections.
-  Energies energies(std::span<const double> curvatures, std::span<const double> weights) const;
+  BendingEnergies energies(std::span<const double> curvatures,
+                           std::span<const double> weights) const;
 
   /// Stress of the outermost fibre away from the striker, Pa; `outer_stiffness` = E h/2 for
   /// sections that never yield.
@@ -96,18 +93,14 @@ class SectionField {
   // Energies of a yielded section without moment; while nothing flows, a moment M adds M^2/(2
   // stiffness) to the elastic one. They follow from the history alone, and are computed when first
   // needed after each flow.
-  struct AtRest {
-    double elastic, plastic;  // J/m
-    bool is_known;
-  };
-  const AtRest& at_rest(std::size_t section) const;
+  const BendingEnergies& at_rest(std::size_t section) const;
 
   std::optional<SectionLaw> law_;
   double stiffness_;
   AlignedVector low_, high_, offset_;  // windows
   std::vector<int> slot_;              // index into memory_, -1: never yielded
   std::vector<SectionHistory> memory_;
-  mutable std::vector<AtRest> at_rest_;  // of each history
+  mutable std::vector<std::optional<BendingEnergies>> at_rest_;  // of each history
   std::vector<Flow> flowing_;
   std::size_t n_yielded_ = 0;
 };

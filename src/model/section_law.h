@@ -25,6 +25,16 @@ struct SectionHistory {
   void exchange(Snapshot& snapshot) { snapshot(reversals, edge, direction, work, work_of_branch); }
 };
 
+/// Energies of bending, J, or J/m of a section.
+struct BendingEnergies {
+  double elastic = 0.0, plastic = 0.0;
+
+  void add(double factor, const BendingEnergies& more) {
+    elastic += factor * more.elastic;
+    plastic += factor * more.plastic;
+  }
+};
+
 /// Curvatures (1/m) between which no fibre of a section flows: there M = stiffness kappa - offset.
 struct ElasticWindow {
   double low, high;

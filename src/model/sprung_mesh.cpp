@@ -46,14 +46,10 @@ SprungMesh::SprungMesh(std::shared_ptr<const BeamMesh> other, const Beam& beam, 
       add_spring((first + at) * part, weight * part * beam.foundation, beam.length);
     }
   }
-  const std::size_t own = shear_stiffness_.half_bandwidth();
-  BandedMatrix sum(n_unknowns(), std::max(own, springs_.half_bandwidth()));
-  for (std::size_t i = 0; i < n_unknowns(); ++i) {
-    const std::size_t last = std::min(i + sum.half_bandwidth(), n_unknowns() - 1);
-    for (std::size_t j = i; j <= last; ++j) {
-      sum.at(i, j) = springs_(i, j) + (shear_stiffness_.size() > 0 ? shear_stiffness_(i, j) : 0.0);
-    }
-  }
+  BandedMatrix sum(n_unknowns(),
+                   std::max(shear_stiffness_.half_bandwidth(), springs_.half_bandwidth()));
+  sum.add(1.0, springs_);
+  sum.add(1.0, shear_stiffness_);
   shear_stiffness_ = std::move(sum);
   frequency_squared_ += beam.foundation / beam.mass_per_length();
 }

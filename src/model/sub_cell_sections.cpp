@@ -56,21 +56,16 @@ std::size_t SubCellSections::make(std::size_t cell) {
 }
 
 bool SubCellSections::flows(std::size_t index, const Ends& moments) const {
-  const Cell& cell = cells_[index];
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    const Section& section = sections_[i];
+  return std::ranges::any_of(sections_of(index), [&](const Section& section) {
     const double m = section.moment(moments);
-    if (m > section.law.high() || m < section.law.low()) return true;
-  }
-  return false;
+    return m > section.law.high() || m < section.law.low();
+  });
 }
 
 bool SubCellSections::is_inside(std::size_t index, const Ends& moments) const {
-  const Cell& cell = cells_[index];
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    if (!(std::abs(sections_[i].moment(moments)) < MomentLaw::limit)) return false;
-  }
-  return true;
+  return std::ranges::all_of(sections_of(index), [&](const Section& section) {
+    return std::abs(section.moment(moments)) < MomentLaw::limit;
+  });
 }
 
 // The step is taken in the curvature, in which the law is nearly linear: of the virgin curve, which
@@ -88,20 +83,16 @@ double SubCellSections::part_of_step(double moment, double step) {
 
 double SubCellSections::part_of_step(std::size_t index, const Ends& moments,
                                      const Ends& step) const {
-  const Cell& cell = cells_[index];
   double part = 1.0;
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    const Section& section = sections_[i];
+  for (const Section& section : sections_of(index)) {
     part = std::min(part, part_of_step(section.moment(moments), section.moment(step)));
   }
   return part;
 }
 
 SubCellSections::Flow SubCellSections::flow(std::size_t index, const Ends& moments) const {
-  const Cell& cell = cells_[index];
   Flow sum;
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    const Section& section = sections_[i];
+  for (const Section& section : sections_of(index)) {
     const MomentLaw::Flow at = section.law.at(section.moment(moments));
     if (at.slope == 0.0) continue;
     const double flowed = at.plastic - section.law.plastic();
@@ -126,7 +117,11 @@ bool SubCellSections::commit(std::size_t index, const Ends& moments) {
   }
   if (!flowed) return false;
   cell.at_rest.reset();
-  narrow_window(cell);
+  cell.window = {-MomentLaw::limit, MomentLaw::limit};
+  for (const Section& section : sections_of(index)) {
+    cell.window.low = std::max(cell.window.low, section.law.low());
+    cell.window.high = std::min(cell.window.high, section.law.high());
+  }
   return true;
 }
 
@@ -140,19 +135,11 @@ void SubCellSections::exchange(Snapshot& snapshot) {
   for (Cell& cell : cells_) snapshot(cell.window.low, cell.window.high);
 }
 
-void SubCellSections::narrow_window(Cell& cell) const {
-  cell.window = {-MomentLaw::limit, MomentLaw::limit};
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    cell.window.low = std::max(cell.window.low, sections_[i].law.low());
-    cell.window.high = std::min(cell.window.high, sections_[i].law.high());
-  }
-}
-
 double SubCellSections::curvature(const Section& section, double moment) const {
   return (moment + section.law.at(moment).plastic) * yield_curvature_;
 }
 
-SubCellSections::Energies SubCellSections::energies(const Section& section, double m) const {
+BendingEnergies SubCellSections::energies(const Section& section, double m) const {
   const double kappa = curvature(section, m);
   reached_ = section.law.history(law_, yield_curvature_);
   law_.commit(reached_, kappa);
@@ -162,39 +149,30 @@ SubCellSections::Energies SubCellSections::energies(const Section& section, doub
   return {weight * (elastic - of_moment), weight * (law_.work(reached_, kappa) - elastic)};
 }
 
-SubCellSections::Energies SubCellSections::energies(std::size_t index, const Ends& moments) const {
-  const Cell& cell = cells_[index];
-  Energies sum;
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    const Section& section = sections_[i];
-    const auto [elastic, plastic] = energies(section, short_of_limit(section.moment(moments)));
-    sum.elastic += elastic;
-    sum.plastic += plastic;
+BendingEnergies SubCellSections::energies(std::size_t index, const Ends& moments) const {
+  BendingEnergies sum;
+  for (const Section& section : sections_of(index)) {
+    sum.add(1.0, energies(section, short_of_limit(section.moment(moments))));
   }
   return sum;
 }
 
-const SubCellSections::Energies& SubCellSections::energies_at_rest(std::size_t index) const {
+const BendingEnergies& SubCellSections::energies_at_rest(std::size_t index) const {
   const Cell& cell = cells_[index];
   if (cell.at_rest) return *cell.at_rest;
-  Energies& sum = cell.at_rest.emplace();
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    const MomentLaw& law = sections_[i].law;
-    const auto [elastic, plastic] = energies(sections_[i], 0.5 * (law.low() + law.high()));
-    sum.elastic += elastic;
-    sum.plastic += plastic;
+  BendingEnergies& sum = cell.at_rest.emplace();
+  for (const Section& section : sections_of(index)) {
+    sum.add(1.0, energies(section, 0.5 * (section.law.low() + section.law.high())));
   }
   return sum;
 }
 
 double SubCellSections::outer_stress(std::size_t index, const Ends& moments) const {
-  const Cell& cell = cells_[index];
-  const Section* nearest = &sections_[cell.first];
-  for (std::size_t i = cell.first; i < cell.end; ++i) {
-    if (sections_[i].hat[1] > nearest->hat[1]) nearest = &sections_[i];
-  }
-  const double m = short_of_limit(nearest->moment(moments));
-  return law_.outer_stress(nearest->law.history(law_, yield_curvature_), curvature(*nearest, m));
+  const auto sections = sections_of(index);
+  const Section& nearest =
+      *std::ranges::max_element(sections, {}, [](const Section& at) { return at.hat[1]; });
+  const double m = short_of_limit(nearest.moment(moments));
+  return law_.outer_stress(nearest.law.history(law_, yield_curvature_), curvature(nearest, m));
 }
 
 }  // namespace subimpact

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "model/mixed_mesh.h"
@@ -55,12 +56,10 @@ class SubCellSections {
   };
   const Window& window(std::size_t index) const { return cells_[index].window; }
 
-  struct Energies {
-    double elastic = 0.0, plastic = 0.0;  ///< J; the elastic one beside that of the moment
-  };
-  Energies energies(std::size_t index, const Ends& moments) const;
+  /// The elastic one beside that of the moment.
+  BendingEnergies energies(std::size_t index, const Ends& moments) const;
   /// The same while nothing flows in the cell, whatever the moments.
-  const Energies& energies_at_rest(std::size_t index) const;
+  const BendingEnergies& energies_at_rest(std::size_t index) const;
   /// Of the outermost fibre away from the striker, Pa, at the section nearest to the second node.
   double outer_stress(std::size_t index, const Ends& moments) const;
 
@@ -75,12 +74,16 @@ class SubCellSections {
   struct Cell {
     std::size_t cell, first, end;  // sections
     Window window = {};
-    mutable std::optional<Energies> at_rest = {};  // computed when first needed after each flow
+    mutable std::optional<BendingEnergies> at_rest =
+        {};  // computed when first needed after each flow
   };
-  void narrow_window(Cell& cell) const;
+  std::span<const Section> sections_of(std::size_t index) const {
+    const Cell& cell = cells_[index];
+    return std::span(sections_).subspan(cell.first, cell.end - cell.first);
+  }
   void add(double at, double weight, double length);
   double curvature(const Section& section, double moment) const;  // 1/m
-  Energies energies(const Section& section, double moment) const;
+  BendingEnergies energies(const Section& section, double moment) const;
 
   const MixedMesh& mesh_;
   SectionLaw law_;

@@ -6,6 +6,11 @@
 
 namespace subimpact {
 
+void BandedMatrix::add(double factor, const BandedMatrix& other) {
+  assert(other.values_.size() <= values_.size());
+  for (std::size_t i = 0; i < other.values_.size(); ++i) values_[i] += factor * other.values_[i];
+}
+
 void BandedMatrix::multiply(std::span<const double> x, std::span<double> result) const {
   assert(x.size() == size_ && result.size() == size_);
   for (std::size_t i = 0; i < size_; ++i) result[i] = values_[i] * x[i];

@@ -1,15 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace subimpact {

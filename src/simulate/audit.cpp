@@ -1,8 +1,5 @@
 #include "simulate/audit.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "numerics/units.h"
@@ -30,10 +27,6 @@ Audit::Audit(const StruckBeam& beam, const State& initial, AuditLimits limits)
   momentum_scale_ = std::max(mass * speed, of_striker + std::abs(accounts_.beam_momentum(initial)));
 }
 
-void Audit::fail(double t, OutcomeKind kind, const std::string& what) const {
-  throw RunStopped(kind, what, Interval{std::min(last_good_, t), t});
-}
-
 std::optional<double> Audit::momentum_error(double t, const State& y) const {
   if (!accounts_.conserves_momentum()) return std::nullopt;
   return (accounts_.momentum(y, t) - initial_momentum_) / momentum_scale_;
@@ -49,20 +42,20 @@ void Audit::check(double t, const State& y, const Energies& energies) {
   }
   if (error > blow_up) {
     fail(t, OutcomeKind::unstable,
-         fmt::format("the solution grows without bound: the energy is {:.3g} times the initial one",
-                     1.0 + error));
+         "the solution grows without bound: the energy is {:.3g} times the initial one",
+         1.0 + error);
   }
   if (!(std::abs(error) <= limits_.energy)) {
     fail(t, OutcomeKind::inaccurate,
-         fmt::format("the energy is off by {:+.2e} of the initial energy, tolerated are {:.1e}",
-                     error, limits_.energy));
+         "the energy is off by {:+.2e} of the initial energy, tolerated are {:.1e}", error,
+         limits_.energy);
   }
   if (const auto momentum = momentum_error(t, y)) {
     max_momentum_error_ = larger(max_momentum_error_.value_or(0.0), std::abs(*momentum));
     if (!(std::abs(*momentum) <= limits_.momentum)) {
       fail(t, OutcomeKind::inaccurate,
-           fmt::format("the momentum is off by {:+.2e} of m v0, tolerated are {:.1e}", *momentum,
-                       limits_.momentum));
+           "the momentum is off by {:+.2e} of m v0, tolerated are {:.1e}", *momentum,
+           limits_.momentum);
     }
   }
   last_good_ = std::max(last_good_, t);
@@ -80,10 +73,11 @@ void Audit::check_impulse(double t, double impulse, double force_integral) {
   const double error = (impulse - force_integral) / momentum_scale_;
   max_impulse_error_ = larger(max_impulse_error_, std::abs(error));
   if (!(std::abs(error) <= limits_.energy)) {
-    fail(t, OutcomeKind::inaccurate,
-         fmt::format("the impulse of the sub-impact that ends at {:.6g} us differs from its "
-                     "integrated force by {:+.2e} of m v0, tolerated are {:.1e}",
-                     us * t, error, limits_.energy));
+    fail(
+        t, OutcomeKind::inaccurate,
+        "the impulse of the sub-impact that ends at {:.6g} us differs from its integrated force by "
+        "{:+.2e} of m v0, tolerated are {:.1e}",
+        us * t, error, limits_.energy);
   }
 }
 

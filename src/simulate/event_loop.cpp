@@ -1,7 +1,5 @@
 #include "simulate/event_loop.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -241,24 +239,22 @@ void EventLoop::check_root(const EventFunction& function, double time, const Sta
   double tolerated = tolerated_rounding * rounding_of(function, beam_, y, time, at);
   if (const auto root = integrator_.root()) tolerated += std::abs(at.rate) * root->tolerance;
   if (!(std::abs(at.value) <= tolerated)) {
-    audit_->fail(
-        time, OutcomeKind::inaccurate,
-        fmt::format("{} was located at {:.6g} us, but its condition is missed there by "
-                    "{:.2e} {}, tolerated are {:.1e}",
-                    to_string(function.kind), us * time, at.value,
-                    function.kind == EventKind::contact_unloads || function.by_rate ? "m/s" : "m",
-                    tolerated));
+    audit_->fail(time, OutcomeKind::inaccurate,
+                 "{} was located at {:.6g} us, but its condition is missed there by {:.2e} {}, "
+                 "tolerated are {:.1e}",
+                 to_string(function.kind), us * time, at.value,
+                 function.kind == EventKind::contact_unloads || function.by_rate ? "m/s" : "m",
+                 tolerated);
   }
   if (!(time >= last_event_)) {
     audit_->fail(time, OutcomeKind::inaccurate,
-                 fmt::format("{} was located at {:.6g} us, before the event that precedes it",
-                             to_string(function.kind), us * time));
+                 "{} was located at {:.6g} us, before the event that precedes it",
+                 to_string(function.kind), us * time);
   }
   if (function.kind == EventKind::contact_begins) contact_start_ = time;
   if (function.kind == EventKind::contact_ends && !(time > contact_start_)) {
-    audit_->fail(
-        time, OutcomeKind::inaccurate,
-        fmt::format("the contact that begins at {:.6g} us ends at the same instant", us * time));
+    audit_->fail(time, OutcomeKind::inaccurate,
+                 "the contact that begins at {:.6g} us ends at the same instant", us * time);
   }
   last_event_ = time;
 }
@@ -270,8 +266,8 @@ void EventLoop::watch_for_chattering(double time) {
   }
   if (++n_events_in_place_ <= most_events_in_place) return;
   audit_->fail(time, OutcomeKind::chattering,
-               fmt::format("the contact changed its state {} times within {:.2e} us",
-                           n_events_in_place_, us * (time - events_since_)));
+               "the contact changed its state {} times within {:.2e} us", n_events_in_place_,
+               us * (time - events_since_));
 }
 
 void EventLoop::interpolate_events() {

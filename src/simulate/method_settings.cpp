@@ -1,6 +1,3 @@
-#include "simulate/method_settings.h"
-
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -8,7 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "numerics/units.h"
 #include "simulate/methods.h"
+#include "simulate/refuse.h"
+#include "simulate/run_parts.h"
 
 namespace subimpact {
 namespace {
@@ -35,19 +35,13 @@ constexpr double matrices_of_flight = 3.0;       // of free flight beside the mo
 constexpr double work_per_dense_mode = 0.5;
 constexpr double work_per_closed_entry = 2.0;
 
-std::vector<std::string> tables_of(const MethodDescriptor& method) {
-  std::vector<std::string> names;
-  if (!method.tables) return names;
-  for (const CoefficientTable& table : method.tables()) names.push_back(table.name);
-  return names;
-}
-
-std::vector<std::string> methods_that(bool (*holds)(const MethodDescriptor&)) {
+// Names in a list.
+std::string methods_that(bool (*holds)(const MethodDescriptor&)) {
   std::vector<std::string> names;
   for (const MethodDescriptor& method : methods()) {
     if (holds(method)) names.emplace_back(method.name);
   }
-  return names;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 bool is_of_sundials(const MethodDescriptor& method) { return method.sundials; }
@@ -70,22 +64,20 @@ double default_central_step(const ResolvedSettings& used) {
 
 void check_central_step(const Options& options, const ResolvedSettings& used, double step) {
   if (step > used.critical_step && !options.study.beyond_critical) {
-    throw InvalidCase(
-        "solver.step",
-        fmt::format("is {:.6g} us, above the stability limit of central differences for this beam "
-                    "with the contact at its stiffest, {:.6g} us (2/omega); use a smaller step, "
-                    "leave it out for {:.6g} us, or set study.beyond_critical = true to see it "
-                    "fail",
-                    1e6 * step, 1e6 * used.critical_step, 1e6 * default_central_step(used)));
+    refuse("solver.step",
+           "is {:.6g} us, above the stability limit of central differences for this beam with the "
+           "contact at its stiffest, {:.6g} us (2/omega); use a smaller step, leave it out for "
+           "{:.6g} us, or set study.beyond_critical = true to see it fail",
+           us * step, us * used.critical_step, us * default_central_step(used));
   }
   if (used.events == EventHandling::located && used.highest_frequency > 0.0 &&
       step > largest_part_if_located * used.critical_step) {
-    throw InvalidCase(
+    refuse(
         "solver.events",
-        fmt::format("is \"located\" with central differences of {:.6g} us, which gain energy "
-                    "without bound where steps end at events; allowed: \"interpolated\" (the "
-                    "default), or a solver.step up to {:.6g} us; leave it out",
-                    1e6 * step, 1e6 * largest_part_if_located * used.critical_step));
+        "is \"located\" with central differences of {:.6g} us, which gain energy without bound "
+        "where steps end at events; allowed: \"interpolated\" (the default), or a solver.step up "
+        "to {:.6g} us; leave it out",
+        us * step, us * largest_part_if_located * used.critical_step);
   }
 }
 
@@ -96,15 +88,14 @@ std::optional<int> max_order_used(const Options& options) {
   const MethodDescriptor& method = descriptor_of(options.solver.method);
   if (!method.order) {
     if (!asked) return std::nullopt;
-    throw InvalidCase(
-        "solver.max_order",
-        fmt::format("is {}, but {} has no order to choose; leave it out, or use adams or bdf",
-                    *asked, method.name));
+    refuse("solver.max_order",
+           "is {}, but {} has no order to choose; leave it out, or use adams or bdf", *asked,
+           method.name);
   }
   const int order = asked.value_or(method.order->usual);
   if (order < 1 || order > method.order->limit) {
-    throw InvalidCase("solver.max_order", fmt::format("is {}; allowed for {}: from 1 to {}", order,
-                                                      method.name, method.order->limit));
+    refuse("solver.max_order", "is {}; allowed for {}: from 1 to {}", order, method.name,
+           method.order->limit);
   }
   return order;
 }
@@ -114,20 +105,20 @@ void check_contact_damping(const Problem& problem, const Options& options,
   const double damping = problem.contact_damping;
   if (damping == 0.0) return;
   const MethodDescriptor& method = descriptor_of(options.solver.method);
-  const auto refuse = [&](const std::string& why) {
-    throw InvalidCase("contact.damping", fmt::format("is {:g} s/m, but {}", damping, why));
-  };
+  const char* const key = "contact.damping";
   if (std::isfinite(problem.contact_law->yield_threshold({}))) {
-    refuse("the contact law yields; allowed: 0, or a law that never yields");
+    refuse(key, "is {:g} s/m, but the contact law yields; allowed: 0, or a law that never yields",
+           damping);
   }
   if (!takes_any_damping(method)) {
-    refuse(
-        fmt::format("{} cannot integrate a contact force that depends on velocities; allowed "
-                    "solver.method: {}; choose one, or leave the damping out",
-                    method.name, fmt::join(methods_that(takes_any_damping), ", ")));
+    refuse(key,
+           "is {:g} s/m, but {} cannot integrate a contact force that depends on velocities; "
+           "allowed solver.method: {}; choose one, or leave the damping out",
+           damping, method.name, methods_that(takes_any_damping));
   }
   if (used.events != EventHandling::located) {
-    refuse("a damped contact needs located events; leave solver.events out");
+    refuse(key, "is {:g} s/m, but a damped contact needs located events; leave solver.events out",
+           damping);
   }
 }
 
@@ -138,34 +129,33 @@ void check_beam_damping(const BeamDamping& damping, const Options& options, bool
                             : damping.mass > 0.0
                                 ? std::pair("beam.damping.mass", damping.mass)
                                 : std::pair("beam.damping.stiffness", damping.stiffness);
-  const auto refuse = [&, key = key, value = value](const std::string& why) {
-    throw InvalidCase(key, fmt::format("is {:g}, but {}", value, why));
-  };
   if (damping.ratio > 0.0 && can_yield) {
-    refuse(
-        "a beam that yields has no natural modes; set model.section = \"elastic\", or give "
-        "beam.damping.mass and beam.damping.stiffness in its place");
+    refuse(key,
+           "is {:g}, but a beam that yields has no natural modes; set model.section = \"elastic\", "
+           "or give beam.damping.mass and beam.damping.stiffness in its place",
+           value);
   }
   if (damping.ratio > 0.0 && !takes_damping_ratio(method)) {
-    refuse(
-        fmt::format("{} does not integrate a damped beam in its natural modes; allowed "
-                    "solver.method: {}; choose one{}",
-                    method.name, fmt::join(methods_that(takes_damping_ratio), ", "),
-                    takes_damping_of_modes(method)
-                        ? ", or give beam.damping.mass and beam.damping.stiffness in its place"
-                        : ""));
+    refuse(key,
+           "is {:g}, but {} does not integrate a damped beam in its natural modes; allowed "
+           "solver.method: {}; choose one{}",
+           value, method.name, methods_that(takes_damping_ratio),
+           takes_damping_of_modes(method)
+               ? ", or give beam.damping.mass and beam.damping.stiffness in its place"
+               : "");
   }
   if (!takes_damping_of_modes(method)) {
-    refuse(
-        fmt::format("{} cannot integrate forces that depend on velocities; allowed "
-                    "solver.method: {}; choose one, or leave the damping out",
-                    method.name, fmt::join(methods_that(takes_damping_of_modes), ", ")));
+    refuse(key,
+           "is {:g}, but {} cannot integrate forces that depend on velocities; allowed "
+           "solver.method: {}; choose one, or leave the damping out",
+           value, method.name, methods_that(takes_damping_of_modes));
   }
   if (can_yield && !takes_any_damping(method)) {
     refuse(
-        fmt::format("{} damps beams that stay elastic only; set model.section = \"elastic\", "
-                    "or choose solver.method {}",
-                    method.name, fmt::join(methods_that(takes_any_damping), ", ")));
+        key,
+        "is {:g}, but {} damps beams that stay elastic only; set model.section = \"elastic\", or "
+        "choose solver.method {}",
+        value, method.name, methods_that(takes_any_damping));
   }
 }
 
@@ -173,9 +163,9 @@ ReversalHandling reversals_used(const Problem& problem, const Options& options, 
   const bool damped = problem.contact_damping > 0.0 || !problem.beam.damping.is_none();
   if (!damped || !can_yield) return reversals_of(options);
   if (options.solver.reversals == ReversalHandling::located) {
-    throw InvalidCase("solver.reversals",
-                      "is \"located\", but section events of a damped strike are not located; "
-                      "allowed: \"step-end\"; leave it out");
+    refuse("solver.reversals",
+           "is \"located\", but section events of a damped strike are not located; allowed: "
+           "\"step-end\"; leave it out");
   }
   return ReversalHandling::step_end;
 }
@@ -183,46 +173,46 @@ ReversalHandling reversals_used(const Problem& problem, const Options& options, 
 void check_method(const Options& options, const ResolvedSettings& used, bool can_yield) {
   const MethodDescriptor& method = descriptor_of(options.solver.method);
   if (used.events == EventHandling::library && !method.sundials) {
-    throw InvalidCase(
-        "solver.events",
-        fmt::format("is \"library\", the root-finding of SUNDIALS, which {} does not "
-                    "have; allowed: {}; or use {}",
-                    method.name,
-                    method.needs_located_events ? "\"located\"" : "\"located\", \"interpolated\"",
-                    fmt::join(methods_that(is_of_sundials), ", ")));
+    refuse("solver.events",
+           "is \"library\", the root-finding of SUNDIALS, which {} does not have; allowed: {}; or "
+           "use {}",
+           method.name,
+           method.needs_located_events ? "\"located\"" : "\"located\", \"interpolated\"",
+           methods_that(is_of_sundials));
   }
   if (method.needs_located_events && used.events != EventHandling::located) {
-    throw InvalidCase("solver.events",
-                      fmt::format("is \"interpolated\", but the steps of {} are too long for it; "
-                                  "allowed: \"located\"; leave it out, or use another "
-                                  "solver.method",
-                                  method.name));
+    refuse("solver.events",
+           "is \"interpolated\", but the steps of {} are too long for it; allowed: \"located\"; "
+           "leave it out, or use another solver.method",
+           method.name);
   }
   if (method.steps == MethodDescriptor::Steps::adaptive_order && options.solver.step) {
-    throw InvalidCase(
-        "solver.step",
-        fmt::format("is {} s, but {} chooses step and order together and has no fixed step; leave "
-                    "it out (solver.max_step bounds the step), or use another method",
-                    *options.solver.step, method.name));
+    refuse("solver.step",
+           "is {} s, but {} chooses step and order together and has no fixed step; leave it out "
+           "(solver.max_step bounds the step), or use another method",
+           *options.solver.step, method.name);
   }
   if (!method.needs_adaptive_steps_to_yield || !can_yield) return;
-  const auto refuse = [&](const char* key, const char* what) {
-    throw InvalidCase(key, fmt::format("is {}, which {} cannot do where the beam may yield; leave "
-                                       "it out, set model.section = \"elastic\", or use nystrom",
-                                       what, method.name));
+  const auto refuse_to_yield = [&](const char* key, const char* what) {
+    refuse(key,
+           "is {}, which {} cannot do where the beam may yield; leave it out, set model.section = "
+           "\"elastic\", or use nystrom",
+           what, method.name);
   };
-  if (options.solver.step) refuse("solver.step", "given: a fixed step");
-  if (used.reversals != ReversalHandling::located) refuse("solver.reversals", "\"step-end\"");
+  if (options.solver.step) refuse_to_yield("solver.step", "given: a fixed step");
+  if (used.reversals != ReversalHandling::located) {
+    refuse_to_yield("solver.reversals", "\"step-end\"");
+  }
 }
 
 void check_natural_step(const Options& options, const ResolvedSettings& used) {
-  const std::string step =
-      fmt::format("the step of {:.6g} us that belongs to {}", 1e6 * *used.natural_step, used.mesh);
-  const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
-  const auto refuse_choice = [&](const char* key, const char* what, const char* allowed) {
-    refuse(key, fmt::format("is \"{}\"; allowed with model.mesh = \"mixed\", whose step belongs to "
-                            "the mesh: \"{}\"; set it, or use another mesh",
-                            what, allowed));
+  const double natural = *used.natural_step;
+  const auto refuse_choice = [](const char* key, const char* what, const char* allowed) {
+    refuse(
+        key,
+        "is \"{}\"; allowed with model.mesh = \"mixed\", whose step belongs to the mesh: \"{}\"; "
+        "set it, or use another mesh",
+        what, allowed);
   };
   const MethodDescriptor& method = descriptor_of(options.solver.method);
   if (options.solver.method != Method::central_difference) {
@@ -235,29 +225,31 @@ void check_natural_step(const Options& options, const ResolvedSettings& used) {
     refuse_choice("time.stop", "no-more-contact", "end");
   }
   if (options.solver.step) {
-    refuse("solver.step", fmt::format("is {:.6g} us, but no other step goes with {}; leave it out, "
-                                      "or change model.segments",
-                                      1e6 * *options.solver.step, step));
+    refuse("solver.step",
+           "is {:.6g} us, but no other step goes with the step of {:.6g} us that belongs to {}; "
+           "leave it out, or change model.segments",
+           us * *options.solver.step, us * natural, used.mesh);
   }
-  if (*used.natural_step < used.critical_step) return;
+  if (natural < used.critical_step) return;
   refuse(
       "model.segments",
-      fmt::format("gives {}, above the stability limit with the contact at its stiffest, {:.6g} "
-                  "us; use {:.2g} times as many segments or more, or another mesh",
-                  step, 1e6 * used.critical_step, 1.1 * *used.natural_step / used.critical_step));
+      "gives the step of {:.6g} us that belongs to {}, above the stability limit with the contact "
+      "at its stiffest, {:.6g} us; use {:.2g} times as many segments or more, or another mesh",
+      us * natural, used.mesh, us * used.critical_step, 1.1 * natural / used.critical_step);
 }
 
 std::optional<std::string> table_used(const Options& options) {
-  const std::vector<std::string> names = tables_of(descriptor_of(options.solver.method));
+  const MethodDescriptor& method = descriptor_of(options.solver.method);
+  std::vector<std::string> names;
+  for (const MethodTable& table : method_tables()) {
+    if (table.method == method.kind) names.push_back(table.name);
+  }
   const std::optional<std::string>& asked = options.solver.table;
   if (!asked) return names.empty() ? std::nullopt : std::optional(names.front());
-  if (std::find(names.begin(), names.end(), *asked) == names.end()) {
-    throw InvalidCase(
-        "solver.table",
-        fmt::format("is \"{}\", which {} does not have; {}", *asked,
-                    descriptor_of(options.solver.method).name,
-                    names.empty() ? "leave it out: the method has no tables"
-                                  : fmt::format("allowed: {}", fmt::join(names, ", "))));
+  if (std::ranges::find(names, *asked) == names.end()) {
+    refuse("solver.table", "is \"{}\", which {} does not have; {}", *asked, method.name,
+           names.empty() ? "leave it out: the method has no tables"
+                         : fmt::format("allowed: {}", fmt::join(names, ", ")));
   }
   return asked;
 }

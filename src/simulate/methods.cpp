@@ -8,7 +8,6 @@
 #include "integrate/nystrom.h"
 #include "integrate/sundials.h"
 #include "system/free_flight.h"
-#include "system/struck_beam.h"
 
 namespace subimpact {
 namespace {

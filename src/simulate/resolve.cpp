@@ -1,19 +1,15 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "integrate/sundials.h"
-#include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
+#include "model/modes.h"
 #include "numerics/mass_solver.h"
-#include "simulate/continuation.h"
-#include "simulate/method_settings.h"
 #include "simulate/methods.h"
+#include "simulate/refuse.h"
 #include "simulate/run_parts.h"
-#include "simulate/start.h"
 #include "system/accounts.h"
 #include "system/beam_field.h"
 #include "system/contact_events.h"
@@ -38,13 +34,12 @@ void check_scales(double energy, const StruckBeam& beam) {
   const double smallest = std::min({energy, scales.position, scales.velocity});
   const double largest = std::max({energy, scales.position, scales.velocity});
   if (smallest > 1e-100 && largest < 1e100) return;
-  throw InvalidCase(
+  refuse(
       "striker.velocity",
-      fmt::format(
-          "is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: "
-          "beyond what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; "
-          "check the units of striker and contact",
-          scales.velocity, energy, scales.position));
+      "is {:g} m/s, with which the strike has {:g} J and an indentation of some {:g} m: beyond "
+      "what numbers of 16 digits can follow; allowed: both from 1e-100 to 1e100; check the units "
+      "of striker and contact",
+      scales.velocity, energy, scales.position);
 }
 
 double energy_tolerance(const Options& options, const ResolvedSettings& used) {
@@ -86,7 +81,6 @@ double first_period(const Problem& problem) {
 
 void check(const Problem& problem, const Options& options) {
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
-  const auto refuse = [](const char* key, const char* why) { throw InvalidCase(key, why); };
   const Beam& beam = problem.beam;
   const double sizes[] = {beam.length, beam.mass(), beam.bending_stiffness(),
                           beam.bending_stiffness() / std::pow(beam.length, 4)};
@@ -96,15 +90,15 @@ void check(const Problem& problem, const Options& options) {
   if (!problem.mesh) refuse("model.mesh", "is missing; give Problem::mesh a mesh");
   if (!problem.contact_law) refuse("contact.law", "is missing; give Problem::contact_law a law");
   if (!positive(options.end_time)) refuse("time.end", "is not a time; allowed: above 0 s");
-  check_start(problem, options);
+  check_start(problem);
   const bool uniform = !problem.bodies().has_approach_to_compute();
   if (const double touch = problem.striker.first_touch(); uniform && !(touch < options.end_time)) {
-    throw InvalidCase("striker.gap",
-                      fmt::format("is {:g} m, which takes the striker {:.6g} s at {:g} m/s, but "
-                                  "time.end is {:g} s; allowed: below {:g} m; reduce it, or set a "
-                                  "later time.end",
-                                  problem.striker.gap, touch, problem.striker.velocity,
-                                  options.end_time, options.end_time * problem.striker.velocity));
+    const auto& striker = problem.striker;
+    refuse("striker.gap",
+           "is {:g} m, which takes the striker {:.6g} s at {:g} m/s, but time.end is {:g} s; "
+           "allowed: below {:g} m; reduce it, or set a later time.end",
+           striker.gap, touch, striker.velocity, options.end_time,
+           options.end_time * striker.velocity);
   }
   if (!positive(options.solver.rtol)) refuse("solver.rtol", "is not positive; allowed: above 0");
 }
@@ -113,13 +107,13 @@ void check(const Problem& problem, const Options& options) {
 double shape_interval(const Options& options, const BeamMesh& mesh) {
   const std::optional<double>& asked = options.output.shapes;
   if (BeamField::is_available(mesh)) return options.output.shape_interval(options.end_time);
-  const auto refuse = [](const char* key) {
-    throw InvalidCase(key,
-                      "is given, but this mesh gives no displacements along the beam; leave it "
-                      "out, or give the mesh displacement_at() and rotation_at()");
+  const auto refuse_field = [](const char* key) {
+    refuse(key,
+           "is given, but this mesh gives no displacements along the beam; leave it out, or give "
+           "the mesh displacement_at() and rotation_at()");
   };
-  if (asked && *asked > 0.0) refuse("output.shapes");
-  if (!options.output.points.empty()) refuse("output.points");
+  if (asked && *asked > 0.0) refuse_field("output.shapes");
+  if (!options.output.points.empty()) refuse_field("output.points");
   return 0.0;
 }
 
@@ -184,12 +178,10 @@ std::unique_ptr<MassSolver> make_mass_solver(const Problem& problem, const Optio
     if (options.study.mass_solver == MassSolverKind::klu) return make_klu_mass_solver(mesh.mass());
     return std::make_unique<BandedSolver>(mesh.mass());
   } catch (const std::exception&) {
-    throw InvalidCase(
-        "beam.thickness",
-        fmt::format("is {:g} m, with which the mass matrix of a beam of {:g} m is not positive "
-                    "definite; allowed: beams that are longer than thick; check the units, or use "
-                    "a coarser mesh",
-                    problem.beam.height(), problem.beam.length));
+    refuse("beam.thickness",
+           "is {:g} m, with which the mass matrix of a beam of {:g} m is not positive definite; "
+           "allowed: beams that are longer than thick; check the units, or use a coarser mesh",
+           problem.beam.height(), problem.beam.length);
   }
 }
 

@@ -6,9 +6,9 @@
 #include <new>
 
 #include "numerics/units.h"
-#include "simulate/continuation.h"
 #include "simulate/methods.h"
 #include "simulate/recorder.h"
+#include "simulate/refuse.h"
 #include "simulate/run_parts.h"
 #include "subimpact/model/contact_law.h"
 #include "system/no_more_contact.h"
@@ -240,12 +240,11 @@ Result simulate(RunParts& parts, Integrator& integrator, const Progress& progres
 void check_memory(const ResolvedSettings& settings) {
   const double available = available_memory();
   if (settings.memory <= available) return;
-  throw InvalidCase(
+  refuse(
       "solver.method",
-      fmt::format(
-          "takes some {:.2g} GB of memory on this mesh of {} unknowns, and the machine has {:.2g} "
-          "GB free; use a coarser mesh, or a method that needs no natural modes, such as nystrom",
-          1e-9 * settings.memory, settings.n_unknowns, 1e-9 * available));
+      "takes some {:.2g} GB of memory on this mesh of {} unknowns, and the machine has {:.2g} GB "
+      "free; use a coarser mesh, or a method that needs no natural modes, such as nystrom",
+      1e-9 * settings.memory, settings.n_unknowns, 1e-9 * available);
 }
 
 Result simulate(ResolvedRun run, const Progress& progress, Observer* observer, RowSink* rows) {

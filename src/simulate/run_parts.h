@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "system/struck_beam.h"
 
 namespace subimpact {
+
+class Recorder;
 
 enum class Coordinates {
   chosen,  ///< natural modes for an elastic beam where the method needs them or they are cheaper
@@ -48,10 +51,78 @@ LoopOptions loop_options(const RunParts& parts);
 Result simulate(RunParts& parts, Integrator& integrator, const Progress& progress = {},
                 Observer* observer = nullptr, RowSink* rows = nullptr);
 
+/// Throws InvalidCase where bodies, supports and loads of a problem allow no start: a motion that
+/// the supports do not allow, no equilibrium, bodies that do not approach each other.
+void check_start(const Problem& problem);
+
+/// Puts a beam and its striker where the problem starts, if that is not the first touch of a beam
+/// at rest: a rigid motion v = Mass^-1 (functionals of momentum and moment of momentum),
+/// displacements K^-1 f(0) in equilibrium. Throws InvalidCase where a section would yield.
+void set_start(const Problem& problem, StruckBeam& beam);
+
+inline bool goes_on(const Problem& problem) {
+  return goes_on(problem.start.get(), problem.striker, problem.at_rest);
+}
+
+/// Refuses (InvalidCase) a start of another mesh, section, contact law or struck point, an end
+/// before it, and a gap before a beam that moves.
+void check_continuation(const Problem& problem, const Options& options,
+                        const ResolvedSettings& used);
+
+/// Puts the beam into the state that Problem::start describes. Throws InvalidCase.
+void begin_from(const RunState& start, RunParts& parts);
+/// Its accounts and records, where the run continues the strike of that state.
+void read_records(const RunState& start, Audit& audit, Recorder& recorder);
+
+/// Of a run that has reached `time` (s) and y, before its records are closed.
+std::shared_ptr<const RunState> end_state(RunParts& parts, double time, State y, Audit& audit,
+                                          Recorder& recorder);
+
 /// Bytes that a process may still take: what the machine has free (Linux: MemAvailable), and less
 /// where a limit of the process (ulimit -v), of its control group or of one above is lower. Pages
 /// of files, which the system drops when memory is short, count as free. `root`: where the files
 /// of the system lie, for tests.
 double available_memory(const std::filesystem::path& root = "/");
+
+// Settings of the method as a run uses them. All throw InvalidCase, by the key, for what the method
+// cannot take; `used` is what has been resolved before.
+
+/// For a mesh that is made for one step of central differences: not for another method, settings
+/// that would change the step, or a contact too stiff for it.
+void check_natural_step(const Options& options, const ResolvedSettings& used);
+
+/// The given table, or the first one of the method; none for a method without tables.
+std::optional<std::string> table_used(const Options& options);
+
+/// None for a method without orders.
+std::optional<int> max_order_used(const Options& options);
+
+/// Section events are found on paths of an undamped strike alone.
+ReversalHandling reversals_used(const Problem& problem, const Options& options, bool can_yield);
+
+/// The fixed step, s; none where the method chooses its steps. Needs the critical step and the
+/// contact's time scale in `used`.
+std::optional<double> step_used(const Options& options, const ResolvedSettings& used);
+
+/// Events, reversals and steps. Needs those of `used`.
+void check_method(const Options& options, const ResolvedSettings& used, bool can_yield);
+
+void check_contact_damping(const Problem& problem, const Options& options,
+                           const ResolvedSettings& used);
+
+void check_beam_damping(const BeamDamping& damping, const Options& options, bool can_yield);
+
+/// Whether an elastic beam on this mesh is integrated in its natural modes, which a damping ratio
+/// needs. Explicit methods see the same motion in both, but a step in modes needs no mass solve.
+bool in_modes(const Options& options, const BeamMesh& mesh, const BeamDamping& damping);
+
+/// Whether resolve() has left a beam in the unknowns of its mesh that is to run in modes.
+bool modes_are_left_out(const Options& options, const StruckBeam& beam);
+
+/// The work of finding the modes that a run needs, in entries of right-hand sides.
+double decomposition_of(const Options& options, const StruckBeam& beam);
+
+/// What a run takes at most, in bytes; history goes to the disk.
+double memory_of(const Options& options, const StruckBeam& beam);
 
 }  // namespace subimpact

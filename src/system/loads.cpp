@@ -1,7 +1,6 @@
 #include "system/loads.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "numerics/lanes.h"

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "model/slow_motion.h"
+#include "model/modes.h"
 #include "numerics/lanes.h"
-#include "system/equilibrium.h"
 
 namespace subimpact {
 
@@ -84,7 +83,7 @@ bool NoMoreContact::allow_loads(const StruckBeam& beam) {
   if (apart < -rounding * std::abs(beam.striker_load())) return false;
   if (std::sqrt(dot(rest.data(), rest.data(), n_)) > rounding * size) {
     if (!is_held || beam.sections().can_yield()) return false;
-    const auto at_rest = equilibrium(beam);
+    const auto at_rest = beam.equilibrium();
     if (!at_rest) return false;
     about_ = *at_rest;
   }

@@ -18,6 +18,8 @@ constexpr int most_iterations = 120;
 constexpr int until_residual = 15;     // iterations until the residual is computed anew
 constexpr double least_power = 1e-22;  // of the residual forces, relative to those at first
 constexpr double rounding = 1e-9;      // of the curvatures between which a section stays elastic
+// What K loses to rounding as a matrix is regained from the forces of the sections.
+constexpr int n_refinements = 3;
 
 // Adds E I K^T D K, D the inverse widths of the hats: five diagonals.
 void add_lumped_stiffness(const MixedMesh& mesh, double stiffness, BandedMatrix& result) {
@@ -91,6 +93,31 @@ void StruckBeam::begin_strike(State y, bool at_rest, double first_frequency) {
   spent_ = {before.bending_plastic, before.contact_plastic};
 }
 
+std::optional<std::vector<double>> StruckBeam::equilibrium() const {
+  std::vector<double> q(n_, 0.0), rest(n_), kappa(mesh_->n_sections());
+  if (!modal_stiffness_.empty()) {
+    if (std::ranges::count(modal_stiffness_, 0.0) > 0) return std::nullopt;
+    loads_.add_to(q, loads_.start());
+    for (std::size_t k = 0; k < n_; ++k) q[k] /= modal_stiffness_[k];
+    return q;
+  }
+  const double stiffness = sections_.stiffness();
+  BandedMatrix matrix(n_, mesh_->stiffness_bandwidth());
+  mesh_->add_stiffness(std::vector<double>(mesh_->n_sections(), stiffness), matrix);
+  const auto factor = matrix.cholesky_factor();
+  if (!factor) return std::nullopt;
+  for (int i = 0; i <= n_refinements; ++i) {
+    mesh_->curvatures(q, kappa);
+    for (double& k : kappa) k *= stiffness;
+    mesh_->bending_forces(kappa, rest);
+    mesh_->add_shear_forces(q, rest);
+    loads_.add_to(rest, loads_.start());
+    factor->solve_as_factor(rest);
+    for (std::size_t k = 0; k < n_; ++k) q[k] += rest[k];
+  }
+  return q;
+}
+
 // Forces that nothing but flow would change, f - A w: at rest they vanish, and the elastic energy
 // is the least. By conjugate gradients with the stiffness of the beam while nothing flows (of mixed
 // cells with lumped hats) and some mass, which holds a free beam where its mean displacement and
@@ -111,12 +138,7 @@ void StruckBeam::come_to_rest(std::span<double> w, double first_frequency) {
     std::ranges::fill(moments_, sections_.stiffness());
     mesh_->add_stiffness(moments_, near);
   }
-  const double held = share_of_mass * first_frequency * first_frequency;
-  for (std::size_t i = 0; i < n_; ++i) {
-    for (std::size_t j = i; j < std::min(n_, i + near.half_bandwidth() + 1); ++j) {
-      near.at(i, j) += held * mesh_->mass()(i, j);
-    }
-  }
+  near.add(share_of_mass * first_frequency * first_frequency, mesh_->mass());
   const std::optional<BandedMatrix> factor = near.cholesky_factor();
   std::vector<double> constant(n_), residual(n_), solved, direction(n_, 0.0), change(n_);
   std::ranges::fill(w, 0.0);

@@ -1,7 +1,6 @@
 #include "system/struck_beam.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -144,59 +143,42 @@ void StruckBeam::bend(std::span<const double> unknowns, std::span<double> forces
 }
 
 void StruckBeam::acceleration(std::span<const double> positions, std::span<double> result) {
-  ++n_accelerations_;
   const auto unknowns = positions.first(n_);
-  const auto forces = result.first(n_);
   const double contact = contact_.force(positions[n_] - mesh_->struck_point()(unknowns));
+  respond(unknowns, {}, contact, result);
+}
+
+void StruckBeam::acceleration_at(std::span<const double> y, std::span<double> result) {
+  if (!depends_on_velocity_) return acceleration(y.first(n_ + 1), result);
+  respond(y.first(n_), beam_velocities(y), contact_.force(indentation(y), indentation_rate(y)),
+          result);
+}
+
+void StruckBeam::respond(std::span<const double> unknowns, std::span<const double> velocities,
+                         double contact, std::span<double> result) {
+  ++n_accelerations_;
+  const auto forces = result.first(n_);
+  result[n_] = -contact / striker_mass_ + striker_load();
   if (!modal_frequencies_squared_.empty()) {
-    result[n_] = -contact / striker_mass_;
     const double* q = unknowns.data();
     const double* squared = modal_frequencies_squared_.data();
     const double* load = modal_loads_.data();
     double* a = forces.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < n_; ++i) a[i] = contact * load[i] - squared[i] * q[i];
-    if (!loads_.is_empty()) add_modal_loads(result);
-    return;
-  }
-  bend(unknowns, forces);
-  mesh_->struck_point().add_to(forces, contact);
-  if (!loads_.is_empty()) loads_.add_to(forces, time_);
-  mass_solver_->solve(forces);
-  result[n_] = -contact / striker_mass_ + striker_load();
-}
-
-void StruckBeam::add_modal_loads(std::span<double> accelerations) const {
-  const double since = time_ - loads_.start();
-  for (std::size_t i = 0; i < n_; ++i) {
-    accelerations[i] += (loads_.value()[i] + since * loads_.rate()[i]) / mesh_->mass().at(i, i);
-  }
-  accelerations[n_] += striker_load();
-}
-
-void StruckBeam::acceleration_at(std::span<const double> y, std::span<double> result) {
-  if (!depends_on_velocity_) return acceleration(y.first(n_ + 1), result);
-  ++n_accelerations_;
-  const auto unknowns = y.first(n_);
-  const auto velocities = beam_velocities(y);
-  const auto forces = result.first(n_);
-  const double contact = contact_.force(indentation(y), indentation_rate(y));
-  result[n_] = -contact / striker_mass_;
-  if (!modal_frequencies_squared_.empty()) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      forces[i] = contact * modal_loads_[i] - modal_frequencies_squared_[i] * unknowns[i] -
-                  modal_damping_[i] * velocities[i];
+    for (std::size_t i = 0; i < velocities.size(); ++i) a[i] -= modal_damping_[i] * velocities[i];
+    const double since = time_ - loads_.start();
+    for (std::size_t i = 0; i < loads_.value().size(); ++i) {
+      a[i] += (loads_.value()[i] + since * loads_.rate()[i]) / mesh_->mass().at(i, i);
     }
-    if (!loads_.is_empty()) add_modal_loads(result);
     return;
   }
   bend(unknowns, forces);
-  if (damping_.stiffness > 0.0) add_stiffness_damping(velocities, forces);
+  if (!velocities.empty() && damping_.stiffness > 0.0) add_stiffness_damping(velocities, forces);
   mesh_->struck_point().add_to(forces, contact);
   if (!loads_.is_empty()) loads_.add_to(forces, time_);
   mass_solver_->solve(forces);
-  for (std::size_t i = 0; i < n_; ++i) forces[i] -= damping_.mass * velocities[i];
-  result[n_] += striker_load();
+  for (std::size_t i = 0; i < velocities.size(); ++i) forces[i] -= damping_.mass * velocities[i];
 }
 
 void StruckBeam::add_stiffness_damping(std::span<const double> velocities,

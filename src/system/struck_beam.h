@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -160,6 +161,9 @@ class StruckBeam final : public MechanicalSystem {
   /// begin_strike() has given it. Energies and momenta of accounts are those since then.
   State initial_state() const;
   void set_start(State start);
+  /// K^-1 f of the loads f at the start of their piece, with the stiffness K of an elastic beam:
+  /// its displacements at rest under them. Nothing where K is not positive definite.
+  std::optional<std::vector<double>> equilibrium() const;
   /// Histories and the accepted state y that they hold at, in the unknowns of the mesh, in natural
   /// modes too.
   void exchange(Snapshot& snapshot, State& y);
@@ -226,7 +230,9 @@ class StruckBeam final : public MechanicalSystem {
   // Adds the forces of the beam's damping, all or those of beta.
   void add_stiffness_damping(std::span<const double> velocities, std::span<double> forces);
   void add_damping(std::span<const double> velocities, std::span<double> forces);
-  void add_modal_loads(std::span<double> accelerations) const;
+  // Accelerations under a contact force (N); `velocities`: empty without damping.
+  void respond(std::span<const double> unknowns, std::span<const double> velocities, double contact,
+               std::span<double> result);
   void use_modes();
   void come_to_rest(std::span<double> w, double first_frequency);
   BeamJacobian& jacobian() const;

@@ -1,6 +1,6 @@
 // Damped oscillators in closed form, against high-order integration in small steps.
 
-#include "integrate/damped_oscillator.h"
+#include "integrate/oscillator_step.h"
 
 #include "testing.h"
 

@@ -3,7 +3,7 @@
 
 #include "dense.h"
 #include "model/cell_mesh.h"
-#include "model/flexural_frequencies.h"
+#include "model/modes.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "print.h"

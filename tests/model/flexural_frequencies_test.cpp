@@ -1,4 +1,4 @@
-#include "model/flexural_frequencies.h"
+#include "model/modes.h"
 
 #include "paper_scene.h"
 #include "testing.h"

@@ -1,8 +1,8 @@
 // Natural frequencies of the Hermite mesh, out of dense eigenvalues, against the continuum.
 
 #include "dense.h"
-#include "model/flexural_frequencies.h"
 #include "model/hermite_mesh.h"
+#include "model/modes.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "print.h"

@@ -1,9 +1,8 @@
 // Natural modes of equal Hermite elements in closed form against a dense decomposition.
 
-#include "model/hermite_modes.h"
 #include "mesh_contract.h"
-#include "model/flexural_frequencies.h"
 #include "model/hermite_mesh.h"
+#include "model/modes.h"
 #include "paper_scene.h"
 #include "print.h"
 #include "testing.h"

@@ -2,7 +2,7 @@
 
 #include "model/mixed_mesh.h"
 
-#include "model/flexural_frequencies.h"
+#include "model/modes.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "print.h"

@@ -2,8 +2,8 @@
 
 #include "mesh_contract.h"
 #include "model/cell_mesh.h"
-#include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
+#include "model/modes.h"
 #include "paper_scene.h"
 #include "print.h"
 #include "testing.h"

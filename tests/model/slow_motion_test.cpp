@@ -1,10 +1,9 @@
 // The lowest modes and the static response of meshes by banded factorisation, beside those by all
 // modes.
 
-#include "model/slow_motion.h"
+#include "model/modes.h"
 
 #include "model/cell_mesh.h"
-#include "model/flexural_frequencies.h"
 #include "paper_scene.h"
 #include "testing.h"
 

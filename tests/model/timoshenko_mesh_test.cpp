@@ -2,8 +2,8 @@
 
 #include "mesh_contract.h"
 #include "model/cell_mesh.h"
-#include "model/flexural_frequencies.h"
 #include "model/modal_mesh.h"
+#include "model/modes.h"
 #include "model/spectral_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"

@@ -1,7 +1,6 @@
 // The first-order part of the error of cells with free ends.
 
-#include "model/cell_modes.h"
-#include "model/flexural_frequencies.h"
+#include "model/modes.h"
 #include "paper_run.h"
 #include "study/mesh_resolution.h"
 #include "subimpact/study/judgement.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "model/cell_mesh.h"
-#include "model/flexural_frequencies.h"
+#include "model/modes.h"
 #include "outcome.h"
 
 namespace subimpact::validation {

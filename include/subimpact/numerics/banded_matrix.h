@@ -28,6 +28,8 @@ class BandedMatrix {
     return apart > half_bandwidth_ ? 0.0 : at(i, j);
   }
 
+  /// Adds `factor` times another matrix of the same size, of a half bandwidth up to this one's.
+  void add(double factor, const BandedMatrix& other);
   /// result = A x.
   void multiply(std::span<const double> x, std::span<double> result) const;
   /// result -= A x.

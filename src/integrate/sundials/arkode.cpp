@@ -48,7 +48,7 @@ class ErkSolver final : public SolverFrame {
     set_step_control(options);
     const ButcherTablePointer table = load_explicit_table(options.table);
     check(ERKStepSetTable(memory(), table.get()), "SetTable");
-    if (roots_.is_on()) {
+    if (finds_roots()) {
       check(ERKStepSetInterpolantDegree(memory(), dense_output_degree), "SetInterpolantDegree");
     }
     if (options.fixed_step) set_fixed_step(*options.fixed_step);
@@ -84,9 +84,9 @@ class ArkSolver final : public SolverFrame {
     check(ARKStepSetLinSysFn(ark, newton_matrix), "SetLinSysFn");
     // With roots, Lagrange interpolation would begin again at a low degree after every restart.
     // Without, dense output is not used, and Lagrange interpolation costs no evaluation.
-    check(ARKStepSetInterpolantType(ark, roots_.is_on() ? ARK_INTERP_HERMITE : ARK_INTERP_LAGRANGE),
+    check(ARKStepSetInterpolantType(ark, finds_roots() ? ARK_INTERP_HERMITE : ARK_INTERP_LAGRANGE),
           "SetInterpolantType");
-    if (roots_.is_on()) {
+    if (finds_roots()) {
       check(ARKStepSetInterpolantDegree(ark, dense_output_degree), "SetInterpolantDegree");
     }
     check(ARKStepSetLSetupFrequency(ark, steps_per_matrix), "SetLSetupFrequency");
@@ -112,15 +112,8 @@ class ArkSolver final : public SolverFrame {
  private:
   static int implicit_rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
     auto& self = static_cast<ArkSolver&>(of(frame));
-    const std::size_t n = self.n_positions_;
-    const auto in = entries(y);
-    const auto out = entries(rate);
-    ++self.right_hand_sides_;
-    return self.guarded([&] {
-      std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
-      self.system_.set_time(t);
-      self.system_.force(in, self.implicit_part_, out.subspan(n));
-    });
+    return self.write_rate(
+        t, y, rate, [&](auto in, auto out) { self.system_.force(in, self.implicit_part_, out); });
   }
 
   static int rate_of_rest(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {

@@ -4,15 +4,13 @@
 
 #include <arkode/arkode_butcher.h>
 
-#include <memory>
 #include <string>
+
+#include "integrate/sundials/linear_algebra.h"
 
 namespace subimpact {
 
-struct FreeButcherTable {
-  void operator()(ARKodeButcherTableMem* table) const { ARKodeButcherTable_Free(table); }
-};
-using ButcherTablePointer = std::unique_ptr<ARKodeButcherTableMem, FreeButcherTable>;
+using ButcherTablePointer = Owned<ARKodeButcherTable, ARKodeButcherTable_Free>;
 
 /// The named table, its last stage the next step's first; the first of explicit_tables() for an
 /// empty name. Throws std::invalid_argument for a name that is not among them.

@@ -47,15 +47,12 @@ double reduce(std::size_t n, double start, F f, Join join) {
 }
 constexpr auto plus = [](double a, double b) { return a + b; };
 
-// The operations SUNDIALS' integrators spend their time in.
+// The operations SUNDIALS' integrators spend their time in; the library's own do for the rest.
 void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
   fill(z, [=, u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return a * u[i] + b * v[i]; });
 }
 void constant(sunrealtype c, N_Vector z) {
   fill(z, [=](std::size_t) { return c; });
-}
-void product(N_Vector x, N_Vector y, N_Vector z) {
-  fill(z, [u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return u[i] * v[i]; });
 }
 void divide(N_Vector x, N_Vector y, N_Vector z) {
   fill(z, [u = NV_DATA_S(x), v = NV_DATA_S(y)](std::size_t i) { return u[i] / v[i]; });
@@ -64,25 +61,10 @@ void scale(sunrealtype c, N_Vector x, N_Vector z) {
   if (c == 1.0 && x == z) return;
   fill(z, [=, u = NV_DATA_S(x)](std::size_t i) { return c * u[i]; });
 }
-void absolute(N_Vector x, N_Vector z) {
-  fill(z, [u = NV_DATA_S(x)](std::size_t i) { return std::abs(u[i]); });
-}
-void inverse(N_Vector x, N_Vector z) {
-  fill(z, [u = NV_DATA_S(x)](std::size_t i) { return 1.0 / u[i]; });
-}
-void add_constant(N_Vector x, sunrealtype b, N_Vector z) {
-  fill(z, [=, u = NV_DATA_S(x)](std::size_t i) { return u[i] + b; });
-}
 sunrealtype max_norm(N_Vector x) {
   return reduce(
       size(x), 0.0, [u = NV_DATA_S(x)](std::size_t i) { return std::abs(u[i]); },
       [](double a, double b) { return std::max(a, b); });
-}
-sunrealtype minimum(N_Vector x) {
-  const double* u = NV_DATA_S(x);
-  return reduce(
-      size(x), u[0], [u](std::size_t i) { return u[i]; },
-      [](double a, double b) { return std::min(a, b); });
 }
 sunrealtype dot(N_Vector x, N_Vector y) {
   return reduce(
@@ -209,14 +191,9 @@ VectorPointer make_vector(std::size_t n, SUNContext context, VectorOperations op
     auto& ops = *vector->ops;
     ops.nvlinearsum = linear_sum;
     ops.nvconst = constant;
-    ops.nvprod = product;
     ops.nvdiv = divide;
     ops.nvscale = scale;
-    ops.nvabs = absolute;
-    ops.nvinv = inverse;
-    ops.nvaddconst = add_constant;
     ops.nvmaxnorm = max_norm;
-    ops.nvmin = minimum;
     ops.nvdotprod = dot;
     ops.nvwrmsnorm = wrms_norm;
     ops.nvlinearcombination = linear_combination;

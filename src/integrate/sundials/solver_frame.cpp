@@ -1,6 +1,5 @@
 #include "integrate/sundials/solver_frame.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -36,75 +35,12 @@ double searchable(double value) {
 
 }  // namespace
 
-int RootFinder::restart(void* memory, int (*callback)(sunrealtype, N_Vector, sunrealtype*, void*),
-                        std::span<const double> y) {
-  if (!is_on()) return 0;
-  const std::size_t n = functions_->size();
-  values_.resize(n);
-  root_.reset();
-  root_at_restart_ = risen_function(y);
-  flags_.assign(2 * n, 1);
-  // The library keeps what it stored of functions whose number does not change.
-  int flag = calls_.init_roots(memory, 0, nullptr);
-  if (flag != 0 || n == 0) return flag;
-  flag = calls_.init_roots(memory, static_cast<int>(2 * n), callback);
-  if (flag == 0) flag = calls_.set_root_directions(memory, flags_.data());
-  if (flag == 0) flag = calls_.set_no_root_warning(memory);
-  return flag;
-}
-
-void RootFinder::evaluate(std::span<const double> y, sunrealtype* result) {
-  const std::size_t n = values_.size();
-  if (is_silent_) {
-    std::fill_n(result, 2 * n, negative);
-    return;
-  }
-  functions_->evaluate(y, values_);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto [value, rate] = values_[i];
-    result[i] = searchable(value);
-    result[n + i] = searchable(-rate);
-  }
-}
-
-std::optional<Integrator::Root> RootFinder::risen_function(std::span<const double> y) {
-  functions_->evaluate(y, values_);
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const auto [value, rate] = values_[i];
-    if (value > 0.0 && !(rate <= 0.0)) return Integrator::Root{i, 0.0};
-  }
-  return std::nullopt;
-}
-
-bool RootFinder::find_event(void* memory) {
-  calls_.get_roots(memory, flags_.data());
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    if (flags_[i] == 0) continue;
-    root_ = Integrator::Root{i, tolerance(memory)};
-    return true;
-  }
-  return false;
-}
-
-double RootFinder::tolerance(void* memory) const {
-  sunrealtype time = 0.0, step = 0.0;
-  calls_.get_current_time(memory, &time);
-  calls_.get_last_step(memory, &step);
-  return 100.0 * std::numeric_limits<double>::epsilon() * (std::abs(time) + std::abs(step));
-}
-
-bool RootFinder::is_at_end(void* memory, double reached) const {
-  sunrealtype time = 0.0;
-  calls_.get_current_time(memory, &time);
-  return std::abs(time - reached) <= tolerance(memory);
-}
-
 SolverFrame::SolverFrame(SecondOrderOde& ode, const IntegratorOptions& options,
                          const LibraryCalls& calls, ContextPointer context)
     : ode_(ode),
       n_positions_(ode.n_positions()),
-      roots_(options.event_functions, calls),
       calls_(calls),
+      functions_(options.event_functions),
       context_(std::move(context)),
       y_(make_vector(2 * n_positions_, context_.get(), options.vector_operations)),
       memory_(nullptr, {calls.free}),
@@ -135,7 +71,7 @@ void SolverFrame::set_step_control(const IntegratorOptions& options) {
 void SolverFrame::reset(double t, const State& y) {
   std::copy(y.begin(), y.end(), entries(vector()).begin());
   check(calls_.restart(memory(), t, vector()), calls_.restart_name);
-  check(roots_.restart(memory(), event_values, y), "RootInit");
+  check(restart_roots(y), "RootInit");
   time_ = t;
 }
 
@@ -147,9 +83,73 @@ int SolverFrame::evolve(double& reached) {
 
 double SolverFrame::step() {
   double reached = time_;
-  check(roots_.step(memory(), reached, entries(vector()), [&] { return evolve(reached); }),
-        calls_.evolve_name);
+  int flag = 0;
+  root_ = std::exchange(root_at_restart_, std::nullopt);
+  if (!root_) {
+    flag = evolve(reached);
+    while (flag == calls_.root_return && !find_event() && !is_at_end(reached)) {
+      flag = evolve(reached);  // the rest of the step
+    }
+    if (finds_roots() && flag >= 0 && !root_) root_ = risen_function(entries(vector()));
+  }
+  check(flag, calls_.evolve_name);
   return time_ = reached;
+}
+
+void SolverFrame::drain_root() {
+  double reached = time_;
+  if (!root_ || is_at_end(reached)) return;
+  is_silent_ = true;
+  evolve(reached);
+  is_silent_ = false;
+}
+
+int SolverFrame::restart_roots(std::span<const double> y) {
+  if (!finds_roots()) return 0;
+  const std::size_t n = functions_->size();
+  values_.resize(n);
+  root_.reset();
+  root_at_restart_ = risen_function(y);
+  root_flags_.assign(2 * n, 1);
+  // The library keeps what it stored of functions whose number does not change.
+  int flag = calls_.init_roots(memory(), 0, nullptr);
+  if (flag != 0 || n == 0) return flag;
+  flag = calls_.init_roots(memory(), static_cast<int>(2 * n), event_values);
+  if (flag == 0) flag = calls_.set_root_directions(memory(), root_flags_.data());
+  if (flag == 0) flag = calls_.set_no_root_warning(memory());
+  return flag;
+}
+
+std::optional<Integrator::Root> SolverFrame::risen_function(std::span<const double> y) {
+  functions_->evaluate(y, values_);
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const auto [value, rate] = values_[i];
+    if (value > 0.0 && !(rate <= 0.0)) return Integrator::Root{i, 0.0};
+  }
+  return std::nullopt;
+}
+
+bool SolverFrame::find_event() {
+  calls_.get_roots(memory(), root_flags_.data());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (root_flags_[i] == 0) continue;
+    root_ = Integrator::Root{i, root_tolerance()};
+    return true;
+  }
+  return false;
+}
+
+double SolverFrame::root_tolerance() const {
+  sunrealtype time = 0.0, step = 0.0;
+  calls_.get_current_time(memory(), &time);
+  calls_.get_last_step(memory(), &step);
+  return 100.0 * std::numeric_limits<double>::epsilon() * (std::abs(time) + std::abs(step));
+}
+
+bool SolverFrame::is_at_end(double reached) const {
+  sunrealtype time = 0.0;
+  calls_.get_current_time(memory(), &time);
+  return std::abs(time - reached) <= root_tolerance();
 }
 
 void SolverFrame::read(State& y) const {
@@ -170,16 +170,8 @@ void SolverFrame::add_counts(WorkCounts& counts) const {
 }
 
 int SolverFrame::rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
-  SolverFrame& self = of(frame);
-  const std::size_t n = self.n_positions_;
-  const auto in = entries(y);
-  const auto out = entries(rate);
-  ++self.right_hand_sides_;
-  return self.guarded([&] {
-    std::copy_n(in.begin() + static_cast<std::ptrdiff_t>(n), n, out.begin());
-    self.ode_.set_time(t);
-    self.ode_.acceleration_at(in, out.subspan(n));
-  });
+  return of(frame).write_rate(t, y, rate,
+                              [&](auto in, auto out) { of(frame).ode_.acceleration_at(in, out); });
 }
 
 // Weights 1/(rtol * scale) of positions and velocities, evaluated at every step; lower where
@@ -199,9 +191,21 @@ int SolverFrame::error_weights(N_Vector y, N_Vector weights, void* frame) {
   return 0;
 }
 
-int SolverFrame::event_values(sunrealtype, N_Vector y, sunrealtype* values, void* frame) {
+int SolverFrame::event_values(sunrealtype, N_Vector y, sunrealtype* result, void* frame) {
   SolverFrame& self = of(frame);
-  return self.guarded([&] { self.roots_.evaluate(entries(y), values); });
+  const std::size_t n = self.values_.size();
+  if (self.is_silent_) {
+    std::fill_n(result, 2 * n, negative);
+    return 0;
+  }
+  return self.guarded([&] {
+    self.functions_->evaluate(entries(y), self.values_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto [value, rate] = self.values_[i];
+      result[i] = searchable(value);
+      result[n + i] = searchable(-rate);
+    }
+  });
 }
 
 #if SUNDIALS_VERSION_MAJOR < 7

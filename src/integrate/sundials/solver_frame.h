@@ -2,6 +2,7 @@
 
 #include <sundials/sundials_version.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <exception>
 #include <memory>
@@ -57,68 +58,9 @@ struct LibraryCalls {
         prefix##GetCurrentTime, prefix##GetLastStep SUBIMPACT_MESSAGE_HANDLER(prefix)      \
   }
 
-/// The root-finding of one SUNDIALS solver, on the library's dense output, and what it misses or
-/// fails at by itself (docs/theory.md, "Events").
-class RootFinder {
- public:
-  /// `functions` may be null: no root-finding.
-  RootFinder(std::shared_ptr<const EventFunctions> functions, const LibraryCalls& calls)
-      : functions_(std::move(functions)), calls_(calls) {}
-
-  bool is_on() const { return functions_ != nullptr; }
-
-  /// Declares the functions, before the first step from y. Returns the library's flag.
-  int restart(void* memory, int (*callback)(sunrealtype, N_Vector, sunrealtype*, void*),
-              std::span<const double> y);
-
-  /// One step, to its end or to the first event in it, and its flag. `evolve()` calls the library
-  /// in its one-step mode, writes time and state to `reached` and `y`, and returns its flag.
-  template <class Evolve>
-  int step(void* memory, const double& reached, std::span<const double> y, Evolve evolve) {
-    if (!is_on()) return evolve();
-    root_ = std::exchange(root_at_restart_, std::nullopt);
-    if (root_) return 0;
-    int flag = evolve();
-    while (flag == calls_.root_return && !find_event(memory) && !is_at_end(memory, reached)) {
-      flag = evolve();  // a maximum: the rest of the step
-    }
-    if (flag >= 0 && !root_) root_ = risen_function(y);
-    return flag;
-  }
-  const std::optional<Integrator::Root>& root() const { return root_; }
-
-  /// After a step that a root ended: clears the flag that ARKODE keeps of the root, which costs
-  /// every later step evaluations for dense output. `evolve` as in step(); no step is taken.
-  template <class Evolve>
-  void drain(void* memory, const double& reached, Evolve evolve) {
-    if (!root_ || is_at_end(memory, reached)) return;
-    is_silent_ = true;
-    evolve();
-    is_silent_ = false;
-  }
-
-  /// For the library's callback: g of every function, then -g' of every function.
-  void evaluate(std::span<const double> y, sunrealtype* result);
-
- private:
-  // The first function that is positive and does not fall.
-  std::optional<Integrator::Root> risen_function(std::span<const double> y);
-  bool find_event(void* memory);
-  // The library's own tolerance on the times of roots, s.
-  double tolerance(void* memory) const;
-  // Whether the library has no rest of the step to search: called again, it would take a step.
-  bool is_at_end(void* memory, double reached) const;
-
-  std::shared_ptr<const EventFunctions> functions_;
-  const LibraryCalls& calls_;
-  std::vector<EventValue> values_;
-  std::vector<int> flags_;
-  bool is_silent_ = false;
-  std::optional<Integrator::Root> root_, root_at_restart_;
-};
-
-/// The part that every SUNDIALS solver here shares: its memory and state, options, steps with
-/// root-finding, C callbacks. The user data of the library is this frame.
+/// The part that every SUNDIALS solver here shares: its memory and state, options, C callbacks,
+/// steps, and root-finding on the library's dense output with what the library misses or fails at
+/// by itself (docs/theory.md, "Events"). The user data of the library is this frame.
 ///
 /// No exception crosses a C frame: an exception from a callback is stored, the library is stopped
 /// by a return value, and the exception is rethrown unchanged after the call. The library's own
@@ -134,11 +76,10 @@ class SolverFrame {
   /// One step, to its end or to the first event in it; returns the time reached.
   double step();
   void read(State& y) const;
-  const std::optional<Integrator::Root>& root() const { return roots_.root(); }
-  void drain_root() {
-    double reached = time_;
-    roots_.drain(memory(), reached, [&] { return evolve(reached); });
-  }
+  const std::optional<Integrator::Root>& root() const { return root_; }
+  /// After a step that a root ended: clears the flag that ARKODE keeps of the root, which costs
+  /// every later step evaluations for dense output. No step is taken.
+  void drain_root();
   /// Evaluations of the right-hand side and, as the library counts them, rejected steps, iterations
   /// and their failures.
   void add_counts(WorkCounts& counts) const;
@@ -159,6 +100,17 @@ class SolverFrame {
   void* user_data() { return this; }
   // y' = [v, a(q, v)] of y = [q, v].
   static int rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame);
+  // y' = [v, ..] at the time t, the second half written by `write_second(y, half)`.
+  template <class Second>
+  int write_rate(sunrealtype t, N_Vector y, N_Vector rate, Second write_second) {
+    ++right_hand_sides_;
+    return guarded([&] {
+      const auto in = entries(y), out = entries(rate);
+      std::ranges::copy(in.last(n_positions_), out.begin());
+      ode_.set_time(t);
+      write_second(in, out.last(n_positions_));
+    });
+  }
   // Runs a callback's body: 0, or -1 if it threw.
   template <class Body>
   int guarded(Body body) noexcept {
@@ -173,28 +125,44 @@ class SolverFrame {
   // Throws what a callback threw; otherwise IntegrationFailure if `flag` reports one. `function`:
   // the library's, without its prefix.
   void check(int flag, const char* function);
-  // Calls the library once in its one-step mode.
-  int evolve(double& reached);
+  bool finds_roots() const { return functions_ != nullptr; }
 
   SecondOrderOde& ode_;
   std::size_t n_positions_;
   double time_ = 0.0;  // s, up to which the solution is good
   long right_hand_sides_ = 0;
-  RootFinder roots_;
 
  private:
   struct FreeMemory {
     void (*free)(void**);
     void operator()(void* memory) const { free(&memory); }
   };
+  // Calls the library once in its one-step mode.
+  int evolve(double& reached);
+  // Declares the event functions, before the first step from y. Returns the library's flag.
+  int restart_roots(std::span<const double> y);
+  // The first function that is positive and does not fall.
+  std::optional<Integrator::Root> risen_function(std::span<const double> y);
+  // Whether the root that the library reports is an event, and no maximum.
+  bool find_event();
+  // The library's own tolerance on the times of roots, s.
+  double root_tolerance() const;
+  // Whether the library has no rest of the step to search: called again, it would take a step.
+  bool is_at_end(double reached) const;
   static int error_weights(N_Vector y, N_Vector weights, void* frame);
-  static int event_values(sunrealtype t, N_Vector y, sunrealtype* values, void* frame);
+  // g of every function, then -g' of every function.
+  static int event_values(sunrealtype t, N_Vector y, sunrealtype* result, void* frame);
 #if SUNDIALS_VERSION_MAJOR < 7
   static void keep_message(int code, const char* module, const char* function, char* message,
                            void* frame);
 #endif
 
   const LibraryCalls& calls_;
+  std::shared_ptr<const EventFunctions> functions_;  // null: no root-finding
+  std::vector<EventValue> values_;
+  std::vector<int> root_flags_;
+  bool is_silent_ = false;
+  std::optional<Integrator::Root> root_, root_at_restart_;
   ContextPointer context_;
   VectorPointer y_;
   std::unique_ptr<void, FreeMemory> memory_;
