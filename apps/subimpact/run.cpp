@@ -5,7 +5,6 @@
 
 #include "commands.h"
 #include "io/uncertain.h"
-#include "report/gnuplot.h"
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/predictability.h"
@@ -99,6 +98,16 @@ std::string write(ResultWriter& files, const Case& input, const Result& result) 
   } catch (const OutputError& error) {
     return error.what();
   }
+}
+
+// As the shell takes it.
+std::string quoted(const std::string& word) {
+  constexpr const char* plain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%";
+  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
+  std::string text;
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return '\'' + text + '\'';
 }
 
 bool is_runnable(const CaseOptions& input, const std::vector<std::string>& more) {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -32,44 +35,107 @@ struct GnuplotRun {
   std::string output, errors;
 };
 
-// All that a process writes into a stream, or what was written into a file.
-std::string read_to_end(std::FILE* stream) {
-  std::array<char, 1 << 14> buffer;
-  std::string text;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), stream)) {
-    text.append(buffer.data(), n);
+/// An open file, closed with this object.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {
+    if (number < 0) throw std::system_error(errno, std::generic_category(), "a file for gnuplot");
   }
-  return text;
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  operator int() const { return number_; }
+
+ private:
+  int number_;
+};
+
+// A file in memory: what is written into it never stops the process that writes.
+int make_memory_file() { return ::memfd_create("gnuplot", MFD_CLOEXEC); }
+
+// Variables by which users change what gnuplot draws.
+bool changes_figures(std::string_view variable) {
+  if (variable.starts_with("GNUPLOT_")) return true;
+  const std::string_view name = variable.substr(0, variable.find('='));
+  return name == "GNUTERM" || name == "GDFONTPATH";
+}
+
+std::vector<char*> environment() {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!changes_figures(*variable)) variables.push_back(*variable);
+  }
+  variables.push_back(nullptr);
+  return variables;
+}
+
+// The process of gnuplot in a directory: ended after so many seconds with all that it started, and
+// with this process. Returns errno.
+int start(const fs::path& directory, double seconds, std::vector<std::string> arguments, int output,
+          int errors, pid_t& child) {
+  std::vector<std::string> words = {"setpriv", "--pdeathsig", "KILL", "timeout", "-k", "1"};
+  words.insert(words.end(), {fmt::format("{:.3f}", seconds), "setpriv", "--pdeathsig", "KILL"});
+  words.insert(words.end(), {"gnuplot", "-d"});
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> list;
+  for (std::string& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+  ::posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
+  const int error =
+      ::posix_spawnp(&child, list[0], &actions, nullptr, list.data(), environment().data());
+  ::posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+// Reads what a process writes until it ends. What it started may hold the pipe for longer.
+int read_to_end(int pipe, pid_t child, std::string& text) {
+  std::array<char, 1 << 14> buffer;
+  pollfd stream{pipe, POLLIN, 0};
+  int state = 0;
+  bool has_ended = false;
+  for (ssize_t n = 1; n != 0;) {
+    if (::poll(&stream, 1, 100) > 0) {
+      n = ::read(pipe, buffer.data(), buffer.size());
+      if (n > 0) text.append(buffer.data(), static_cast<std::size_t>(n));
+    } else if (has_ended) {
+      return state;
+    } else {
+      has_ended = ::waitpid(child, &state, WNOHANG) == child;
+    }
+  }
+  while (!has_ended && ::waitpid(child, &state, 0) < 0 && errno == EINTR) {
+  }
+  return state;
 }
 
 // Runs gnuplot in a directory, with its default settings: neither ~/.gnuplot nor the variables of
-// the environment that gnuplot obeys have an effect. At the deadline gnuplot is ended with all that
-// it started; it ends with this process too.
-GnuplotRun run_gnuplot(const fs::path& directory, const std::vector<std::string>& arguments,
+// the environment that gnuplot obeys have an effect. No shell comes between, so that any name of a
+// directory is only a name.
+GnuplotRun run_gnuplot(const fs::path& directory, std::vector<std::string> arguments,
                        Clock::time_point deadline) {
+  const double seconds = std::chrono::duration<double>(deadline - Clock::now()).count();
+  std::array<int, 2> ends{-1, -1};
+  const int failed = ::pipe2(ends.data(), O_CLOEXEC);
+  const Descriptor output(failed == 0 ? ends[0] : -1);
+  auto input = std::make_unique<Descriptor>(ends[1]);
+  const Descriptor errors(make_memory_file());
   GnuplotRun run;
-  // In memory: what is written into it never stops the process that writes.
-  const int number = ::memfd_create("gnuplot", MFD_CLOEXEC);
-  const auto close = [](std::FILE* file) { std::fclose(file); };
-  const std::unique_ptr<std::FILE, decltype(close)> errors(::fdopen(number, "r"), close);
-  std::string command = fmt::format(
-      "unset $(env | sed -n 's/^\\(GNUPLOT_[^=]*\\|GNUTERM\\|GDFONTPATH\\)=.*/\\1/p'); "
-      "cd {} && exec setpriv --pdeathsig KILL timeout -k 1 {:.3f} setpriv --pdeathsig KILL gnuplot "
-      "-d 2>/proc/{}/fd/{} </dev/null",
-      quoted(fs::absolute(directory)),
-      std::max(std::chrono::duration<double>(deadline - Clock::now()).count(), 1e-3), ::getpid(),
-      number);
-  for (const std::string& argument : arguments) command += fmt::format(" {}", quoted(argument));
-  std::FILE* output = errors ? ::popen(command.c_str(), "re") : nullptr;
-  if (output == nullptr) {
-    run.start_error = errno;
-    return run;
-  }
-  run.output = read_to_end(output);
-  const int state = ::pclose(output);
+  pid_t child = 0;
+  run.start_error =
+      start(directory, std::max(seconds, 1e-3), std::move(arguments), *input, errors, child);
+  if (run.start_error != 0) return run;
+  input.reset();  // the end of the output is that of gnuplot
+  const int state = read_to_end(output, child, run.output);
   run.status = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
-  std::rewind(errors.get());
-  run.errors = read_to_end(errors.get());
+  run.errors.resize(static_cast<std::size_t>(::lseek(errors, 0, SEEK_END)));
+  if (::pread(errors, run.errors.data(), run.errors.size(), 0) < 0) {
+    throw std::system_error(errno, std::generic_category(), "a file for gnuplot");
+  }
   return run;
 }
 
@@ -148,15 +214,6 @@ constexpr std::string_view finished_mark =
     "# A finished script: style, data and drawing of one figure. Not for plot --scripts.\n";
 
 }  // namespace
-
-std::string quoted(const std::string& word) {
-  constexpr const char* plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=.,:/@%";
-  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return word;
-  std::string text;
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return fmt::format("'{}'", text);
-}
 
 std::string figure_script(const std::string& name, const std::string& settings,
                           const fs::path& scripts) {

@@ -14,9 +14,6 @@ struct FigureSize {
   int height = 600;
 };
 
-/// A word of a command as the shell takes it.
-std::string quoted(const std::string& word);
-
 /// The script of a figure, <name>.gp, after the style (style.gp), what scripts share (tables.gp)
 /// and the `settings` of this drawing: variables and tables of data. Each file is taken from the
 /// directory `scripts` if it is there, else from the library.
