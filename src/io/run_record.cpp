@@ -1,36 +1,32 @@
 #include "io/run_record.h"
-#include "io/key_json.h"
+
+#include "case/refuse.h"
 
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 
-template <class Enum, std::size_t n>
-static std::array<Named<Enum>, n> named(const Enum (&kinds)[n]) {
-  std::array<Named<Enum>, n> names;
-  std::transform(kinds, kinds + n, names.begin(), [](Enum kind) {
-    return Named<Enum>{kind, to_string(kind).data(), ""};
-  });
-  return names;
+template <auto... kinds>
+static auto names_of_kinds() {
+  using Row = Named<std::common_type_t<decltype(kinds)...>>;
+  static const Row names[] = {{kinds, to_string(kinds).data(), ""}...};
+  return std::span<const Row>(names);
 }
 
 std::span<const Named<OutcomeKind>> names_of(OutcomeKind) {
-  static const auto names = named(
-      {OutcomeKind::completed, OutcomeKind::stopped, OutcomeKind::inaccurate, OutcomeKind::unstable,
-       OutcomeKind::chattering, OutcomeKind::solver_failed, OutcomeKind::left_validity});
-  return names;
+  using enum OutcomeKind;
+  return names_of_kinds<completed, stopped, inaccurate, unstable, chattering, solver_failed,
+                        left_validity>();
 }
 
 std::span<const Named<NearMissKind>> names_of(NearMissKind) {
-  static const auto names = named({NearMissKind::opening, NearMissKind::closing});
-  return names;
+  return names_of_kinds<NearMissKind::opening, NearMissKind::closing>();
 }
 
 std::span<const Named<EventKind>> names_of(EventKind) {
-  static const auto names =
-      named({EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
-             EventKind::contact_ends, EventKind::section_reverses});
-  return names;
+  using enum EventKind;
+  return names_of_kinds<contact_begins, contact_yields, contact_unloads, contact_ends,
+                        section_reverses>();
 }
 
 static Json json_of(const Total& total, Form form) {
@@ -161,24 +157,9 @@ Json json_of_setting(const KeyValue& value) {
 }
 
 KeyValue setting_of(const CaseKey& key, const Json& json) {
-  switch (key.type) {
-    case KeyType::flag:
-      return json.get<bool>();
-    case KeyType::count:
-      return integer<std::int64_t>(json);
-    case KeyType::number:
-      return json == "inf" ? std::numeric_limits<double>::infinity() : json.get<double>();
-    case KeyType::text:
-    case KeyType::choice:
-      return json.get<std::string>();
-    case KeyType::pair:
-      return json.get<std::vector<std::string>>();
-    case KeyType::numbers:
-      return json.get<std::vector<double>>();
-    case KeyType::placed:
-      return placed_of(key, json);
-  }
-  throw std::logic_error("setting_of: a key of unknown type");
+  if (json == "inf") return std::numeric_limits<double>::infinity();
+  if (const auto value = key_value_of(key, json)) return *value;
+  fail<ResultsError>("{} is {}, which no key can hold", key.name, json.dump());
 }
 
 Json case_json(const DescribedRun& run) {
