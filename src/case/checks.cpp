@@ -99,12 +99,6 @@ void check_scales(const Case& input) {
   }
 }
 
-// The keys of which a law may be given more than it uses. The nose's radius describes the striker,
-// whether or not the law depends on it.
-constexpr const char* keys_of_contact[] = {"contact.stiffness", "contact.striker_modulus",
-                                           "contact.striker_poisson", "contact.beam_poisson",
-                                           "contact.yield_pressure"};
-
 bool is_given(const Case& input, const char* key) {
   return find_case_key(key)->get(input).has_value();
 }
@@ -131,11 +125,13 @@ void check_contact(const Case& input) {
     refuse(name, "is missing, and contact.law = \"{}\" needs it: {}; allowed: {}; {}", law.name,
            key.meaning, allowed_values(key), way.remedy);
   }
-  for (const char* name : keys_of_contact) {
-    if (uses_key(way, name) || !is_given(input, name)) continue;
-    const bool of_yield = std::string_view(name) == "contact.yield_pressure";
+  for (const CaseKey& key : case_keys()) {
+    const bool is_number = key.table() == "contact" && key.type == KeyType::number;
+    const char* name = key.name.c_str();
+    if (!is_number || key.name == "contact.damping" || uses_key(way, name) || !key.get(input))
+      continue;
     refuse(name, "is given, but {}; leave it out, or choose another contact.law",
-           of_yield ? "only \"sphere\" yields at it" : way.why_unused);
+           key.name == "contact.yield_pressure" ? "only \"sphere\" yields at it" : way.why_unused);
   }
   const std::string why_not =
       law.why_not != nullptr ? law.why_not(input.scene, gap_radii(input.scene)) : "";

@@ -26,15 +26,9 @@ ElementGrading grading_of(const Case& input) {
 }
 
 CellMesh::Spacing spacing_of(const Case& input) {
-  switch (input.model.spacing) {
-    case CellSpacing::points:
-      return CellMesh::Spacing::points;
-    case CellSpacing::whole:
-      return CellMesh::Spacing::whole;
-    case CellSpacing::cells:
-      break;
-  }
-  return CellMesh::Spacing::cells;
+  using Spacing = CellMesh::Spacing;
+  if (input.model.spacing == CellSpacing::points) return Spacing::points;
+  return input.model.spacing == CellSpacing::whole ? Spacing::whole : Spacing::cells;
 }
 
 // Where a mesh of `count` equal parts cannot be struck.
@@ -165,17 +159,6 @@ void check_elements(const Case& input) {
                   has_end(input, EndSupport::free) ? ", or a free end itself" : "");
 }
 
-void check_spectral(const Case& input) {
-  const double at = input.scene.striker.position;
-  const int elements = input.model.elements;
-  const bool is_refused =
-      strikes_end(input) ? strikes_support(input) : std::min(at, 1.0 - at) * elements < 0.5;
-  if (!is_refused) return;
-  refuse_position(input,
-                  strikes_end(input) ? "on a support" : "closer to an end than half an element",
-                  elements, "elements", ", or a free end itself");
-}
-
 Mesh make_rigid_mesh(const Case& input) {
   check_rules(
       {{!input.scene.beam.is_free(), "model.mesh",
@@ -299,7 +282,7 @@ constexpr MeshDescriptor rows[] = {
      .note = "elements of degree 4 for beams that shear",
      .keys = keys_of_spectral,
      .suits = [](const Beam& beam) { return beam.shears(); },
-     .check = check_spectral,
+     .check = check_elements,
      .make = make_spectral_mesh,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(SpectralMesh::fewest_elements), false, size_of_elements,

@@ -416,13 +416,9 @@ Override parse_override(const std::string& setting) {
         "solver.rtol=1e-9",
         setting);
   }
-  const auto trimmed = [](const std::string& text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string::npos) return std::string();
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-  };
-  return {trimmed(setting.substr(0, equals)), trimmed(setting.substr(equals + 1)),
-          "--set " + setting};
+  const std::string_view text = setting;
+  return {std::string(trimmed(text.substr(0, equals))),
+          std::string(trimmed(text.substr(equals + 1))), "--set " + setting};
 }
 
 std::string LoadedCase::message(const InvalidCase& error) const {

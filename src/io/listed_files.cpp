@@ -1,6 +1,5 @@
 #include "io/listed_files.h"
 
-#include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <array>
@@ -10,7 +9,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "case/refuse.h"
 #include "io/record.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
@@ -151,11 +149,6 @@ std::string to_json(const Manifest& manifest) {
 std::string read_whole_file(const fs::path& path) {
   std::ifstream file = open_file(path);
   return text_of(file, path);
-}
-
-void throw_always_replaced(const fs::path& directory) {
-  fail<ResultsError>("{}: is written anew again and again; read it when the runs have ended",
-                     directory.string());
 }
 
 ListedFiles::ListedFiles(fs::path directory)

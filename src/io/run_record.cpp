@@ -29,13 +29,6 @@ std::span<const Named<EventKind>> names_of(EventKind) {
                         section_reverses>();
 }
 
-static Json json_of(const Total& total, Form form) {
-  return {{"value", json_of(total.value, form)}, {"error", json_of(total.error, form)}};
-}
-static void assign(Total& total, const Json& json, const std::string&, Form form) {
-  assign(total.value, json.at("value"), "value", form);
-  assign(total.error, json.at("error"), "error", form);
-}
 static Json json_of(const Interval& times, Form) { return {times.from, times.to}; }
 static void assign(Interval& times, const Json& json, const std::string& name, Form form) {
   assign(times.from, json.at(0), name, form);
@@ -51,6 +44,10 @@ struct BeamAtRest {
 };
 
 // clang-format off
+const Record<Total> total_record = {
+    {"value", "", &Total::value},
+    {"error", "", &Total::error}};
+
 const Record<ZoneSummary> zone_record = {
     {"zone", "number of the zone, from 1", &ZoneSummary::zone},
     {"sub_impacts", "their number", &ZoneSummary::n_sub_impacts},
@@ -100,10 +97,10 @@ const Record<ErrorEstimate> error_record = {
     {"finer_meshes", "of a mesh that the case fixes: what finer ones would change", &ErrorEstimate::finer_meshes, finer_meshes_record}};
 
 const Record<ZoneTotals> zone_totals_record = {
-    {"start_s", "", &ZoneTotals::start},
-    {"end_s", "", &ZoneTotals::end},
-    {"impulse_Ns", "", &ZoneTotals::impulse},
-    {"sub_impacts", "", &ZoneTotals::sub_impacts}};
+    {"start_s", "", &ZoneTotals::start, total_record},
+    {"end_s", "", &ZoneTotals::end, total_record},
+    {"impulse_Ns", "", &ZoneTotals::impulse, total_record},
+    {"sub_impacts", "", &ZoneTotals::sub_impacts, total_record}};
 
 const Record<Predictability::Zone> zone_scatter_record = {
     {"start_scatter_s", "standard deviation of the zone's start", &Predictability::Zone::start_scatter},
@@ -255,7 +252,7 @@ Json totals_json(const DescribedRun& run) {
   if (!run.result->error_estimate) return nullptr;
   Json json;
   for (const auto& [name, total] : run.result->error_estimate->totals) {
-    json[name] = json_of(total, Form::plain);
+    json[name] = json_of(total_record, total);
   }
   json["by_zone"] = json_of(zone_totals_record, run.result->error_estimate->zones);
   return json;
@@ -266,7 +263,7 @@ void read_totals(const Json& json, DescribedRun& run) {
   ErrorEstimate& estimate = *run.result->error_estimate;
   for (const auto& [name, total] : json.items()) {
     if (name == "by_zone") continue;
-    assign(estimate.totals.emplace_back(name, Total()).total, total, name, Form::plain);
+    assign(total_record, total, estimate.totals.emplace_back(name, Total()).total);
   }
   assign(zone_totals_record, json.at("by_zone"), estimate.zones);
 }
