@@ -173,25 +173,20 @@ CaseKey row(const char* name, const char* unit, const Range& range, const char* 
   return key;
 }
 
-// A number of which 0 stands for not given.
-CaseKey not_zero(CaseKey key) {
-  key.get = [get = key.get](const Case& from) {
+// A number of which 0 stands for not given, in cases of that kind.
+CaseKey not_zero(
+    CaseKey key, bool (*where)(const Case&) = [](const Case&) { return true; }) {
+  key.get = [get = key.get, where](const Case& from) {
     const std::optional<KeyValue> value = get(from);
-    return value && std::get<double>(*value) == 0.0 ? std::nullopt : value;
+    return value && where(from) && std::get<double>(*value) == 0.0 ? std::nullopt : value;
   };
   return key;
 }
 
-// A required key that other keys can take the place of: it is then not given, unless it has a
-// value.
+// A required key that other keys can take the place of.
 CaseKey unless(bool (*is_needless)(const Case&), CaseKey key) {
   key.is_needless = is_needless;
-  key.get = [get = key.get, is_needless](const Case& from) -> std::optional<KeyValue> {
-    const std::optional<KeyValue> value = get(from);
-    if (is_needless(from) && std::get<double>(*value) == 0.0) return std::nullopt;
-    return value;
-  };
-  return key;
+  return not_zero(std::move(key), is_needless);
 }
 
 CaseKey with_choices(CaseKey key, std::vector<Choice> choices) {

@@ -1,13 +1,15 @@
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "case/meshes.h"
 #include "case/problem.h"
+#include "case/refuse.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 
@@ -60,10 +62,9 @@ double decades_of(const Case& input, const char* name) {
 [[noreturn]] void refuse_scale(const Case& input, const char* name,
                                const std::string& consequence) {
   const CaseKey& key = *find_case_key(name);
-  throw InvalidCase(name,
-                    fmt::format("is {}{}{}{}; allowed: from 1e-{:.0f} to 1e{:.0f}; check the units",
-                                to_text(*key.get(input)), key.unit.empty() ? "" : " ", key.unit,
-                                consequence, most_decades, most_decades));
+  refuse(name, "is {}{}{}{}; allowed: from 1e-{:.0f} to 1e{:.0f}; check the units",
+         to_text(*key.get(input)), key.unit.empty() ? "" : " ", key.unit, consequence, most_decades,
+         most_decades);
 }
 
 // Refuses, for the key that is farthest from one, numbers whose products overflow, vanish or lose
@@ -98,12 +99,6 @@ void check_scales(const Case& input) {
   }
 }
 
-// The keys of which a law may be given more than it uses. The nose's radius describes the striker,
-// whether or not the law depends on it.
-constexpr const char* keys_of_contact[] = {"contact.stiffness", "contact.striker_modulus",
-                                           "contact.striker_poisson", "contact.beam_poisson",
-                                           "contact.yield_pressure"};
-
 bool is_given(const Case& input, const char* key) {
   return find_case_key(key)->get(input).has_value();
 }
@@ -118,32 +113,29 @@ void check_contact(const Case& input) {
   if (input.parts.contact_law) return;
   const BuiltInContactLaw& law = built_in_contact_law(input.scene.contact.kind);
   if (input.scene.contact.damping > 0.0 && law.yields) {
-    throw InvalidCase("contact.damping",
-                      fmt::format("is {:g} s/m, but contact.law = \"{}\" loses its energy by "
-                                  "yielding; allowed: 0; leave it out, or choose \"hertz\" or "
-                                  "\"linear\"",
-                                  input.scene.contact.damping, law.name));
+    refuse("contact.damping",
+           "is {:g} s/m, but contact.law = \"{}\" loses its energy by yielding; allowed: 0; leave "
+           "it out, or choose \"hertz\" or \"linear\"",
+           input.scene.contact.damping, law.name);
   }
   const ContactConstants& way = constants_given(input, law);
   for (const char* name : way.keys) {
     if (is_known(input, name)) continue;
     const CaseKey& key = *find_case_key(name);
-    throw InvalidCase(
-        name, fmt::format("is missing, and contact.law = \"{}\" needs it: {}; allowed: {}; {}",
-                          law.name, key.meaning, allowed_values(key), way.remedy));
+    refuse(name, "is missing, and contact.law = \"{}\" needs it: {}; allowed: {}; {}", law.name,
+           key.meaning, allowed_values(key), way.remedy);
   }
-  for (const char* name : keys_of_contact) {
-    if (uses_key(way, name) || !is_given(input, name)) continue;
-    const bool of_yield = std::string_view(name) == "contact.yield_pressure";
-    throw InvalidCase(name,
-                      fmt::format("is given, but {}; leave it out, or choose another contact.law",
-                                  of_yield ? "only \"sphere\" yields at it" : way.why_unused));
+  for (const CaseKey& key : case_keys()) {
+    const bool is_number = key.table() == "contact" && key.type == KeyType::number;
+    const char* name = key.name.c_str();
+    if (!is_number || key.name == "contact.damping" || uses_key(way, name) || !key.get(input))
+      continue;
+    refuse(name, "is given, but {}; leave it out, or choose another contact.law",
+           key.name == "contact.yield_pressure" ? "only \"sphere\" yields at it" : way.why_unused);
   }
   const std::string why_not =
       law.why_not != nullptr ? law.why_not(input.scene, gap_radii(input.scene)) : "";
-  if (!why_not.empty()) {
-    throw InvalidCase("contact.law", fmt::format("is \"{}\", but {}", law.name, why_not));
-  }
+  if (!why_not.empty()) refuse("contact.law", "is \"{}\", but {}", law.name, why_not);
 }
 
 // A row takes some 345 bytes in the file.
@@ -158,124 +150,109 @@ std::string doubt_of_end_time(const Case& input) {
   return {};
 }
 
-void check_history_size(const Case& input) {
-  const double interval = input.output.history_interval(input.end_time);
-  const double rows = input.end_time / interval;
-  if (interval == 0.0 || rows <= most_history_rows) return;
-  throw InvalidCase(
-      "output.interval",
-      fmt::format(
-          "is {} s, which gives {:.2g} history rows up to time.end = {} s; allowed: at most "
-          "{:.0e} rows, so {:.2g} s or more, or 0 for no history; use a longer interval",
-          interval, rows, input.end_time, most_history_rows, input.end_time / most_history_rows) +
-          doubt_of_end_time(input));
+// Refuses an interval at which a run writes more rows than a file should hold.
+void check_rows(const Case& input, const char* key, double interval, double rows_each, double most,
+                const std::string& what, const char* remedy) {
+  const double rows = input.end_time / interval * rows_each;
+  if (interval == 0.0 || rows <= most) return;
+  refuse(key,
+         "is {} s, which gives {:.2g} {}; allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 "
+         "for none; use a longer interval{}{}",
+         interval, rows, what, most, input.end_time * rows_each / most, remedy,
+         doubt_of_end_time(input));
 }
 
-void check_shapes(const Case& input) {
-  const double interval = input.output.shapes.value_or(0.0);
-  if (interval == 0.0) return;
-  const double rows = input.end_time / interval * input.output.shape_points;
-  if (rows <= most_shape_rows) return;
-  throw InvalidCase(
-      "output.shapes",
-      fmt::format("is {} s, which gives {:.2g} rows up to time.end = {} s, up to {} per shape; "
-                  "allowed: at most {:.0e} rows, so {:.2g} s or more, or 0 for none; use a longer "
-                  "interval or a smaller output.shape_points",
-                  interval, rows, input.end_time, input.output.shape_points, most_shape_rows,
-                  input.end_time * input.output.shape_points / most_shape_rows) +
-          doubt_of_end_time(input));
-}
-
-void check_sections_and_points(const Case& input) {
-  if (input.output.has_history()) return;
-  for (const auto& [key, list] : {std::pair("output.sections", &input.output.sections),
-                                  std::pair("output.points", &input.output.points)}) {
-    if (list->empty()) continue;
-    throw InvalidCase(key,
-                      "is given, but output.interval = 0 keeps no rows of them; leave it out, or "
-                      "set an output.interval above 0");
+void check_output(const Case& input) {
+  const OutputOptions& output = input.output;
+  const std::string to_end = fmt::format("rows up to time.end = {} s", input.end_time);
+  check_rows(input, "output.interval", output.history_interval(input.end_time), 1.0,
+             most_history_rows, "history " + to_end, "");
+  if (output.subzone_gap > output.zone_gap) {
+    refuse("output.subzone_gap",
+           "is {}, above output.zone_gap = {}, but sub-zones divide zones; allowed: above 0, up to "
+           "output.zone_gap; reduce it",
+           output.subzone_gap, output.zone_gap);
   }
-}
-
-void check_gaps(const Case& input) {
-  if (input.output.subzone_gap <= input.output.zone_gap) return;
-  throw InvalidCase("output.subzone_gap",
-                    fmt::format("is {}, above output.zone_gap = {}, but sub-zones divide zones; "
-                                "allowed: above 0, up to output.zone_gap; reduce it",
-                                input.output.subzone_gap, input.output.zone_gap));
+  const char* no_rows =
+      "is given, but output.interval = 0 keeps no rows of them; leave it out, or set an "
+      "output.interval above 0";
+  check_rules({{!output.has_history() && !output.sections.empty(), "output.sections", no_rows},
+               {!output.has_history() && !output.points.empty(), "output.points", no_rows}});
+  check_rows(input, "output.shapes", output.shapes.value_or(0.0), output.shape_points,
+             most_shape_rows, fmt::format("{}, up to {} per shape", to_end, output.shape_points),
+             " or a smaller output.shape_points");
 }
 
 // What each shape needs; a rectangle may have the short form instead.
-std::vector<const char*> dimensions_of(SectionShape shape) {
-  switch (shape) {
-    case SectionShape::rectangle:
-      return {"beam.section.height", "beam.section.width"};
-    case SectionShape::circle:
-      return {"beam.section.diameter"};
-    case SectionShape::tube:
-      return {"beam.section.diameter", "beam.section.wall"};
-    case SectionShape::box:
-      return {"beam.section.height", "beam.section.width", "beam.section.wall"};
-    case SectionShape::i:
-      return {"beam.section.height", "beam.section.width", "beam.section.flange",
-              "beam.section.web"};
+const std::map<SectionShape, std::vector<std::string>> dimensions = {
+    {SectionShape::rectangle, {"beam.section.height", "beam.section.width"}},
+    {SectionShape::circle, {"beam.section.diameter"}},
+    {SectionShape::tube, {"beam.section.diameter", "beam.section.wall"}},
+    {SectionShape::box, {"beam.section.height", "beam.section.width", "beam.section.wall"}},
+    {SectionShape::i,
+     {"beam.section.height", "beam.section.width", "beam.section.flange", "beam.section.web"}}};
+
+constexpr std::pair<const char*, const char*> short_forms[] = {
+    {"beam.width", "beam.section.width"}, {"beam.thickness", "beam.section.height"}};
+
+[[noreturn]] void refuse_section(const Case& input, const char* key, const std::string& why) {
+  refuse(key, "{} (beam.section.shape = {})", why,
+         to_text(*find_case_key("beam.section.shape")->get(input)));
+}
+
+void check_dimensions(const Case& input) {
+  const SectionShape shape = input.scene.beam.section.shape;
+  const bool is_rectangle = shape == SectionShape::rectangle;
+  const std::vector<std::string>& needed = dimensions.at(shape);
+  const std::string all = fmt::format("{}", fmt::join(needed, ", "));
+  const std::string surplus = "is given, but the shape has " + all + "; leave it out";
+  for (const auto& [key, same] : short_forms) {
+    const bool is_there = is_given(input, key);
+    if (!is_rectangle && is_there) refuse_section(input, key, surplus);
+    if (!is_rectangle || is_there != is_given(input, same)) continue;
+    refuse_section(input, key,
+                   is_there ? fmt::format("is given twice: {} is the same; leave one out", same)
+                            : fmt::format("is missing; give it in m, or {}, or another "
+                                          "beam.section.shape with its dimensions",
+                                          same));
   }
-  return {};
+  for (const CaseKey& key : case_keys()) {
+    if (key.table() != "beam.section" || key.type != KeyType::number) continue;
+    const bool is_needed = std::ranges::find(needed, key.name) != needed.end();
+    const bool is_there = key.get(input).has_value();
+    if (!is_needed && is_there) refuse_section(input, key.name.c_str(), surplus);
+    if (!is_needed || is_there || is_rectangle) continue;
+    refuse_section(
+        input, key.name.c_str(),
+        fmt::format("is missing: {}; the shape needs {}; give it in m", key.meaning, all));
+  }
 }
 
 void check_section(const Case& input) {
+  check_dimensions(input);
   const Beam& beam = input.scene.beam;
-  const auto shape = std::get<std::string>(*find_case_key("beam.section.shape")->get(input));
-  const auto refuse = [&](const std::string& key, const std::string& why) {
-    throw InvalidCase(key, fmt::format("{} (beam.section.shape = \"{}\")", why, shape));
-  };
-  const bool is_rectangle = beam.section.shape == SectionShape::rectangle;
-  const std::vector<const char*> needed = dimensions_of(beam.section.shape);
-  for (const CaseKey& key : case_keys()) {
-    const bool is_short = key.name == "beam.width" || key.name == "beam.thickness";
-    const bool is_dimension = key.table() == "beam.section" && key.type == KeyType::number;
-    if (!is_short && !is_dimension) continue;
-    const std::string other = key.name == "beam.width"       ? "beam.section.width"
-                              : key.name == "beam.thickness" ? "beam.section.height"
-                                                             : "";
-    const bool is_needed =
-        std::ranges::any_of(needed, [&](const char* name) { return name == key.name; });
-    if (is_short && is_rectangle) {
-      if (key.get(input).has_value() == is_given(input, other.c_str())) {
-        refuse(key.name, key.get(input)
-                             ? fmt::format("is given twice: {} is the same; leave one out", other)
-                             : fmt::format("is missing; give it in m, or {}, or another "
-                                           "beam.section.shape with its dimensions",
-                                           other));
-      }
-    } else if (!is_needed && key.get(input)) {
-      refuse(key.name,
-             fmt::format("is given, but the shape has {}; leave it out", fmt::join(needed, ", ")));
-    } else if (is_needed && !is_rectangle && !key.get(input)) {
-      refuse(key.name, fmt::format("is missing: {}; the shape needs {}; give it in m", key.meaning,
-                                   fmt::join(needed, ", ")));
-    }
-  }
+  const SectionShape shape = beam.section.shape;
   const CrossSection::Solid outer = beam.outer_solid(), gap = beam.gap();
-  const bool is_hollow = needed.size() > 2 || beam.section.shape == SectionShape::tube;
+  const bool is_hollow =
+      shape == SectionShape::tube || shape == SectionShape::box || shape == SectionShape::i;
   if (is_hollow && !(gap.height > 0.0 && gap.width > 0.0)) {
-    const bool too_high = !(gap.height > 0.0);
-    refuse(beam.section.shape != SectionShape::i ? "beam.section.wall"
-           : too_high                            ? "beam.section.flange"
-                                                 : "beam.section.web",
-           fmt::format("leaves no gap in a section of {:g} m; allowed: below {:g} m; reduce it, or "
-                       "use a solid shape",
-                       too_high ? outer.height : outer.width,
-                       beam.section.shape != SectionShape::i
-                           ? 0.5 * std::min(outer.height, outer.width)
-                       : too_high ? 0.5 * outer.height
-                                  : outer.width));
+    const bool is_i = shape == SectionShape::i, too_high = !(gap.height > 0.0);
+    const double size = too_high ? outer.height : outer.width;
+    const double limit = !is_i      ? 0.5 * std::min(outer.height, outer.width)
+                         : too_high ? 0.5 * size
+                                    : size;
+    refuse_section(input,
+                   !is_i      ? "beam.section.wall"
+                   : too_high ? "beam.section.flange"
+                              : "beam.section.web",
+                   fmt::format("leaves no gap in a section of {:g} m; allowed: below {:g} m; "
+                               "reduce it, or use a solid shape",
+                               size, limit));
   }
-  if (input.parts.section && !is_rectangle) {
-    refuse(
-        "beam.section.shape",
-        "is given beside Case::parts.section, whose strips are fractions of a rectangle; allowed: "
-        "\"rectangle\"");
+  if (input.parts.section && shape != SectionShape::rectangle) {
+    refuse_section(input, "beam.section.shape",
+                   "is given beside Case::parts.section, whose strips are fractions of a "
+                   "rectangle; allowed: \"rectangle\"");
   }
 }
 
@@ -283,63 +260,52 @@ void check_shear(const Case& input) {
   const Beam& beam = input.scene.beam;
   const std::optional<double>& other = input.scene.contact.beam_poisson;
   if (beam.poisson && other && *beam.poisson != *other) {
-    throw InvalidCase(
-        "contact.beam_poisson",
-        fmt::format("is {}, but beam.poisson is {}; the beam has one Poisson's ratio: "
-                    "leave contact.beam_poisson out",
-                    *other, *beam.poisson));
+    refuse("contact.beam_poisson",
+           "is {}, but beam.poisson is {}; the beam has one Poisson's ratio: leave "
+           "contact.beam_poisson out",
+           *other, *beam.poisson);
   }
-  if (beam.shears() && !beam.poisson) {
-    throw InvalidCase("beam.poisson",
-                      "is missing, and beam.theory = \"timoshenko\" needs it for the shear modulus "
-                      "E/(2 (1 + nu)); allowed: from 0 to 0.5; give it (metals: 0.25 to 0.35)");
-  }
+  check_rules({{beam.shears() && !beam.poisson, "beam.poisson",
+                "is missing, and beam.theory = \"timoshenko\" needs it for the shear modulus E/(2 "
+                "(1 + nu)); allowed: from 0 to 0.5; give it (metals: 0.25 to 0.35)"}});
 }
 
 // What takes the place of striker or beam.
 void check_bodies(const Case& input) {
   const Striker& striker = input.scene.striker;
   const Beam& beam = input.scene.beam;
-  const auto refuse = [](const char* key, const std::string& why) { throw InvalidCase(key, why); };
-  if (striker.fixed) {
-    const char* why =
-        "is given, but striker.fixed = true is a stop, which has neither mass nor "
-        "velocity; leave it out, or striker.fixed";
-    if (striker.mass != 0.0) refuse("striker.mass", why);
-    if (striker.velocity != 0.0) refuse("striker.velocity", why);
-    if (striker.drop_height) refuse("striker.drop_height", why);
-    if (beam.fixed) {
-      refuse("striker.fixed", "is true, and beam.fixed too, so that nothing moves; leave one out");
-    }
-  }
-  if (striker.drop_height) {
-    const char* why =
-        "is given, but striker.drop_height sets the velocity, and the run begins at "
-        "the touch; leave one of them out";
-    if (striker.velocity != 0.0) refuse("striker.velocity", why);
-    if (striker.gap != 0.0) refuse("striker.gap", why);
-  }
-  if (!beam.fixed) return;
-  if (input.parts.mesh || input.model.mesh != MeshKind::rigid) {
-    refuse("beam.fixed",
-           "is true, but only a rigid beam can be a plane or wall; set model.mesh = \"rigid\", or "
-           "hold the ends of a beam that bends with beam.ends");
-  }
-  if (beam.is_sprung()) {
-    refuse(beam.foundation > 0.0 ? "beam.foundation" : "beam.springs",
-           "is given, but beam.fixed = true: the beam does not move; leave it out");
-  }
+  const char* of_stop =
+      "is given, but striker.fixed = true is a stop, which has neither mass nor velocity; leave it "
+      "out, or striker.fixed";
+  const char* of_fall =
+      "is given, but striker.drop_height sets the velocity, and the run begins at the touch; leave "
+      "one of them out";
+  const char* of_wall = "is given, but beam.fixed = true: the beam does not move; leave it out";
+  const bool bends = input.parts.mesh || input.model.mesh != MeshKind::rigid;
+  const bool falls = striker.drop_height.has_value();
+  check_rules({{striker.fixed && striker.mass != 0.0, "striker.mass", of_stop},
+               {striker.fixed && striker.velocity != 0.0, "striker.velocity", of_stop},
+               {striker.fixed && falls, "striker.drop_height", of_stop},
+               {striker.fixed && beam.fixed, "striker.fixed",
+                "is true, and beam.fixed too, so that nothing moves; leave one out"},
+               {falls && striker.velocity != 0.0, "striker.velocity", of_fall},
+               {falls && striker.gap != 0.0, "striker.gap", of_fall},
+               {beam.fixed && bends, "beam.fixed",
+                "is true, but only a rigid beam can be a plane or wall; set model.mesh = "
+                "\"rigid\", or hold the ends of a beam that bends with beam.ends"},
+               {beam.fixed && beam.foundation > 0.0, "beam.foundation", of_wall},
+               {beam.fixed && beam.is_sprung(), "beam.springs", of_wall}});
 }
 
 // Where the scene is symmetric, first derivatives show nothing of a strike that is off its centre.
 void check_scatter(const Case& input) {
   const auto scatter = input.scatter.find("striker.position");
   if (scatter == input.scatter.end() || scatter->second == 0.0 || !is_symmetric(input)) return;
-  throw InvalidCase("scatter.striker.position",
-                    fmt::format("is {}, but the scene is symmetric about striker.position = 0.5, "
-                                "and standard deviations follow from first derivatives, which are "
-                                "0 or do not exist there; allowed: 0; leave it out",
-                                scatter->second));
+  refuse(
+      "scatter.striker.position",
+      "is {}, but the scene is symmetric about striker.position = 0.5, and standard deviations "
+      "follow from first derivatives, which are 0 or do not exist there; allowed: 0; leave it out",
+      scatter->second);
 }
 
 }  // namespace
@@ -367,11 +333,8 @@ void check(const Case& input) {
   check_scales(input);
   check_contact(input);
   if (!input.parts.mesh) check_mesh(input);
-  check_history_size(input);
   check_shear(input);
-  check_gaps(input);
-  check_sections_and_points(input);
-  check_shapes(input);
+  check_output(input);
   check_scatter(input);
 }
 

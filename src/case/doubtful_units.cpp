@@ -178,7 +178,10 @@ class Doubts {
             fmt::format(", {:.3g} times the beam's {:.3g} kg", m / beam_.mass(), beam_.mass()),
             {{"g", 1e-3}});
     }
-    if (case_.scene.bodies().striker_velocity() > fastest) {
+    if (case_.scene.bodies().striker_velocity() <= fastest) return;
+    if (case_.scene.striker.drop_height) {
+      doubt("striker.drop_height", ", a fall that ends faster than a rifle bullet", {{"mm", 1e-3}});
+    } else {
       doubt("striker.velocity", ", faster than a rifle bullet", {{"mm/s", 1e-3}});
     }
   }

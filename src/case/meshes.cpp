@@ -1,14 +1,13 @@
 #include "case/meshes.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "case/problem.h"
+#include "case/refuse.h"
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"
 #include "model/mixed_mesh.h"
@@ -27,26 +26,19 @@ ElementGrading grading_of(const Case& input) {
 }
 
 CellMesh::Spacing spacing_of(const Case& input) {
-  switch (input.model.spacing) {
-    case CellSpacing::points:
-      return CellMesh::Spacing::points;
-    case CellSpacing::whole:
-      return CellMesh::Spacing::whole;
-    case CellSpacing::cells:
-      break;
-  }
-  return CellMesh::Spacing::cells;
+  using Spacing = CellMesh::Spacing;
+  if (input.model.spacing == CellSpacing::points) return Spacing::points;
+  return input.model.spacing == CellSpacing::whole ? Spacing::whole : Spacing::cells;
 }
 
 // Where a mesh of `count` equal parts cannot be struck.
 [[noreturn]] void refuse_position(const Case& input, const char* why, int count, const char* parts,
                                   const char* also) {
   const double nearest = 0.5 / count;
-  throw InvalidCase("striker.position",
-                    fmt::format("is {}, {}; allowed with {} {}: from {:.6g} to {:.6g}{}; move the "
-                                "strike inwards or use more {}",
-                                input.scene.striker.position, why, count, parts, nearest,
-                                1.0 - nearest, also, parts));
+  refuse("striker.position",
+         "is {}, {}; allowed with {} {}: from {:.6g} to {:.6g}{}; move the strike inwards or use "
+         "more {}",
+         input.scene.striker.position, why, count, parts, nearest, 1.0 - nearest, also, parts);
 }
 
 bool strikes_end(const Case& input) {
@@ -64,26 +56,19 @@ bool has_end(const Case& input, EndSupport support) {
   return ends[0] == support || ends[1] == support;
 }
 
-void check_points(const Case& input) {
-  if (input.scene.beam.shears()) {
-    throw InvalidCase("model.spacing",
-                      "is \"points\", which is the published run's and has no shear; allowed with "
-                      "beam.theory = \"timoshenko\": \"cells\"; leave it out");
-  }
-  if (input.scene.beam.is_free()) return;
-  throw InvalidCase(
-      "model.spacing",
-      "is \"points\", which is for free ends; allowed with supports: \"cells\"; leave "
-      "it out, or set beam.ends = [\"free\", \"free\"]");
-}
-
 void check_cells(const Case& input) {
-  if (input.model.spacing == CellSpacing::points) return check_points(input);
-  if (input.model.spacing == CellSpacing::whole && input.scene.beam.shears()) {
-    throw InvalidCase("model.spacing",
-                      "is \"whole\", but cells that shear have no inertia to add at their ends; "
-                      "allowed with beam.theory = \"timoshenko\": \"cells\"; leave it out");
-  }
+  const bool shears = input.scene.beam.shears();
+  const bool has_points = input.model.spacing == CellSpacing::points;
+  check_rules({{has_points && shears, "model.spacing",
+                "is \"points\", which is the published run's and has no shear; allowed with "
+                "beam.theory = \"timoshenko\": \"cells\"; leave it out"},
+               {has_points && !input.scene.beam.is_free(), "model.spacing",
+                "is \"points\", which is for free ends; allowed with supports: \"cells\"; leave it "
+                "out, or set beam.ends = [\"free\", \"free\"]"},
+               {input.model.spacing == CellSpacing::whole && shears, "model.spacing",
+                "is \"whole\", but cells that shear have no inertia to add at their ends; allowed "
+                "with beam.theory = \"timoshenko\": \"cells\"; leave it out"}});
+  if (has_points) return;
   const int cells = input.model.segments;
   const double at = input.scene.striker.position;
   if (!(at * cells >= 0.5 && (1.0 - at) * cells >= 0.5)) {
@@ -92,61 +77,48 @@ void check_cells(const Case& input) {
   }
   const auto fewest = static_cast<int>(CellMesh::fewest_cells_if_clamped);
   if (has_end(input, EndSupport::clamped) && cells < fewest) {
-    throw InvalidCase("model.segments",
-                      fmt::format("is {}; allowed with a clamped end: {} or more; use more "
-                                  "segments",
-                                  cells, fewest));
+    refuse("model.segments", "is {}; allowed with a clamped end: {} or more; use more segments",
+           cells, fewest);
   }
 }
 
 // What mixed cells are not derived for.
 void check_mixed_model(const Case& input) {
   const Beam& beam = input.scene.beam;
-  const std::pair<const char*, bool> others[] = {
-      {"scene.gravity", input.scene.gravity != 0.0},
-      {"beam.load", beam.load != 0.0},
-      {"beam.forces", !beam.forces.empty()},
-      {"beam.springs", !beam.springs.empty()},
-      {"beam.foundation", beam.foundation != 0.0},
-      {"beam.velocity", beam.velocity != 0.0},
-      {"beam.angular_velocity", beam.angular_velocity != 0.0}};
-  for (const auto& [key, is_given] : others) {
-    if (!is_given) continue;
-    throw InvalidCase(
-        key,
-        "is given, but mixed cells, of which masses and step are made for free waves, "
-        "have no loads, springs or motion at the start; leave it out, or use another "
-        "mesh");
-  }
-  if (input.scene.beam.rotary_inertia() == 0.0) {
-    throw InvalidCase("beam.theory",
-                      "is \"euler-bernoulli\", but mixed cells need rotary inertia; allowed with "
-                      "model.mesh = \"mixed\": \"rayleigh\"; choose it, or another mesh");
-  }
-  if (const BeamDamping& damping = input.scene.beam.damping; !damping.is_none()) {
-    throw InvalidCase(
-        damping.ratio > 0.0  ? "beam.damping.ratio"
-        : damping.mass > 0.0 ? "beam.damping.mass"
-                             : "beam.damping.stiffness",
-        "is above 0, but mixed cells have no damping; leave it out, or use another mesh");
-  }
-  if (input.parts.section || input.model.section == SectionKind::layers) {
-    throw InvalidCase(
-        "model.section",
-        fmt::format("is {}, but mixed cells find the curvature from the moment by the "
-                    "rectangle's closed form; allowed with model.mesh = \"mixed\": "
-                    "\"exact\", \"elastic\"; choose one, or another mesh",
-                    input.parts.section ? "a section of its own" : "\"layers\""));
-  }
+  const BeamDamping& damping = beam.damping;
   const bool is_shaped = beam.section.shape != SectionShape::rectangle;
-  if (may_yield(input) && (is_shaped || beam.hardening > 0.0)) {
-    throw InvalidCase(
-        is_shaped ? "beam.section.shape" : "beam.hardening",
-        "is given, but where it yields mixed cells find the curvature from the moment "
-        "by the closed form of a rectangle that does not harden; allowed with "
-        "model.mesh = \"mixed\": such a rectangle, or model.section = \"elastic\"; "
-        "choose one, or another mesh");
+  const bool yields = may_yield(input);
+  const char* of_scene =
+      "is given, but mixed cells, of which masses and step are made for free waves, have no loads, "
+      "springs or motion at the start; leave it out, or use another mesh";
+  const char* of_damping =
+      "is above 0, but mixed cells have no damping; leave it out, or use another mesh";
+  const char* of_section =
+      "is given, but where it yields mixed cells find the curvature from the moment by the closed "
+      "form of a rectangle that does not harden; allowed with model.mesh = \"mixed\": such a "
+      "rectangle, or model.section = \"elastic\"; choose one, or another mesh";
+  check_rules({{input.scene.gravity != 0.0, "scene.gravity", of_scene},
+               {beam.load != 0.0, "beam.load", of_scene},
+               {!beam.forces.empty(), "beam.forces", of_scene},
+               {!beam.springs.empty(), "beam.springs", of_scene},
+               {beam.foundation != 0.0, "beam.foundation", of_scene},
+               {beam.velocity != 0.0, "beam.velocity", of_scene},
+               {beam.angular_velocity != 0.0, "beam.angular_velocity", of_scene},
+               {beam.rotary_inertia() == 0.0, "beam.theory",
+                "is \"euler-bernoulli\", but mixed cells need rotary inertia; allowed with "
+                "model.mesh = \"mixed\": \"rayleigh\"; choose it, or another mesh"},
+               {damping.ratio > 0.0, "beam.damping.ratio", of_damping},
+               {damping.mass > 0.0, "beam.damping.mass", of_damping},
+               {damping.stiffness > 0.0, "beam.damping.stiffness", of_damping}});
+  if (input.parts.section || input.model.section == SectionKind::layers) {
+    refuse(
+        "model.section",
+        "is {}, but mixed cells find the curvature from the moment by the rectangle's closed form; "
+        "allowed with model.mesh = \"mixed\": \"exact\", \"elastic\"; choose one, or another mesh",
+        input.parts.section ? "a section of its own" : "\"layers\"");
   }
+  check_rules({{yields && is_shaped, "beam.section.shape", of_section},
+               {yields && beam.hardening > 0.0, "beam.hardening", of_section}});
 }
 
 void check_mixed(const Case& input) {
@@ -156,10 +128,10 @@ void check_mixed(const Case& input) {
   const std::size_t before = MixedMesh::cells_before(at, cells);
   if (std::min(before, cells - before) >= MixedMesh::fewest_beside) return;
   const double nearest = static_cast<double>(MixedMesh::fewest_beside) / static_cast<double>(cells);
-  throw InvalidCase("striker.position",
-                    fmt::format("is {}, closer to an end than {} of {} segments; allowed: from "
-                                "{:.6g} to {:.6g}; move the strike inwards or use more segments",
-                                at, MixedMesh::fewest_beside, cells, nearest, 1.0 - nearest));
+  refuse("striker.position",
+         "is {}, closer to an end than {} of {} segments; allowed: from {:.6g} to {:.6g}; move the "
+         "strike inwards or use more segments",
+         at, MixedMesh::fewest_beside, cells, nearest, 1.0 - nearest);
 }
 
 // There is a node at the strike; an element much shorter than others would determine the time step.
@@ -169,44 +141,29 @@ void check_elements(const Case& input) {
   const double length = input.scene.beam.length;
   if (strikes_end(input)) {
     if (!strikes_support(input)) return;
-    throw InvalidCase("striker.position",
-                      fmt::format("is {}, on a support; allowed: strictly between the supports; "
-                                  "move the strike inwards",
-                                  at));
+    refuse("striker.position",
+           "is {}, on a support; allowed: strictly between the supports; move the strike inwards",
+           at);
   }
   const ElementGrading grading = grading_of(input);
   const double before = grading.elements_within(at * length);
   const double after = grading.elements_within((1.0 - at) * length);
   if (elements * std::min(before, after) >= 0.5 * (before + after)) return;
   if (grading.refinement != 1.0) {
-    throw InvalidCase("striker.position",
-                      fmt::format("is {}, closer to an end than half an element, of {} graded "
-                                  "towards the strike; move the strike inwards or use more "
-                                  "elements",
-                                  at, elements));
+    refuse("striker.position",
+           "is {}, closer to an end than half an element, of {} graded towards the strike; move "
+           "the strike inwards or use more elements",
+           at, elements);
   }
   refuse_position(input, "closer to an end than half an element", elements, "elements",
                   has_end(input, EndSupport::free) ? ", or a free end itself" : "");
 }
 
-void check_spectral(const Case& input) {
-  const double at = input.scene.striker.position;
-  const int elements = input.model.elements;
-  const bool is_refused =
-      strikes_end(input) ? strikes_support(input) : std::min(at, 1.0 - at) * elements < 0.5;
-  if (!is_refused) return;
-  refuse_position(input,
-                  strikes_end(input) ? "on a support" : "closer to an end than half an element",
-                  elements, "elements", ", or a free end itself");
-}
-
 Mesh make_rigid_mesh(const Case& input) {
-  if (!input.scene.beam.is_free()) {
-    throw InvalidCase("model.mesh",
-                      "is \"rigid\", but a rigid beam moves only with free ends; set beam.ends = "
-                      "[\"free\", \"free\"] (with beam.fixed = true it does not move), or use "
-                      "another mesh");
-  }
+  check_rules(
+      {{!input.scene.beam.is_free(), "model.mesh",
+        "is \"rigid\", but a rigid beam moves only with free ends; set beam.ends = [\"free\", "
+        "\"free\"] (with beam.fixed = true it does not move), or use another mesh"}});
   return std::make_shared<RigidMesh>(input.scene.beam, input.scene.striker.position);
 }
 
@@ -217,11 +174,10 @@ bool uses_half(const Case& input) {
   const bool odd = refinement.odd_in_half;
   if (!uses_symmetry(input)) return false;
   if ((count % 2 != 0) == odd) return true;
-  throw InvalidCase(
-      refinement.key,
-      fmt::format("is {}, but the half model of a scene struck at mid-span needs an {} number, so "
-                  "that a {} lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
-                  count, odd ? "odd" : "even", odd ? "cell" : "node", count - 1, count + 1));
+  refuse(refinement.key,
+         "is {}, but the half model of a scene struck at mid-span needs an {} number, so that a {} "
+         "lies under the striker; use {} or {}, or set model.symmetry = \"off\"",
+         count, odd ? "odd" : "even", odd ? "cell" : "node", count - 1, count + 1);
 }
 
 // A mesh of `count` parts, of the whole beam or of one half.
@@ -326,7 +282,7 @@ constexpr MeshDescriptor rows[] = {
      .note = "elements of degree 4 for beams that shear",
      .keys = keys_of_spectral,
      .suits = [](const Beam& beam) { return beam.shears(); },
-     .check = check_spectral,
+     .check = check_elements,
      .make = make_spectral_mesh,
      .refinement = {{&ModelOptions::elements, "model.elements", "elements",
                      static_cast<int>(SpectralMesh::fewest_elements), false, size_of_elements,
@@ -353,17 +309,16 @@ const MeshDescriptor& descriptor_of(MeshKind kind) {
 
 void check_spacing(const Case& input) {
   if (!mesh_uses(input, "model.strike_refinement") && input.model.strike_refinement != 1.0) {
-    throw InvalidCase(
-        "model.strike_refinement",
-        fmt::format("is {:g}, but only elements can be shorter at the strike; allowed "
-                    "with this mesh: 1; leave it out, or set model.mesh = \"hermite\"",
-                    input.model.strike_refinement));
+    refuse("model.strike_refinement",
+           "is {:g}, but only elements can be shorter at the strike; allowed with this mesh: 1; "
+           "leave it out, or set model.mesh = \"hermite\"",
+           input.model.strike_refinement);
   }
   if (!mesh_uses(input, "model.spacing") && input.model.spacing != CellSpacing::cells) {
-    throw InvalidCase("model.spacing",
-                      fmt::format("is {}, but only cells have a spacing; allowed with this mesh: "
-                                  "\"cells\"; leave it out, or set model.mesh = \"cells\"",
-                                  to_text(*find_case_key("model.spacing")->get(input))));
+    refuse("model.spacing",
+           "is {}, but only cells have a spacing; allowed with this mesh: \"cells\"; leave it out, "
+           "or set model.mesh = \"cells\"",
+           to_text(*find_case_key("model.spacing")->get(input)));
   }
 }
 
@@ -374,11 +329,11 @@ void check_mesh(const Case& input) {
     for (const MeshDescriptor& row : rows) {
       if (row.suits(input.scene.beam)) suitable.push_back(fmt::format("\"{}\"", row.name));
     }
-    throw InvalidCase("model.mesh",
-                      fmt::format("is \"{}\", which does not model beam.theory = {}; allowed with "
-                                  "it: {}; use one of these, or another theory",
-                                  mesh.name, to_text(*find_case_key("beam.theory")->get(input)),
-                                  fmt::join(suitable, ", ")));
+    refuse("model.mesh",
+           "is \"{}\", which does not model beam.theory = {}; allowed with it: {}; use one of "
+           "these, or another theory",
+           mesh.name, to_text(*find_case_key("beam.theory")->get(input)),
+           fmt::join(suitable, ", "));
   }
   check_spacing(input);
   mesh.check(input);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "case/meshes.h"
+#include "case/refuse.h"
 #include "model/sprung_mesh.h"
 #include "numerics/units.h"
 #include "simulate/methods.h"
@@ -51,9 +52,9 @@ std::shared_ptr<const BeamMesh> on_springs(const Case& input,
   std::size_t n_parts = refinement ? static_cast<std::size_t>(input.model.*refinement->count) : 1;
   if (input.parts.mesh) n_parts = mesh->n_unknowns();
   if (!mesh->displacement_at(0.0)) {
-    throw InvalidCase(input.scene.beam.springs.empty() ? "beam.foundation" : "beam.springs",
-                      "is given, but this mesh gives no displacements along the beam; leave it "
-                      "out, or give the mesh displacement_at()");
+    refuse(input.scene.beam.springs.empty() ? "beam.foundation" : "beam.springs",
+           "is given, but this mesh gives no displacements along the beam; leave it out, or give "
+           "the mesh displacement_at()");
   }
   const bool is_cells = !input.parts.mesh && input.model.mesh == MeshKind::cells;
   return std::make_shared<SprungMesh>(std::move(mesh), input.scene.beam, n_parts, is_cells);

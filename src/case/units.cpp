@@ -24,22 +24,22 @@ constexpr NamedUnit named_units[] = {
     {"N/m2", "N/m2", 0},
 };
 
-bool is_space(char c) { return c == ' ' || c == '\t'; }
-
 }  // namespace
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
+  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
 NumberAndUnit split_unit(std::string_view text) {
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  text = trimmed(text);
   const std::string copy(text);
   char* rest = nullptr;
   std::strtod(copy.c_str(), &rest);
   const auto n = static_cast<std::size_t>(rest - copy.c_str());
   const std::string_view number = text.substr(0, n);
   if (number.find_first_of("0123456789") == number.npos) return {};  // "infinite"
-  std::string_view unit = text.substr(n);
-  while (!unit.empty() && is_space(unit.front())) unit.remove_prefix(1);
-  return {number, unit};
+  return {number, trimmed(text.substr(n))};
 }
 
 std::optional<double> value_in(std::string_view unit, std::string_view text) {

@@ -8,6 +8,9 @@
 
 namespace subimpact {
 
+/// The text without spaces and tabs at its ends.
+std::string_view trimmed(std::string_view text);
+
 /// A number and what follows it; no number: the number of "heavy" is empty.
 struct NumberAndUnit {
   std::string_view number, unit;

@@ -15,8 +15,10 @@
 #include <toml++/toml.h>
 
 #include "case/meshes.h"
+#include "case/refuse.h"
 #include "case/slips.h"
 #include "case/units.h"
+#include "io/record.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
 
@@ -50,20 +52,6 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-std::optional<std::vector<double>> numbers_in(const toml::array& list) {
-  std::vector<double> numbers;
-  for (const toml::node& item : list) {
-    if (const auto* whole = item.as_integer()) {  // value<double>() has none for large ones
-      numbers.push_back(static_cast<double>(whole->get()));
-    } else if (const auto* number = item.as_floating_point()) {
-      numbers.push_back(number->get());
-    } else {
-      return std::nullopt;
-    }
-  }
-  return numbers;
-}
-
 std::string_view line_of(std::string_view text, std::size_t number) {
   for (std::size_t i = 1; i < number && !text.empty(); ++i) {
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
@@ -92,58 +80,22 @@ std::optional<std::size_t> too_deep_at(std::string_view toml) {
   return std::nullopt;
 }
 
-// A number, or a text of one with its unit.
-std::optional<double> number_in(const toml::node* node, const std::string& unit) {
-  if (node == nullptr) return std::nullopt;
-  if (const auto* text = node->as_string()) return value_in(unit, text->get());
-  return node->is_number() ? node->value<double>() : std::nullopt;
-}
-
-// A list of things at points, each a position and one other number or, of forces, a table.
-std::optional<KeyValue> placed_in(const toml::array& list, const CaseKey& key) {
-  PlacedValues values{key.leaf() == "forces" ? "force" : "stiffness", {}};
-  for (const toml::node& item : list) {
-    const toml::table* entry = item.as_table();
-    if (entry == nullptr || entry->size() != 2) return std::nullopt;
-    const auto position = number_in(entry->get("position"), "");
-    if (!position) return std::nullopt;
-    values.entries.push_back({*position, {}});
-    auto& table = values.entries.back().table;
-    if (const auto amount = number_in(entry->get(values.quantity), key.unit)) {
-      table.emplace_back(0.0, *amount);
-      continue;
+// Dates and times, which no key holds, are null.
+Json json_of(const toml::node& node) {
+  return node.visit([](const auto& value) -> Json {
+    if constexpr (toml::is_array<decltype(value)>) {
+      Json list = Json::array();
+      for (const toml::node& item : value) list.push_back(json_of(item));
+      return list;
+    } else if constexpr (toml::is_table<decltype(value)>) {
+      Json object = Json::object();
+      for (const auto& [key, item] : value) object[std::string(key.str())] = json_of(item);
+      return object;
+    } else if constexpr (std::is_constructible_v<Json, decltype(value.get())>) {
+      return value.get();
     }
-    const toml::array* rows = values.quantity == "force" ? (*entry)["table"].as_array() : nullptr;
-    if (rows == nullptr || rows->size() < 2) return std::nullopt;
-    for (const toml::node& row : *rows) {
-      const toml::array* pair = row.as_array();
-      if (pair == nullptr || pair->size() != 2) return std::nullopt;
-      const auto time = number_in(pair->get(0), "s");
-      const auto amount = number_in(pair->get(1), key.unit);
-      if (!time || !amount) return std::nullopt;
-      table.emplace_back(*time, *amount);
-    }
-  }
-  return values;
-}
-
-// Nothing if no key holds such a thing (a date, a table, a mixed list).
-std::optional<KeyValue> to_key_value(const toml::node& node, const CaseKey& key) {
-  if (key.type == KeyType::placed && node.is_array()) return placed_in(*node.as_array(), key);
-  if (const auto* flag = node.as_boolean()) return KeyValue(flag->get());
-  if (const auto* whole = node.as_integer()) return KeyValue(whole->get());
-  if (const auto* number = node.as_floating_point()) return KeyValue(number->get());
-  if (const auto* text = node.as_string()) return KeyValue(text->get());
-  if (const auto* list = node.as_array()) {
-    if (auto numbers = numbers_in(*list); numbers && !numbers->empty()) return *numbers;
-    std::vector<std::string> texts;
-    for (const toml::node& item : *list) {
-      if (!item.is_string()) return std::nullopt;
-      texts.push_back(item.as_string()->get());
-    }
-    return KeyValue(std::move(texts));
-  }
-  return std::nullopt;
+    return nullptr;
+  });
 }
 
 std::string describe_type(const toml::node& node) {
@@ -204,7 +156,7 @@ std::optional<KeyValue> parse_setting(const CaseKey& key, const std::string& tex
     if (too_deep_at(line)) return std::nullopt;
     const toml::table parsed = toml::parse(line);
     if (parsed.size() != 1) return std::nullopt;
-    return to_key_value(*parsed.get("value"), key);
+    return key_value_of(key, json_of(*parsed.get("value")));
   } catch (const toml::parse_error&) {
     return std::nullopt;
   }
@@ -293,7 +245,7 @@ class Reader {
         problems_.push_back(loaded.message(error));
       }
     }
-    if (!problems_.empty()) throw CaseFileError(fmt::format("{}", fmt::join(problems_, "\n")));
+    if (!problems_.empty()) fail<CaseFileError>("{}", fmt::join(problems_, "\n"));
     return loaded;
   }
 
@@ -314,7 +266,7 @@ class Reader {
   bool is_full() const { return problems_.size() >= most_problems; }
 
   void read_value(const CaseKey& key, const toml::node& node, const std::string& where) {
-    std::optional<KeyValue> value = to_key_value(node, key);
+    std::optional<KeyValue> value = key_value_of(key, json_of(node));
     if (value) {
       given_[key.name] = {in_unit_of(key, std::move(*value)), where, true};
     } else {
@@ -415,8 +367,8 @@ std::string read_text(const std::filesystem::path& path) {
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw CaseFileError(fmt::format("{}: cannot be read ({}); give the path of a case file (TOML)",
-                                    name, std::strerror(errno)));
+    fail<CaseFileError>("{}: cannot be read ({}); give the path of a case file (TOML)", name,
+                        std::strerror(errno));
   }
   std::string text(largest_case + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -437,11 +389,10 @@ void refuse_other_files(const std::filesystem::path& path) {
     if (path.extension() != ending) continue;
     const std::filesystem::path beside = path.parent_path() / "case.toml";
     std::error_code ignored;
-    throw CaseFileError(fmt::format(
+    fail<CaseFileError>(
         "{}: is {}, no case file (TOML); give the path of one, such as {}", path.string(), what,
-        std::filesystem::exists(beside, ignored)
-            ? beside.string()
-            : "that which `subimpact new > case.toml` writes"));
+        std::filesystem::exists(beside, ignored) ? beside.string()
+                                                 : "that which `subimpact new > case.toml` writes");
   }
 }
 
@@ -460,18 +411,14 @@ std::string malformed(const std::string& text, const std::string& name,
 Override parse_override(const std::string& setting) {
   const auto equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw CaseFileError(
-        fmt::format("--set {}: not a setting; allowed: table.key=value; write for "
-                    "example --set solver.rtol=1e-9",
-                    setting));
+    fail<CaseFileError>(
+        "--set {}: not a setting; allowed: table.key=value; write for example --set "
+        "solver.rtol=1e-9",
+        setting);
   }
-  const auto trimmed = [](const std::string& text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string::npos) return std::string();
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-  };
-  return {trimmed(setting.substr(0, equals)), trimmed(setting.substr(equals + 1)),
-          "--set " + setting};
+  const std::string_view text = setting;
+  return {std::string(trimmed(text.substr(0, equals))),
+          std::string(trimmed(text.substr(equals + 1))), "--set " + setting};
 }
 
 std::string LoadedCase::message(const InvalidCase& error) const {
@@ -490,16 +437,16 @@ std::string LoadedCase::message(const InvalidCase& error) const {
 LoadedCase read_case_text(const std::string& text, const std::string& name,
                           const std::vector<Override>& overrides) {
   if (text.size() > largest_case) {
-    throw CaseFileError(
-        fmt::format("{}: is larger than {} bytes; allowed: a case file (TOML), which has some "
-                    "1000; give the path of one",
-                    name, largest_case));
+    fail<CaseFileError>(
+        "{}: is larger than {} bytes; allowed: a case file (TOML), which has some 1000; give the "
+        "path of one",
+        name, largest_case);
   }
   if (const auto line = too_deep_at(text)) {
-    throw CaseFileError(fmt::format(
+    fail<CaseFileError>(
         "{}:{}: keys, tables or lists are nested deeper than {}; allowed: tables of keys, such as "
         "[beam] with length = 1; correct this line",
-        name, *line, deepest_nesting));
+        name, *line, deepest_nesting);
   }
   Reader reader(name);
   try {

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
 #include "case/units.h"
-#include "io/key_json.h"
 #include "io/listed_files.h"
+#include "io/record.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
@@ -32,8 +30,6 @@ bool is_empty_list(const KeyValue& value) {
   const auto* numbers = std::get_if<std::vector<double>>(&value);
   return numbers != nullptr && numbers->empty();
 }
-
-using Json = nlohmann::ordered_json;  // editors list the keys in the order of the table
 
 Json number_schema(const char* type, const Limits& limits) {
   Json schema = {{"type", limits.infinity ? Json{type, "null"} : Json(type)}};

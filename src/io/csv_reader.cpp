@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "case/counted.h"
+#include "case/refuse.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
@@ -16,9 +17,7 @@ constexpr std::size_t longest_quotation = 80;
 
 CsvReader::CsvReader(std::istream& file, std::string name, std::string remedy)
     : file_(file), name_(std::move(name)), remedy_(std::move(remedy)) {
-  if (!read_line()) {
-    throw ResultsError(fmt::format("{}: has no heading; {}", name_, remedy_));
-  }
+  if (!read_line()) fail<ResultsError>("{}: has no heading; {}", name_, remedy_);
   heading_.assign(cells_.begin(), cells_.end());
 }
 
@@ -38,8 +37,8 @@ bool CsvReader::read_line() {
 bool CsvReader::next() {
   if (!read_line()) return false;
   if (cells_.size() != heading_.size()) {
-    throw ResultsError(fmt::format("{}:{}: has {} where the header has {}; {}", name_, n_lines_,
-                                   counted(cells_.size(), "cell"), heading_.size(), remedy_));
+    fail<ResultsError>("{}:{}: has {} where the header has {}; {}", name_, n_lines_,
+                       counted(cells_.size(), "cell"), heading_.size(), remedy_);
   }
   return true;
 }
@@ -50,19 +49,18 @@ std::size_t CsvReader::find(std::string_view column) const {
 }
 
 void CsvReader::refuse_lack_of(std::string_view column) const {
-  throw ResultsError(fmt::format("{}: has no column {}; its columns are {}; {}", name_, column,
-                                 fmt::join(heading_, ", "), remedy_));
+  fail<ResultsError>("{}: has no column {}; its columns are {}; {}", name_, column,
+                     fmt::join(heading_, ", "), remedy_);
 }
 
 void CsvReader::refuse_cell(std::size_t column, const char* allowed) const {
-  throw ResultsError(fmt::format("{}:{}: {} is \"{}\"; allowed: {}; {}", name_, n_lines_,
-                                 heading_[column], cells_[column].substr(0, longest_quotation),
-                                 allowed, remedy_));
+  fail<ResultsError>("{}:{}: {} is \"{}\"; allowed: {}; {}", name_, n_lines_, heading_[column],
+                     cells_[column].substr(0, longest_quotation), allowed, remedy_);
 }
 
 void RowOrder::refuse(const char* column, double value, const char* allowed) const {
-  throw ResultsError(fmt::format("{}:{}: {} is {:.17g}; allowed: {}; run the case again", file_,
-                                 line_, column, value, allowed));
+  fail<ResultsError>("{}:{}: {} is {:.17g}; allowed: {}; run the case again", file_, line_, column,
+                     value, allowed);
 }
 
 void RowOrder::check_time(const char* column, double time) {

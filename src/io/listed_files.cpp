@@ -1,6 +1,5 @@
 #include "io/listed_files.h"
 
-#include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <array>
@@ -37,7 +36,7 @@ std::map<std::string, Fingerprint> fingerprints_from(const Json& json) {
   std::map<std::string, Fingerprint> fingerprints;
   for (const auto& [name, entry] : json.items()) {
     if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
-      throw ResultsError(fmt::format("\"{}\" is not the name of a file of results", name));
+      fail<ResultsError>("\"{}\" is not the name of a file of results", name);
     }
     fingerprints[name] = {integer<std::uintmax_t>(entry.at("bytes")),
                           entry.at("sha256").get<std::string>()};
@@ -46,10 +45,8 @@ std::map<std::string, Fingerprint> fingerprints_from(const Json& json) {
 }
 
 [[noreturn]] void refuse_to_read(const fs::path& path, const char* cause) {
-  throw ResultsError(
-      fmt::format("{}: cannot be read ({}); give the output directory of "
-                  "`subimpact run`",
-                  path.string(), cause));
+  fail<ResultsError>("{}: cannot be read ({}); give the output directory of `subimpact run`",
+                     path.string(), cause);
 }
 
 // A pipe or a device may never end.
@@ -121,12 +118,11 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
   const fs::path path = directory / manifest_name;
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored))) return {};
-  try {
-    const Json json = Json::parse(read_whole_file(path));
+  Manifest manifest;
+  read_json(path, read_whole_file(path), "a manifest of this program", "", [&](const Json& json) {
     if (integer<int>(json.at("subimpact_manifest")) > manifest_layout) {
       throw ResultsError("a later version of this program wrote it; use that version");
     }
-    Manifest manifest;
     manifest.kind = json.at("kind").get<std::string>();
     manifest.identity = json.at("identity").get<std::string>();
     manifest.commit = json.at("commit").get<std::string>();
@@ -135,13 +131,8 @@ std::optional<Manifest> read_manifest(const fs::path& directory) {
     if (manifest.commit.find_first_not_of(hexadecimal) != std::string::npos) {
       throw ResultsError("\"commit\" is not a hexadecimal number");
     }
-    return manifest;
-  } catch (const ResultsError& error) {
-    throw ResultsError(fmt::format("{}: {}", path.string(), error.what()));
-  } catch (const std::exception& error) {
-    throw ResultsError(
-        fmt::format("{}: is not a manifest of this program ({})", path.string(), error.what()));
-  }
+  });
+  return manifest;
 }
 
 std::string to_json(const Manifest& manifest) {
@@ -160,11 +151,6 @@ std::string read_whole_file(const fs::path& path) {
   return text_of(file, path);
 }
 
-void throw_always_replaced(const fs::path& directory) {
-  throw ResultsError(fmt::format(
-      "{}: is written anew again and again; read it when the runs have ended", directory.string()));
-}
-
 ListedFiles::ListedFiles(fs::path directory)
     : directory_(std::move(directory)), manifest_(read_manifest(directory_)) {}
 
@@ -177,8 +163,8 @@ std::ifstream ListedFiles::open(const std::string& name) const {
   if (!are_listed()) return open_file(path);
   const auto listed = manifest_->files.find(name);
   if (listed == manifest_->files.end()) {
-    throw ResultsError(fmt::format("{}: is not among the results of `subimpact {}` that {} lists",
-                                   path.string(), manifest_->kind, manifest_name));
+    fail<ResultsError>("{}: is not among the results of `subimpact {}` that {} lists",
+                       path.string(), manifest_->kind, manifest_name);
   }
   // A file that is not yet in its place waits under the name of its commit.
   for (const fs::path& place : {path, staging_of(directory_, manifest_->commit) / name, path}) {
@@ -190,10 +176,10 @@ std::ifstream ListedFiles::open(const std::string& name) const {
   }
   const std::optional<Manifest> now = read_manifest(directory_);
   if (now && now->commit != manifest_->commit) throw ReplacedMeanwhile();
-  throw ResultsError(fmt::format(
-      "{}: is not the file that the run wrote (its length or checksum differs from {}): "
-      "it was changed or cut short since; run the case again",
-      path.string(), manifest_name));
+  fail<ResultsError>(
+      "{}: is not the file that the run wrote (its length or checksum differs from {}): it was "
+      "changed or cut short since; run the case again",
+      path.string(), manifest_name);
 }
 
 std::string ListedFiles::text(const std::string& name) const {

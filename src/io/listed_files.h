@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "case/refuse.h"
+
 namespace subimpact {
 
 /// What a file must be: its length in bytes and its SHA-256 in hexadecimal digits.
@@ -54,9 +56,6 @@ int write_all(int file, std::string_view content);
 /// place since: what was read so far is to be read again.
 struct ReplacedMeanwhile {};
 
-/// Throws ResultsError.
-[[noreturn]] void throw_always_replaced(const std::filesystem::path& directory);
-
 /// The files of a directory as its manifest lists them, to be read.
 class ListedFiles {
  public:
@@ -88,7 +87,8 @@ auto read_listed(const std::filesystem::path& directory, Read read) {
     } catch (const ReplacedMeanwhile&) {
     }
   }
-  throw_always_replaced(directory);
+  fail<ResultsError>("{}: is written anew again and again; read it when the runs have ended",
+                     directory.string());
 }
 
 }  // namespace subimpact

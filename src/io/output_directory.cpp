@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "case/refuse.h"
 #include "io/listed_files.h"
 #include "subimpact/io/read_results.h"
 
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& cause) {
-  throw OutputError(fmt::format("{}: {}; choose another with --out", path.string(), cause));
+  fail<OutputError>("{}: {}; choose another with --out", path.string(), cause);
 }
 
 // Waits until a file, or the names in a directory, are on the disk. A link is followed for the
@@ -51,9 +52,9 @@ std::optional<Manifest> manifest_for_writing(const fs::path& directory) {
   try {
     return read_manifest(directory);
   } catch (const ResultsError& error) {
-    throw OutputError(fmt::format(
+    fail<OutputError>(
         "{}; nothing is written beside it: move it away, or choose another directory with --out",
-        error.what()));
+        error.what());
   }
 }
 
@@ -172,16 +173,15 @@ std::string new_identity() {
 }
 
 void write_file(const fs::path& path, const std::string& content) {
-  const auto fail = [&](int cause) {
-    throw OutputError(
-        fmt::format("{}: cannot be written ({}); free the disk or choose another "
-                    "directory with --out",
-                    place_of(path).string(), std::strerror(cause)));
+  const auto refuse_to_write = [&](int cause) {
+    fail<OutputError>(
+        "{}: cannot be written ({}); free the disk or choose another directory with --out",
+        place_of(path).string(), std::strerror(cause));
   };
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file < 0) fail(errno);
+  if (file < 0) refuse_to_write(errno);
   const int cause = write_all(file, content);
-  if (close(file) != 0 || cause != 0) fail(cause != 0 ? cause : errno);
+  if (close(file) != 0 || cause != 0) refuse_to_write(cause != 0 ? cause : errno);
 }
 
 int write_all(int file, std::string_view content) {
@@ -252,10 +252,10 @@ void OutputDirectory::commit() {
   try {
     write_manifest();
   } catch (const std::system_error& failure) {
-    throw OutputError(
-        fmt::format("{}: the results cannot be put in place ({}); free the disk or choose another "
-                    "directory with --out",
-                    path_.string(), failure.code().message()));
+    fail<OutputError>(
+        "{}: the results cannot be put in place ({}); free the disk or choose another directory "
+        "with --out",
+        path_.string(), failure.code().message());
   }
   // The files are readable from here on, wherever they are found.
   if (is_relocated() && !is_committed_) {
@@ -335,9 +335,8 @@ void OutputDirectory::put_in_place(const std::string& name, const Manifest& mani
 
 void OutputDirectory::relocate(const std::string& cause) {
   const auto give_up = [&](const std::string& second_cause) {
-    throw OutputError(
-        fmt::format("{}; nor can the results be written to a directory for temporary files ({})",
-                    relocation_, second_cause));
+    fail<OutputError>("{}; nor can the results be written to a directory for temporary files ({})",
+                      relocation_, second_cause);
   };
   if (is_relocated()) give_up(cause);
   relocation_ = cause;

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "case/refuse.h"
 #include "io/csv_reader.h"
 #include "io/listed_files.h"
 #include "io/row_thinning.h"
@@ -40,10 +41,10 @@ FinishedRun read_once(const fs::path& directory, const ListedFiles& files) {
   FinishedRun run;
   read_summary(directory / "summary.json", files.text("summary.json"), run);
   if (!files.manifest() || files.manifest()->kind != "run") {
-    throw ResultsError(
-        fmt::format("{}: has no {} of a run, without which nothing shows that its files belong "
-                    "together; run the case again",
-                    directory.string(), manifest_name));
+    fail<ResultsError>(
+        "{}: has no {} of a run, without which nothing shows that its files belong together; run "
+        "the case again",
+        directory.string(), manifest_name);
   }
   run.identity = files.manifest()->identity;
   for_each_run_table([&](const auto& table) {
@@ -53,10 +54,10 @@ FinishedRun read_once(const fs::path& directory, const ListedFiles& files) {
   });
   const Result& result = run.result;
   if (!result.shapes.empty() && result.shapes.size() % result.used.n_shape_points != 0) {
-    throw ResultsError(
-        fmt::format("{}: has {} rows, which are no whole shapes of {} points; run the case again",
-                    (directory / run_table<ShapeRow>().file).string(), result.shapes.size(),
-                    result.used.n_shape_points));
+    fail<ResultsError>(
+        "{}: has {} rows, which are no whole shapes of {} points; run the case again",
+        (directory / run_table<ShapeRow>().file).string(), result.shapes.size(),
+        result.used.n_shape_points);
   }
   return run;
 }
@@ -111,9 +112,7 @@ SweptRuns read_runs(const ListedFiles& files, const fs::path& path) {
     runs.numbers.push_back(number);
     for (std::size_t k = 0; k < n; ++k) cells[k].emplace_back(csv.cell(k));
   }
-  if (runs.numbers.empty()) {
-    throw ResultsError(fmt::format("{}: has no run yet; {}", path.string(), remedy));
-  }
+  if (runs.numbers.empty()) fail<ResultsError>("{}: has no run yet; {}", path.string(), remedy);
   for (std::size_t k = 0; k < n; ++k) {
     if (k == run) continue;
     SweptRuns::Column column{csv.heading()[k], k > run && k < outcome, {}, {}};
@@ -158,10 +157,9 @@ void read_sub_impacts(const ListedFiles& files, const fs::path& path, SweptRuns&
 FinishedRun read_results(const fs::path& directory) {
   std::error_code ignored;
   if (!fs::is_directory(directory, ignored)) {
-    throw ResultsError(
-        fmt::format("{}: is not a directory; give the output directory of "
-                    "`subimpact run` (--out)",
-                    directory.string()));
+    fail<ResultsError>(
+        "{}: is not a directory; give the output directory of `subimpact run` (--out)",
+        directory.string());
   }
   return read_listed(directory,
                      [&](const ListedFiles& files) { return read_once(directory, files); });

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 
+#include "case/refuse.h"
 #include "case/units.h"
 #include "io/csv_reader.h"
 #include "subimpact/io/read_results.h"
@@ -55,11 +56,11 @@ UnitColumn column_in(const CsvReader& csv, const std::string& file, std::string_
     names += (names.empty() ? "" : ", ") + name;
   }
   if (found.size() == 1) return found.front();
-  throw ResultsError(fmt::format(
+  fail<ResultsError>(
       "{}:1: {} in a unit of {} ({}); {}", file,
       found.empty() ? "no column's name ends" : "the names of several columns (" + names + ") end",
       what, units_beside(unit),
-      found.empty() ? remedy : fmt::format("let that of one of them begin with \"{}\"", what)));
+      found.empty() ? remedy : fmt::format("let that of one of them begin with \"{}\"", what));
 }
 
 // With commas between cells, without carriage returns and byte order mark.
@@ -70,10 +71,10 @@ std::string normalised(std::string text, const std::string& file) {
   for (const char separator : {';', '\t'}) {
     if (heading.find(separator) == heading.npos) continue;
     if (const std::size_t comma = text.find(',', heading.size()); comma != text.npos) {
-      throw ResultsError(fmt::format(
+      fail<ResultsError>(
           "{}:{}: has a comma within a number; {}", file,
           1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(comma), '\n'),
-          remedy));
+          remedy);
     }
     std::ranges::replace(text, ',', ' ');  // of the heading
     std::ranges::replace(text, separator, ',');
@@ -96,10 +97,8 @@ double number_in(const CsvReader& csv, std::size_t column) {
 Signal read_signal(const std::filesystem::path& path) {
   const std::string file = path.string();
   std::ifstream stream(path);
-  if (!stream) {
-    throw ResultsError(
-        fmt::format("{}: cannot be read ({}); {}", file, std::strerror(errno), remedy));
-  }
+  if (!stream)
+    fail<ResultsError>("{}: cannot be read ({}); {}", file, std::strerror(errno), remedy);
   std::istringstream text(normalised({std::istreambuf_iterator<char>(stream), {}}, file));
   CsvReader csv(text, file, remedy);
   const UnitColumn time = column_in(csv, file, "s", "time");
@@ -114,8 +113,8 @@ Signal read_signal(const std::filesystem::path& path) {
     }
   }
   if (signal.times.size() < 3) {
-    throw ResultsError(fmt::format("{}: has {} rows of numbers, and 3 are the least; {}", file,
-                                   signal.times.size(), remedy));
+    fail<ResultsError>("{}: has {} rows of numbers, and 3 are the least; {}", file,
+                       signal.times.size(), remedy);
   }
   return signal;
 }

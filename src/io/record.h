@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <type_traits>
 
 #include <nlohmann/json.hpp>
 
 #include "case/case_choices.h"
+#include "subimpact/case/case_keys.h"
 #include "subimpact/io/read_results.h"
 
 namespace subimpact {
@@ -26,6 +28,11 @@ Int integer(const nlohmann::json& json) {
   }
   throw std::out_of_range(fmt::format("{} is not an integer that fits", json.dump()));
 }
+
+/// Calls `use` with what a JSON file holds. Throws ResultsError with the file's path, what is wrong
+/// (what `use` throws, or that the file is not `what`) and the remedy.
+void read_json(const std::filesystem::path& path, const std::string& text, const char* what,
+               const char* remedy, const std::function<void(const Json&)>& use);
 
 /// How a member stands in a file where this is not plain, and which values are allowed.
 enum class Form {
@@ -52,6 +59,11 @@ inline void assign(std::vector<std::string>& texts, const Json& json, const std:
   texts = json.get<std::vector<std::string>>();
 }
 inline Json json_of(const Json& json, Form) { return json; }
+
+/// A value of a key: a number, a text, a list; things at points are a list of objects.
+Json json_of(const KeyValue& value);
+/// Its inverse, also for what a case file holds. Nothing if no key can hold it (a mixed list).
+std::optional<KeyValue> key_value_of(const CaseKey& key, const Json& json);
 
 template <std::integral Int>
 Json json_of(Int value, Form form) {

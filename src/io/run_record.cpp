@@ -1,45 +1,34 @@
 #include "io/run_record.h"
-#include "io/key_json.h"
+
+#include "case/refuse.h"
 
 #include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 
-template <class Enum, std::size_t n>
-static std::array<Named<Enum>, n> named(const Enum (&kinds)[n]) {
-  std::array<Named<Enum>, n> names;
-  std::transform(kinds, kinds + n, names.begin(), [](Enum kind) {
-    return Named<Enum>{kind, to_string(kind).data(), ""};
-  });
-  return names;
+template <auto... kinds>
+static auto names_of_kinds() {
+  using Row = Named<std::common_type_t<decltype(kinds)...>>;
+  static const Row names[] = {{kinds, to_string(kinds).data(), ""}...};
+  return std::span<const Row>(names);
 }
 
 std::span<const Named<OutcomeKind>> names_of(OutcomeKind) {
-  static const auto names = named(
-      {OutcomeKind::completed, OutcomeKind::stopped, OutcomeKind::inaccurate, OutcomeKind::unstable,
-       OutcomeKind::chattering, OutcomeKind::solver_failed, OutcomeKind::left_validity});
-  return names;
+  using enum OutcomeKind;
+  return names_of_kinds<completed, stopped, inaccurate, unstable, chattering, solver_failed,
+                        left_validity>();
 }
 
 std::span<const Named<NearMissKind>> names_of(NearMissKind) {
-  static const auto names = named({NearMissKind::opening, NearMissKind::closing});
-  return names;
+  return names_of_kinds<NearMissKind::opening, NearMissKind::closing>();
 }
 
 std::span<const Named<EventKind>> names_of(EventKind) {
-  static const auto names =
-      named({EventKind::contact_begins, EventKind::contact_yields, EventKind::contact_unloads,
-             EventKind::contact_ends, EventKind::section_reverses});
-  return names;
+  using enum EventKind;
+  return names_of_kinds<contact_begins, contact_yields, contact_unloads, contact_ends,
+                        section_reverses>();
 }
 
-static Json json_of(const Total& total, Form form) {
-  return {{"value", json_of(total.value, form)}, {"error", json_of(total.error, form)}};
-}
-static void assign(Total& total, const Json& json, const std::string&, Form form) {
-  assign(total.value, json.at("value"), "value", form);
-  assign(total.error, json.at("error"), "error", form);
-}
 static Json json_of(const Interval& times, Form) { return {times.from, times.to}; }
 static void assign(Interval& times, const Json& json, const std::string& name, Form form) {
   assign(times.from, json.at(0), name, form);
@@ -55,6 +44,10 @@ struct BeamAtRest {
 };
 
 // clang-format off
+const Record<Total> total_record = {
+    {"value", "", &Total::value},
+    {"error", "", &Total::error}};
+
 const Record<ZoneSummary> zone_record = {
     {"zone", "number of the zone, from 1", &ZoneSummary::zone},
     {"sub_impacts", "their number", &ZoneSummary::n_sub_impacts},
@@ -104,10 +97,10 @@ const Record<ErrorEstimate> error_record = {
     {"finer_meshes", "of a mesh that the case fixes: what finer ones would change", &ErrorEstimate::finer_meshes, finer_meshes_record}};
 
 const Record<ZoneTotals> zone_totals_record = {
-    {"start_s", "", &ZoneTotals::start},
-    {"end_s", "", &ZoneTotals::end},
-    {"impulse_Ns", "", &ZoneTotals::impulse},
-    {"sub_impacts", "", &ZoneTotals::sub_impacts}};
+    {"start_s", "", &ZoneTotals::start, total_record},
+    {"end_s", "", &ZoneTotals::end, total_record},
+    {"impulse_Ns", "", &ZoneTotals::impulse, total_record},
+    {"sub_impacts", "", &ZoneTotals::sub_impacts, total_record}};
 
 const Record<Predictability::Zone> zone_scatter_record = {
     {"start_scatter_s", "standard deviation of the zone's start", &Predictability::Zone::start_scatter},
@@ -161,24 +154,9 @@ Json json_of_setting(const KeyValue& value) {
 }
 
 KeyValue setting_of(const CaseKey& key, const Json& json) {
-  switch (key.type) {
-    case KeyType::flag:
-      return json.get<bool>();
-    case KeyType::count:
-      return integer<std::int64_t>(json);
-    case KeyType::number:
-      return json == "inf" ? std::numeric_limits<double>::infinity() : json.get<double>();
-    case KeyType::text:
-    case KeyType::choice:
-      return json.get<std::string>();
-    case KeyType::pair:
-      return json.get<std::vector<std::string>>();
-    case KeyType::numbers:
-      return json.get<std::vector<double>>();
-    case KeyType::placed:
-      return placed_of(key, json);
-  }
-  throw std::logic_error("setting_of: a key of unknown type");
+  if (json == "inf") return std::numeric_limits<double>::infinity();
+  if (const auto value = key_value_of(key, json)) return *value;
+  fail<ResultsError>("{} is {}, which no key can hold", key.name, json.dump());
 }
 
 Json case_json(const DescribedRun& run) {
@@ -274,7 +252,7 @@ Json totals_json(const DescribedRun& run) {
   if (!run.result->error_estimate) return nullptr;
   Json json;
   for (const auto& [name, total] : run.result->error_estimate->totals) {
-    json[name] = json_of(total, Form::plain);
+    json[name] = json_of(total_record, total);
   }
   json["by_zone"] = json_of(zone_totals_record, run.result->error_estimate->zones);
   return json;
@@ -285,7 +263,7 @@ void read_totals(const Json& json, DescribedRun& run) {
   ErrorEstimate& estimate = *run.result->error_estimate;
   for (const auto& [name, total] : json.items()) {
     if (name == "by_zone") continue;
-    assign(estimate.totals.emplace_back(name, Total()).total, total, name, Form::plain);
+    assign(total_record, total, estimate.totals.emplace_back(name, Total()).total);
   }
   assign(zone_totals_record, json.at("by_zone"), estimate.zones);
 }

@@ -54,12 +54,8 @@ std::string with_scatter(double value, const std::optional<double>& scatter) {
   return fmt::format("{} +- {}", with_decimals(value, rounding->decimals), rounding->error);
 }
 
-std::string zone_line(const Predictability::Zone& zone, const ZoneSummary& summary) {
-  std::string text = fmt::format("{:>6} {:>22} {:>22}", fmt::format("zone {}", summary.zone),
-                                 scattered(summary.start, zone.start_scatter),
-                                 scattered(summary.end, zone.end_scatter));
-  return text +
-         fmt::format("  impulse {} N s\n", with_scatter(summary.impulse, zone.impulse_scatter));
+std::string line(const std::string& label, const std::string& start, const std::string& end) {
+  return fmt::format("{:>6} {:>22} {:>22}", label, start, end);
 }
 
 }  // namespace
@@ -129,22 +125,26 @@ std::string predictability_words(const Result& result) {
 
 std::string scatter_table(const Result& result) {
   const Predictability& found = *result.predictability;
-  std::string text;
-  text += fmt::format(
+  std::string text =
       "standard deviations by the scatter of the case (?: not known, or more than is possible: "
-      "derivatives do not hold that far)\n{:>6} {:>22} {:>22}\n",
-      "no.", "start, us", "end, us");
+      "derivatives do not hold that far)\n" +
+      line("no.", "start, us", "end, us") + '\n';
   for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
     if (found.first_unpredictable == i) {
       text += fmt::format("from here on not predictable: {}\n", found.reason);
     }
     const SubImpact& s = result.sub_impacts[i];
-    text += fmt::format("{:>6} {:>22} {:>22}\n", i + 1, scattered(s.start, s.start_scatter),
-                        scattered(s.end, s.end_scatter));
+    text += line(std::to_string(i + 1), scattered(s.start, s.start_scatter),
+                 scattered(s.end, s.end_scatter)) +
+            '\n';
   }
   const std::vector<ZoneSummary> zones = summarise_zones(result.sub_impacts);
   for (std::size_t z = 0; z < std::min(zones.size(), found.zones.size()); ++z) {
-    text += zone_line(found.zones[z], zones[z]);
+    const Predictability::Zone& zone = found.zones[z];
+    text +=
+        line(fmt::format("zone {}", zones[z].zone), scattered(zones[z].start, zone.start_scatter),
+             scattered(zones[z].end, zone.end_scatter)) +
+        fmt::format("  impulse {} N s\n", with_scatter(zones[z].impulse, zone.impulse_scatter));
   }
   return text + fmt::format("striker, at the end: {} m/s\n",
                             with_scatter(result.striker_velocity, found.striker_velocity_scatter));

@@ -1,14 +1,11 @@
-#include "io/state_file.h"
-
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
 #include <ranges>
 
-#include "case/case_choices.h"
+#include "case/refuse.h"
 #include "io/listed_files.h"
-#include "io/record.h"
+#include "io/run_record.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/read_results.h"
@@ -17,12 +14,29 @@ namespace subimpact {
 namespace {
 
 constexpr int state_layout = 3;
-constexpr int deepest_state = 8;
 
 template <auto path>
 constexpr auto of_striker = [](auto& state) -> auto& {
   return state.striker.*path;
 };
+
+const Record<RunState>& state_record();
+std::shared_ptr<const RunState> state_of(const Json& json);
+
+Json beside_json(const RunState& state) {
+  Json list = Json::array();
+  for (const auto& [description, other] : state.beside) {
+    list.push_back({{"description", description}, {"state", json_of(state_record(), *other)}});
+  }
+  return list;
+}
+
+void read_beside(const Json& list, RunState& state) {
+  for (const Json& other : list) {
+    state.beside.emplace_back(other.at("description").get<std::string>(),
+                              state_of(other.at("state")));
+  }
+}
 
 const Record<RunState>& state_record() {
   static const Record<RunState> record = {
@@ -34,28 +48,16 @@ const Record<RunState>& state_record() {
       {"striker_position", "", of_striker<&Striker::position>, Form::from_zero},
       {"mesh", "", &RunState::mesh},
       {"section", "", &RunState::section},
-      {"contact_law", "", &RunState::contact_law}};
+      {"contact_law", "", &RunState::contact_law},
+      {"numbers", "", [](const RunState& state) { return Json(state.numbers); },
+       [](const Json& json, RunState& state) { json.get_to(state.numbers); }},
+      {"beside", "", &beside_json, &read_beside}};
   return record;
-}
-
-Json json_of(const RunState& state) {
-  Json json = json_of(state_record(), state);
-  json["numbers"] = state.numbers;
-  json["beside"] = Json::array();
-  for (const auto& [description, other] : state.beside) {
-    json["beside"].push_back({{"description", description}, {"state", json_of(*other)}});
-  }
-  return json;
 }
 
 std::shared_ptr<const RunState> state_of(const Json& json) {
   auto state = std::make_shared<RunState>();
   assign(state_record(), json, *state);
-  state->numbers = json.at("numbers").get<decltype(state->numbers)>();
-  for (const Json& other : json.at("beside")) {
-    state->beside.emplace_back(other.at("description").get<std::string>(),
-                               state_of(other.at("state")));
-  }
   return state;
 }
 
@@ -79,42 +81,27 @@ std::string text_of(const CaseKey& key, const Case& input) {
 
 std::string state_json(const RunState& state) {
   Json json = {{"subimpact_state", state_layout}};
-  json.update(json_of(state));
+  json.update(json_of(state_record(), state));
   return json.dump() + "\n";
-}
-
-std::shared_ptr<const RunState> state_from(const std::string& text) {
-  try {
-    const auto refuse_deep = [](int depth, Json::parse_event_t, Json&) {
-      if (depth <= deepest_state) return true;
-      throw ResultsError("is nested too deep");
-    };
-    const Json json = Json::parse(text, refuse_deep);
-    if (integer<int>(json.at("subimpact_state")) != state_layout) {
-      throw ResultsError("is of another version of this program; run the case again");
-    }
-    return state_of(json);
-  } catch (const ResultsError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw ResultsError(fmt::format("is not the state of a run ({})", error.what()));
-  }
 }
 
 FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& loaded) {
   FinishedRun run = read_results(directory);
-  run.result.end_state = read_listed(directory, [&](const ListedFiles& files) {
+  read_listed(directory, [&](const ListedFiles& files) {
     if (!files.manifest()->files.contains(state_name)) {
-      throw ResultsError(
-          fmt::format("{}: holds no {}: the run failed, or an older version made it; "
-                      "no run can go on from there",
-                      directory.string(), state_name));
+      fail<ResultsError>(
+          "{}: holds no {}: the run failed, or an older version made it; no run can go on from "
+          "there",
+          directory.string(), state_name);
     }
-    try {
-      return state_from(files.text(state_name));
-    } catch (const ResultsError& error) {
-      throw ResultsError(fmt::format("{}: {}", (directory / state_name).string(), error.what()));
-    }
+    const auto read = [&](const Json& json) {
+      if (integer<int>(json.at("subimpact_state")) != state_layout) {
+        throw ResultsError("is of another version of this program");
+      }
+      run.result.end_state = state_of(json);
+    };
+    read_json(directory / state_name, files.text(state_name), "the state of a run",
+              "; run the case again", read);
   });
   const auto is_given = [&](const CaseKey& key) {
     return loaded.given.in_file.contains(key.name) || loaded.given.in_settings.contains(key.name);
@@ -133,11 +120,11 @@ FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& lo
     if (here != there) differences.push_back(fmt::format("{} = {}, not {}", key.name, here, there));
   }
   if (!differences.empty()) {
-    throw CaseFileError(fmt::format(
+    fail<CaseFileError>(
         "--continue {}: the case differs from that of the run there: {}; allowed to differ: the "
         "striker's mass, velocity and gap, and the tables time, solver, accuracy, output, strike "
         "and repeat",
-        directory.string(), fmt::join(differences, "; ")));
+        directory.string(), fmt::join(differences, "; "));
   }
   loaded.value.parts.start = run.result.end_state;
   return run;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "case/problem.h"
+#include "case/refuse.h"
 #include "integrate/sundials.h"
 #include "io/run_record.h"
 #include "subimpact/case/case_keys.h"
@@ -14,20 +15,12 @@
 namespace subimpact {
 namespace {
 
-constexpr int deepest_summary = 16;
-
-// Copies of deeply nested values exhaust the stack.
-bool refuse_deep_nesting(int depth, Json::parse_event_t, Json&) {
-  if (depth <= deepest_summary) return true;
-  throw ResultsError(fmt::format("is nested deeper than {}", deepest_summary));
-}
-
 void check_layout(const Json& json) {
   const Json& layout = json.at("layout");
   if (layout == summary_layout) return;
-  throw ResultsError(
-      fmt::format("has layout {}, but this program reads layout {}; use the program that wrote it",
-                  layout.dump(), summary_layout));
+  fail<ResultsError>(
+      "has layout {}, but this program reads layout {}; use the program that wrote it",
+      layout.dump(), summary_layout);
 }
 
 // Entries reach what they hold by pointers that serve reading too; writing changes nothing.
@@ -62,30 +55,23 @@ std::vector<NamedScalar> scalars_of(const FinishedRun& run) {
 }
 
 void read_summary(const std::filesystem::path& path, const std::string& text, FinishedRun& run) {
-  const auto refuse = [&](const std::string& cause) {
-    throw ResultsError(fmt::format("{}: {}; run the case again", path.string(), cause));
-  };
-  try {
-    const Json json = Json::parse(text, refuse_deep_nesting);
+  const auto read = [&](const Json& json) {
     check_layout(json);
     DescribedRun described = {&run.input, &run.result, {}, {}};
-    assign(run_record(), json, described);
+    try {
+      assign(run_record(), json, described);
+    } catch (const InvalidCase& error) {
+      fail<ResultsError>("the case in this file is not valid: {} {}", error.key, error.what());
+    }
     run.program_version = std::move(described.program_version);
     run.libraries = std::move(described.libraries);
-  } catch (const ResultsError& error) {
-    refuse(error.what());
-  } catch (const InvalidCase& error) {
-    throw ResultsError(fmt::format("{}: the case in this file is not valid: {} {}", path.string(),
-                                   error.key, error.what()));
-  } catch (const std::exception& error) {  // of JSON, or of a name or number in a text
-    refuse(fmt::format("is not the summary of a run ({})", error.what()));
-  }
-  try {
-    contact_law_of(run.input);  // of which figures draw branches
-  } catch (const std::invalid_argument& error) {
-    throw ResultsError(
-        fmt::format("{}: the case in this file is not valid: {}", path.string(), error.what()));
-  }
+    try {
+      contact_law_of(run.input);  // of which figures draw branches
+    } catch (const std::invalid_argument& error) {
+      fail<ResultsError>("the case in this file is not valid: {}", error.what());
+    }
+  };
+  read_json(path, text, "the summary of a run", "; run the case again", read);
 }
 
 std::string project_version() { return SUBIMPACT_VERSION; }

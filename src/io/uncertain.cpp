@@ -251,15 +251,9 @@ std::optional<double> error_of_total(const Result& result, std::string_view name
 
 std::string total_text(const Result& result, const char* name, double value, double factor,
                        int decimals, const char* unit) {
-  value *= factor;
   const std::string in_unit = *unit ? std::string(" ") + unit : std::string();
-  if (!result.error_estimate) return fmt::format("{:.{}f}{}", value, decimals, in_unit);
-  const Number error = scaled(error_of_total(result, name), factor);
-  const auto rounding = rounding_of(error.value_or(HUGE_VAL), decimals);
-  if (!rounding) {
-    return with_digits(value, digits_if_uncertain) + in_unit;
-  }
-  return fmt::format("{} +- {}{}", rounded(value, rounding->decimals), rounding->error, in_unit);
+  if (!result.error_estimate) return fmt::format("{:.{}f}{}", factor * value, decimals, in_unit);
+  return text_of({value, error_of_total(result, name)}, factor, decimals) + in_unit;
 }
 
 std::string place_of_doubt(const Result& result, std::size_t first_unresolved,

@@ -5,9 +5,10 @@
 #include <cerrno>
 #include <cstring>
 
+#include "case/refuse.h"
 #include "io/listed_files.h"
+#include "io/run_record.h"
 #include "io/run_tables.h"
-#include "io/state_file.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
 
@@ -74,8 +75,8 @@ class ResultWriter::RowFile {
   // `cause`: 0, or an error's number.
   static void check(const OutputDirectory& directory, int cause) {
     if (cause == 0) return;
-    throw OutputError(
-        fmt::format("{}: cannot be written ({})", directory.path().string(), std::strerror(cause)));
+    fail<OutputError>("{}: cannot be written ({})", directory.path().string(),
+                      std::strerror(cause));
   }
 
   std::string name_;
@@ -115,10 +116,10 @@ void check_space(const OutputDirectory& directory, const Case& input) {
   const auto available = static_cast<double>(fs::space(directory.path(), error).available);
   const double expected = expected_bytes(input);
   if (error || expected <= available) return;
-  throw OutputError(
-      fmt::format("{}: the rows of this run take some {:.2g} GB, and the disk has {:.2g} GB free; "
-                  "use a longer output.interval, or choose another directory with --out",
-                  directory.path().string(), 1e-9 * expected, 1e-9 * available));
+  fail<OutputError>(
+      "{}: the rows of this run take some {:.2g} GB, and the disk has {:.2g} GB free; use a longer "
+      "output.interval, or choose another directory with --out",
+      directory.path().string(), 1e-9 * expected, 1e-9 * available);
 }
 
 }  // namespace

@@ -67,6 +67,8 @@ const Slip slips[] = {
      {"beam.density is 2.6e+06 kg/m3|osmium|if g/m3 was meant, write 2600"}},
     {{"striker.velocity=15900"},
      {"striker.velocity is 15900 m/s|rifle bullet|if mm/s was meant, write 15.9"}},
+    {{"striker.velocity=default", "striker.drop_height=60000"},
+     {"striker.drop_height is 60000 m|rifle bullet|if mm was meant, write 60"}},
     {{"striker.mass=201"}, {"striker.mass is 201 kg|889 times the beam's 0.226 kg|write 0.201"}},
     {{"time.end=8"},
      {"time.end is 8 s|periods of the beam's slowest vibration|if ms was meant, write 0.008"}},
