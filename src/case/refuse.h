@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "subimpact/simulate/error.h"
+#include "simulate/refuse.h"
 
 namespace subimpact {
 
@@ -13,13 +13,6 @@ namespace subimpact {
 template <class Error, class... Values>
 [[noreturn]] void fail(fmt::format_string<Values...> message, Values&&... values) {
   throw Error(fmt::format(message, std::forward<Values>(values)...));
-}
-
-/// Throws InvalidCase.
-template <class... Values>
-[[noreturn]] void refuse(const char* key, fmt::format_string<Values...> message,
-                         Values&&... values) {
-  throw InvalidCase(key, fmt::format(message, std::forward<Values>(values)...));
 }
 
 /// A rule across keys: the key that breaks it, and the message.

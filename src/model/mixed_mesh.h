@@ -81,6 +81,7 @@ class MixedMesh final : public BeamMesh {
   bool is_clamped(std::size_t node) const;
   /// Whether an ideal hinge may form at a node: at the strike and at clamped ends.
   bool may_hinge(std::size_t node) const { return node == struck_node_ || is_clamped(node); }
+  double node_position(std::size_t node) const { return node_positions_[node]; }  ///< m
 
  private:
   class Solver;

@@ -142,13 +142,15 @@ std::vector<std::size_t> shapes_drawn(const Result& result, std::size_t n_points
 
 }  // namespace
 
-FigureScript response_figure(const Case&, const Result& result) {
-  FigureScript figure{"response",
-                      "Contact force and displacements over the strike: w_c of the struck point, "
-                      "w_m of the striker, f_c = w_c − w(0) the beam's deflection at the struck "
-                      "point. Shaded: sub-impacts, hatched where they are not certain.",
-                      {800, 580}};
+FigureScript response_figure(const Case& input, const Result& result) {
+  FigureScript figure{
+      "response",
+      "Contact force and displacements over the strike: w_c of the struck point, "
+      "w_m of the striker or stop, f_c = w_c − w(0) the beam's deflection at the struck "
+      "point. Shaded: sub-impacts, hatched where they are not certain.",
+      {800, 580}};
   figure.history({"force_N", "w_c_m", "w_m_m", "f_c_m"}, result.history, {690, 210});
+  figure.set("is_stop", input.scene.striker.fixed);
   add_sub_impacts(figure, result);
   figure.set("largest_force", result.max_force);
   figure.set("largest_displacement",
@@ -207,16 +209,18 @@ FigureScript indentation_figure(const Case& input, const Result& result) {
   return figure;
 }
 
-FigureScript energies_figure(const Case&, const Result& result) {
-  FigureScript figure{"energies",
-                      "Energies, and the motion of striker (u_mf = w_m − w(0)) and struck point "
-                      "(f_c = w_c − w(0)) relative to the beam's end. Above: zones, sub-zones and "
-                      "sub-impacts, pale where they are not certain; zones are shaded.",
-                      {800, 660}};
+FigureScript energies_figure(const Case& input, const Result& result) {
+  FigureScript figure{
+      "energies",
+      "Energies, and the motion of striker or stop (u_mf = w_m − w(0)) and struck point "
+      "(f_c = w_c − w(0)) relative to the beam's end. Above: zones, sub-zones and "
+      "sub-impacts, pale where they are not certain; zones are shaded.",
+      {800, 660}};
   figure.history({"U_m_J", "U_k_J", "U_e_J", "U_p_J", "D_c_J", "D_b_J", "f_c_m", "u_mf_m"},
                  result.history, {660, 280});
   add_sub_impacts(figure, result);
   figure.set("is_damped", result.beam_damping_loss > 0.0);
+  figure.set("is_stop", input.scene.striker.fixed);
   figure.set("initial_energy", result.used.initial_energy);
   figure.set("largest_displacement",
              std::max(largest_magnitude(result.history, &HistoryRow::struck_deflection),

@@ -349,5 +349,54 @@ class ScatterPage(PageTestCase):
         self.assertIn(re.sub(r"\bus\b", "µs", " ".join(words)), shown)
 
 
+class Surroundings(PageTestCase):
+    """A bar that swings against a stop, with a spring and a force that ends after 1 ms."""
+
+    @classmethod
+    def make(cls):
+        (cls.program.directory / "swing.toml").write_text("""
+            time = { end = "2 ms" }
+            [beam]
+            length = "500 mm"
+            width = "20 mm"
+            thickness = "10 mm"
+            density = "7850 kg/m3"
+            youngs_modulus = "210 GPa"
+            ends = ["pinned", "free"]
+            angular_velocity = -4.0
+            springs = [{ position = 0.9, stiffness = 1e4 }]
+            forces = [{ position = 0.3, table = [[0.0, 50.0], [0.001, 50.0], [0.001001, 0.0]] }]
+            [striker]
+            fixed = true
+            nose_radius = "10 mm"
+            position = 0.667
+            [contact]
+            law = "foundation"
+            [model]
+            elements = 20
+            """)
+        cls.program("run", "swing.toml", "--out", "swing", "--quiet", "--error-bars", "off")
+        cls.program("report", "swing")
+        return cls.program.directory / "swing" / "report.html"
+
+    def pixels(self, time, tone):
+        self.js("page.view.setTime(arguments[0])", time)
+        self.frame()
+        return self.js(COUNT, self.find("#shape"), tone)
+
+    def test_the_stop_reaches_out_of_the_picture_and_keeps_its_place(self):
+        displacements = self.js("return Array.from(new Set(page.strike.history.w_m_m))")
+        self.assertEqual(displacements, [0])
+        self.assertGreater(self.pixels(0.1e-3, "striker-apart") + self.pixels(0.1e-3, "striker"), 200)
+        labels = self.js("return page.charts.flatMap(({chart}) => chart.getLabels())")
+        self.assertIn("stop w_m", labels)
+        self.assertNotIn("striker w_m", labels)
+
+    def test_the_spring_is_drawn_throughout_and_the_force_while_it_acts(self):
+        self.assertGreater(self.pixels(0.5e-3, "soft"), 100)
+        self.assertGreater(self.pixels(0.5e-3, "line3"), 60)
+        self.assertLess(self.pixels(1.5e-3, "line3"), 10)
+
+
 if __name__ == "__main__":
     main()

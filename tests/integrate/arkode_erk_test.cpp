@@ -103,6 +103,21 @@ TEST(ArkodeErk, GoesOnFarFromZeroWhereRoundingIsAboveTheTolerance) {
   }
 }
 
+// An earlier integrator of the same tolerance leaves its weights in memory that is given out again,
+// partly overwritten.
+TEST(ArkodeErk, TakesTheSameStepsWhateverMemoryHeldBefore) {
+  constexpr std::size_t n = 17;
+  SpringChain chain(n);
+  const std::string table = explicit_tables().front().name;
+  const State clean = run(chain, table, VectorOperations::project, {});
+  const auto scales = chain.scales();
+  std::vector<double> left(2 * n, 0.0);
+  left[0] = 1.0 / (1e-7 * scales.position);
+  left[n] = 1.0 / (1e-7 * scales.velocity);
+  std::vector<std::vector<double>>(100, left).clear();
+  EXPECT_EQ(run(chain, table, VectorOperations::project, {}), clean);
+}
+
 TEST(ExplicitTables, AreFoundByNameAndNoOtherNameIs) {
   SpringChain chain(2);
   for (const CoefficientTable& table : explicit_tables()) {

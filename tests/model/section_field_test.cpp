@@ -49,7 +49,7 @@ TEST_P(SectionFieldOfBothLaws, IsTheLawOfEverySectionOnItsOwn) {
         elastic += weights[i] * law().elastic_energy(alone[i], curvatures[i]);
         work += weights[i] * law().work(alone[i], curvatures[i]);
       }
-      const SectionField::Energies energies = field.energies(curvatures, weights);
+      const BendingEnergies energies = field.energies(curvatures, weights);
       ASSERT_NEAR(energies.elastic, elastic, 1e-12 * work);
       ASSERT_NEAR(energies.plastic, work - elastic, 1e-12 * work);
     }

@@ -75,7 +75,9 @@ class Page {
       return;
     }
     for (const {id, label, columns: all} of timeCharts) {
-      this.addChart(id, label, all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0)));
+      const columns = all.filter(({name, ifAny}) => !ifAny || strike.history[name].some((value) => value !== 0));
+      this.addChart(id, label, columns.map((column) =>
+        ({...column, label: column.label.replace('striker', strike.stop ? 'stop' : 'striker')})));
     }
     if (strike.overlay) this.addOverlay();
     const columns = Object.keys(strike.meanings).filter((name) => strike.history[name].some(Number.isFinite));
