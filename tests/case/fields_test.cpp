@@ -208,7 +208,8 @@ TEST(TheExtremesOfShapes, AreOfTheSameInstantsHoweverFewShapesAreKept) {
   const Result usual = simulate(input);
   input.output.shapes = 0.1 * input.end_time;
   const Result few = simulate(input);
-  input.output.interval = 0.0;  // no rows
+  input.output.shapes = input.output.extremes_interval(input.end_time);
+  input.output.interval = 0.0;  // as a run beside
   const Result none = simulate(input);
   EXPECT_LT(5 * few.n_shape_rows, usual.n_shape_rows);
   for (const Result* other : {&few, &none}) {

@@ -42,7 +42,7 @@ set ylabel 'energy, '.energy_unit(initial_energy)
 set yrange [0:*]
 set offsets 0, 0, graph 0.3, 0  # room for the key
 set key top center maxrows 3 samplen 2.5
-plot $U_m_J using (t*$1):(e*$2) with lines title (is_stop ? 'stop U_m' : 'striker U_m'), \
+plot $U_m_J using (t*$1):(e*$2) with lines title (is_stop > 0 ? 'stop U_m' : 'striker U_m'), \
      $U_k_J using (t*$1):(e*$2) with lines title 'beam, kinetic U_k', \
      $U_e_J using (t*$1):(e*$2) with lines title 'bending, elastic U_e', \
      $U_p_J using (t*$1):(e*$2) with lines title 'bending, plastic U_p', \
@@ -59,5 +59,5 @@ set key top left horizontal maxrows 1
 set offsets 0, 0, graph 0.18, 0
 set xlabel 'time, '.time_unit(end)
 plot $f_c_m using (t*$1):(d*$2) with lines lc 1 title 'struck point f_c', \
-     $u_mf_m using (t*$1):(d*$2) with lines lc 2 dashtype 2 title (is_stop ? 'stop u_{mf}' : 'striker u_{mf}')
+     $u_mf_m using (t*$1):(d*$2) with lines lc 2 dashtype 2 title (is_stop > 0 ? 'stop u_{mf}' : 'striker u_{mf}')
 unset multiplot

@@ -28,6 +28,6 @@ set yrange [*:*]
 set format x '% h'
 set xlabel 'time, '.time_unit(end)
 plot $w_c_m using (t*$1):(d*$2) with lines lw 2.5 lc 1 title 'struck point w_c', \
-     $w_m_m using (t*$1):(d*$2) with lines lc 2 dashtype 2 title (is_stop ? 'stop w_m' : 'striker w_m'), \
+     $w_m_m using (t*$1):(d*$2) with lines lc 2 dashtype 2 title (is_stop > 0 ? 'stop w_m' : 'striker w_m'), \
      $f_c_m using (t*$1):(d*$2) with lines lc 3 title 'deflection f_c'
 unset multiplot
