@@ -183,7 +183,7 @@ void exchange(Snapshot& snapshot, EnvelopeRow::Range& range) {
   snapshot(smallest.value, smallest.time, largest.value, largest.time);
 }
 void exchange(Snapshot& snapshot, SampledPeak& peak) {
-  snapshot(peak.shared, peak.largest, peak.before, peak.after, peak.last);
+  snapshot(peak.shared, peak.largest, peak.before, peak.after, peak.last, peak.is_last);
 }
 void exchange(Snapshot& snapshot, FieldPeaks& peaks) {
   snapshot(peaks.displacement, peaks.moment, peaks.strain);

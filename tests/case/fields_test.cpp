@@ -173,6 +173,31 @@ TEST(TheEnvelope, BoundsEveryShapeAndIsReachedAtItsTimes) {
   }
 }
 
+TEST(ASampledPeak, BoundsTheTopOfAParabolaBetweenItsInstants) {
+  constexpr double drop = 0.01;  // a unit of time from the top
+  for (double top = -0.5; top <= 0.5; top += 0.125) {
+    SampledPeak peak;
+    for (int i = -3; i <= 3; ++i) peak.follow(1.0 - drop * (i - top) * (i - top), i % 2 == 0);
+    EXPECT_LE(peak.largest, 1.0);
+    EXPECT_GE(peak.largest + peak.sampling_error(), 1.0 - 1e-15) << top;
+    EXPECT_NEAR(peak.sampling_error(), 0.25 * drop, 1e-15) << top;
+    EXPECT_EQ(peak.shared, 1.0 - drop * top * top) << top;
+  }
+}
+
+TEST(ALargestMoment, LiesWithinItsErrorOfThatAtTenTimesAsManyInstants) {
+  Case input = paper_case(SectionKind::elastic, 2e-3);
+  input.model.segments = 101;
+  input.solver.method = Method::central_difference;
+  input.output.interval.reset();
+  const Result coarse = simulate(input);
+  input.output.interval = 1e-7;
+  const Result fine = simulate(input);
+  EXPECT_GT(coarse.peaks.moment.sampling_error(), 0.0);
+  EXPECT_LE(fine.peaks.moment.largest - coarse.peaks.moment.largest,
+            coarse.peaks.moment.sampling_error());
+}
+
 Case case_in_modes() {
   Case input = linear_case(MeshKind::hermite, 40, 0.4 * paper_beam().length, EndSupport::free);
   input.solver.method = Method::exponential;

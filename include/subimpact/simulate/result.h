@@ -100,11 +100,13 @@ struct SampledPeak {
   double largest = 0.0;  ///< over all instants at which fields are read
   double before = 0.0, after = 0.0;  ///< at the instants next to that of the largest
   double last = 0.0;                 ///< at the last instant
+  bool is_last = false;              ///< the largest was found at the last instant
 
   void follow(double magnitude, bool regular) {
     if (regular && magnitude > shared) shared = magnitude;
-    if (last == largest) after = magnitude;
-    if (magnitude > largest) {
+    if (is_last) after = magnitude;
+    is_last = magnitude > largest;
+    if (is_last) {
       largest = after = magnitude;
       before = last;
     }
