@@ -18,6 +18,13 @@ inline long first_after(double time, double interval) {
   return static_cast<long>(std::floor(time / interval * (1.0 + 1e-12))) + 1;
 }
 
+/// Adds the multiples of an interval below `end`, from that number on.
+inline void add_multiples(long number, double interval, double end, std::vector<double>& times) {
+  for (; static_cast<double>(number) * interval < end; ++number) {
+    times.push_back(static_cast<double>(number) * interval);
+  }
+}
+
 /// Records shapes, envelope, permanent set, plastic zones, support reactions and the motion of
 /// points. Shapes are of regular instants and of the events of the contact. The envelope follows
 /// the history rows, some 4000 of them at most, and all shapes.
@@ -30,6 +37,10 @@ class FieldRecorder {
 
   /// Of the next regular instant of the extremes along the beam, s; infinite: none.
   double next_instant() const;
+  /// Adds the regular instants from there on, below `end` (s).
+  void add_instants(double end, std::vector<double>& times) const {
+    if (has_shapes()) add_multiples(regular_.passed, regular_.interval, end, times);
+  }
   /// Takes the extremes of that instant and, where it is due, the shape. `accounts`: of the
   /// histories that hold at y.
   void take_instant(double time, const State& y, Accounts& accounts);

@@ -117,10 +117,12 @@ void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam
 }
 
 void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
-  if (interval_ > 0.0 && step.ends().event_free) {
+  if (step.ends().event_free) {
     row_times_.clear();
-    for (long row = next_row_; static_cast<double>(row) * interval_ < step.t1(); ++row) {
-      row_times_.push_back(static_cast<double>(row) * interval_);
+    if (interval_ > 0.0) {
+      add_multiples(next_row_, interval_, step.t1(), row_times_);
+    } else {
+      fields_->add_instants(step.t1(), row_times_);
     }
     step.expect(row_times_);
   }

@@ -99,8 +99,8 @@ class Search {
     refinement_.emplace(model_.input, open_);
   }
 
-  // `keeps_rows`: whether no level after this one is to be expected. The runs beside take the
-  // extremes along the beam in any case, for the level may turn out to be the last.
+  // `keeps_rows`: whether no level after this one is to be expected. In modes, where that is cheap,
+  // the runs beside take the extremes along the beam in any case: the level may be the last.
   Level level_of(const Case& input, bool keeps_rows) {
     if (options_.announce) {
       options_.announce(resolve(input).settings().mesh + ", " +
@@ -109,8 +109,9 @@ class Search {
     Level level{input, {}, {}};
     if (!keeps_rows) level.input.output.keep_no_rows();
     has_rows_ = keeps_rows;
-    level.beside = simulate_beside(level.input, cases_beside(input), options_.jobs,
-                                   options_.progress, rows_if(keeps_rows), level.result);
+    level.beside =
+        simulate_beside(level.input, cases_beside(yields_ ? level.input : input), options_.jobs,
+                        options_.progress, rows_if(keeps_rows), level.result);
     level.input.output = input.output;
     judge(level.input, level.result, level.beside);
     work_ += counted_work(level.result);
@@ -126,8 +127,13 @@ class Search {
     return keeps_rows && options_.rows ? options_.rows() : nullptr;
   }
 
-  // The best run once more, for its rows and fields, beside the same runs as before.
+  // The best run once more, for its rows and fields; the runs beside it too if they lack extremes.
   void run_again() {
+    if (yields_) {
+      Level again = level_of(best_->input, true);
+      if (again.result.outcome.kind != OutcomeKind::stopped) best_ = std::move(again);
+      return;
+    }
     Result again = simulate(best_->input, options_.progress, nullptr, rows_if(true));
     if (again.outcome.kind == OutcomeKind::stopped) return;
     judge(best_->input, again, best_->beside);
