@@ -30,13 +30,12 @@ FieldRecorder::FieldRecorder(const RunParts& parts, Result& result, RowSink& row
     : beam_(parts.beam),
       material_(parts.problem.beam),
       end_time_(parts.given.end_time),
-      shapes_{parts.settings.shape_interval},
-      regular_{parts.given.output.extremes_interval(end_time_)},
+      shapes_(parts.settings.shape_interval),
+      regular_(parts.given.output.extremes_interval(end_time_)),
       result_(result),
       rows_(rows),
-      field_(
-          beam_, material_.length,
-          shapes_.interval > 0.0 ? static_cast<std::size_t>(parts.given.output.shape_points) : 0),
+      field_(beam_, material_.length,
+             shapes_.exist() ? static_cast<std::size_t>(parts.given.output.shape_points) : 0),
       envelope_(field_.size()) {
   const BeamMesh& mesh = beam_.mesh();
   const double length = material_.length;
@@ -60,7 +59,8 @@ double FieldRecorder::next_instant() const {
 void FieldRecorder::resume(double time, const std::vector<EnvelopeRow>& envelope) {
   last_shape_time_ = last_followed_time_ = time;
   if (!has_shapes()) return;
-  for (Instants* all : {&shapes_, &regular_}) all->passed = first_after(time, all->interval);
+  shapes_.resume(time);
+  regular_.resume(time);
   if (envelope.size() == envelope_.size()) {
     envelope_ = envelope;
   } else {

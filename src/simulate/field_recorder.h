@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,17 +14,40 @@ namespace subimpact {
 
 struct RunParts;
 
-/// The first multiple of an interval (s) after a time, as its number.
-inline long first_after(double time, double interval) {
-  return static_cast<long>(std::floor(time / interval * (1.0 + 1e-12))) + 1;
-}
+/// Instants nearer than this, relative to the time, are one.
+inline constexpr double same_instant = 1e-12;
 
-/// Adds the multiples of an interval below `end`, from that number on.
-inline void add_multiples(long number, double interval, double end, std::vector<double>& times) {
-  for (; static_cast<double>(number) * interval < end; ++number) {
-    times.push_back(static_cast<double>(number) * interval);
+/// The multiples of an interval (s), of which some have been passed; none if it is 0.
+class Instants {
+ public:
+  explicit Instants(double interval) : interval_(interval) {}
+
+  bool exist() const { return interval_ > 0.0; }
+  /// Infinite if there are none.
+  double next() const {
+    return exist() ? static_cast<double>(passed_) * interval_
+                   : std::numeric_limits<double>::infinity();
   }
-}
+  /// Passes the next one if it is at `time` (s) or before; false if it is later.
+  bool reach(double time) {
+    if (time < next() * (1.0 - same_instant)) return false;
+    ++passed_;
+    return true;
+  }
+  /// Goes on behind a time.
+  void resume(double time) {
+    if (!exist()) return;
+    passed_ = static_cast<long>(std::floor(time / interval_ * (1.0 + same_instant))) + 1;
+  }
+  /// Adds those from the next one on, below `end`.
+  void add_below(double end, std::vector<double>& times) const {
+    for (Instants i = *this; i.next() < end; ++i.passed_) times.push_back(i.next());
+  }
+
+ private:
+  double interval_;
+  long passed_ = 0;
+};
 
 /// Records shapes, envelope, permanent set, plastic zones, support reactions and the motion of
 /// points. Shapes are of regular instants and of the events of the contact. The envelope follows
@@ -39,7 +63,7 @@ class FieldRecorder {
   double next_instant() const;
   /// Adds the regular instants from there on, below `end` (s).
   void add_instants(double end, std::vector<double>& times) const {
-    if (has_shapes()) add_multiples(regular_.passed, regular_.interval, end, times);
+    if (has_shapes()) regular_.add_below(end, times);
   }
   /// Takes the extremes of that instant and, where it is due, the shape. `accounts`: of the
   /// histories that hold at y.
@@ -60,7 +84,7 @@ class FieldRecorder {
   void resume(double time, const std::vector<EnvelopeRow>& envelope);
 
  private:
-  bool has_shapes() const { return field_.size() > 0 && shapes_.interval > 0.0; }
+  bool has_shapes() const { return field_.size() > 0 && shapes_.exist(); }
   void add_points(double time, const State& y);
   // Widens the envelope, and at a `regular` instant or an event the extremes that runs beside one
   // another share, by a state: at once, or with others that wait.
@@ -79,17 +103,6 @@ class FieldRecorder {
   const StruckBeam& beam_;
   const Beam& material_;
   double end_time_;  // s
-  // Multiples of an interval (s), of which so many have been passed.
-  struct Instants {
-    double interval;
-    long passed = 0;
-    double next() const { return static_cast<double>(passed) * interval; }
-    bool reach(double time) {
-      if (time < next() * (1.0 - 1e-12)) return false;
-      ++passed;
-      return true;
-    }
-  };
   Instants shapes_, regular_;
   Result& result_;
   RowSink& rows_;

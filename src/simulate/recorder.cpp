@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "numerics/bracketed_root.h"
@@ -39,11 +38,6 @@ constexpr double tolerated_rounding = 64.0;
 // Places at which the largest rotation is looked for, both ends of the part modelled among them.
 constexpr int n_rotations = 17;
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
-// Rows and shapes nearer than this, relative to the time, are of one instant.
-constexpr double same_instant = 1e-12;
-
 // The sections nearest to the given positions, or in a half model to their mirror images.
 std::vector<std::size_t> sections_at(const std::vector<double>& fractions, double length,
                                      const BeamMesh& mesh) {
@@ -62,7 +56,7 @@ Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events
     : result_(result),
       kept_rows_(result),
       rows_(rows != nullptr ? *rows : kept_rows_),
-      interval_(interval),
+      row_instants_(interval),
       events_(events),
       audit_(audit),
       accounts_(beam),
@@ -74,10 +68,9 @@ Recorder::Recorder(const StruckBeam& beam, double interval, EventHandling events
 }
 
 void Recorder::on_approach(double end, StruckBeam& beam) {
-  if (!(interval_ > 0.0)) return;
-  for (;; ++next_row_) {
-    const double t = static_cast<double>(next_row_) * interval_;
-    if (t >= end) return;
+  while (row_instants_.next() < end) {
+    const double t = row_instants_.next();
+    row_instants_.reach(t);
     add_row(t, beam.state_before_touch(end - t), accounts_);
   }
 }
@@ -96,7 +89,7 @@ void Recorder::keep_fields(const RunParts& parts) {
 
 void Recorder::on_step(const ObservedStep& step, StruckBeam& beam) {
   if (follows_force_ && in_contact_) add_row_of_force(step, beam);
-  if (interval_ > 0.0 || fields_) add_rows_within(step, beam);
+  if (row_instants_.exist() || fields_) add_rows_within(step, beam);
   if (!result_.first_section_yield) {
     result_.first_section_yield = first_flow_.find(beam, step.ends());
   }
@@ -119,23 +112,23 @@ void Recorder::add_row_of_force(const ObservedStep& step, const StruckBeam& beam
 void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
   if (step.ends().event_free) {
     row_times_.clear();
-    if (interval_ > 0.0) {
-      add_multiples(next_row_, interval_, step.t1(), row_times_);
+    if (row_instants_.exist()) {
+      row_instants_.add_below(step.t1(), row_times_);
     } else {
       fields_->add_instants(step.t1(), row_times_);
     }
     step.expect(row_times_);
   }
   for (;;) {
-    const double row_time = interval_ > 0.0 ? static_cast<double>(next_row_) * interval_ : never;
-    const double shape_time = fields_ ? fields_->next_instant() : never;
+    const double row_time = row_instants_.next();
+    const double shape_time = fields_ ? fields_->next_instant() : Instants(0.0).next();
     const bool both =
-        row_time < never && std::abs(row_time - shape_time) <= same_instant * row_time;
+        std::isfinite(row_time) && std::abs(row_time - shape_time) <= same_instant * row_time;
     const double t = both ? row_time : std::min(row_time, shape_time);
     if (!(t < step.t1())) return;  // the end itself is the next step's start
     const bool row = t == row_time;
     const bool shape = both || t == shape_time;
-    if (row) ++next_row_;
+    if (row) row_instants_.reach(t);
     if (t <= step.t0()) {
       add_rows(t, row, shape, step.y0(), accounts_);
       continue;
@@ -317,7 +310,7 @@ void Recorder::begin(NearMissKind kind, const StruckBeam& beam) {
 }
 
 void Recorder::add_event_row(const Transition& event, const State& y) {
-  if (!(interval_ > 0.0)) return;
+  if (!row_instants_.exist()) return;
   HistoryRow row = make_row(event.time, y, accounts_);
   // What the force differs from zero there is the rounding of the event's time.
   const bool of_zero_force =
@@ -341,7 +334,7 @@ void Recorder::close_sub_impact(double time, const State& y, const StruckBeam& b
 }
 
 void Recorder::finish(double time, const State& y, const StruckBeam& beam, bool is_good) {
-  if (is_good && interval_ > 0.0 && last_row_.time < time) add_row(time, y, accounts_);
+  if (is_good && row_instants_.exist() && last_row_.time < time) add_row(time, y, accounts_);
   if (fields_) fields_->finish(time, y, accounts_, is_good);
   follow_deformation(y);
   if (in_contact_) {

@@ -49,7 +49,7 @@ class Recorder final : public RunObserver {
   void after_event(const Transition& event, const State& y, StruckBeam& beam) override;
 
   /// Each row is audited, and with rows there is one on either side of an event.
-  bool audits_events() const override { return interval_ > 0.0; }
+  bool audits_events() const override { return row_instants_.exist(); }
 
   /// Closes the accounts at the last state, which `is_good` if every check passed.
   void finish(double time, const State& y, const StruckBeam& beam, bool is_good);
@@ -90,7 +90,7 @@ class Recorder final : public RunObserver {
   KeptRows kept_rows_;
   RowSink& rows_;
   Observer* observer_ = nullptr;
-  double interval_;
+  Instants row_instants_;
   EventHandling events_;
   Audit& audit_;
   Accounts accounts_;
@@ -99,7 +99,6 @@ class Recorder final : public RunObserver {
   LossQuadrature losses_;  // within a step
   NearMissSearch near_misses_;
   double striker_mass_;
-  long next_row_ = 0;
   std::vector<double> row_times_;  // of a flight, s
   bool follows_force_ = false;
   HistoryRow last_row_{};

@@ -211,7 +211,7 @@ void Recorder::exchange(Snapshot& snapshot, double time) {
   snapshot.require(steps_in_contact_.size() == result_.sub_impacts.size() &&
                    (!in_contact_ || !steps_in_contact_.empty()));
   if (!snapshot.reads()) return;
-  if (interval_ > 0.0) next_row_ = first_after(time, interval_);
+  row_instants_.resume(time);
   last_row_.time = time;
   if (fields_) fields_->resume(time, envelope);
 }

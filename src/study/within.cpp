@@ -99,8 +99,9 @@ class Search {
     refinement_.emplace(model_.input, open_);
   }
 
-  // `keeps_rows`: whether no level after this one is to be expected. In modes, where that is cheap,
-  // the runs beside take the extremes along the beam in any case: the level may be the last.
+  // `keeps_rows`: whether no level after this one is to be expected. Where no section yields, which
+  // makes extremes along the beam cheap, the runs beside take them in any case: the level may be
+  // the last.
   Level level_of(const Case& input, bool keeps_rows) {
     if (options_.announce) {
       options_.announce(resolve(input).settings().mesh + ", " +

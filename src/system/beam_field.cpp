@@ -127,7 +127,8 @@ void BeamField::read_modes(std::span<const double> positions, double tolerance) 
   for (Eigen::Index k = 0; k < n_states; ++k) {
     n = std::max(n, n_modes_needed(states.col(k).data(), tolerance));
   }
-  values_.noalias() = by_mode_.leftCols(n) * states.topRows(n);
+  if (values_.cols() < n_states) values_.resize(by_mode_.rows(), n_states);
+  values_.leftCols(n_states).noalias() = by_mode_.leftCols(n) * states.topRows(n);
 }
 
 void BeamField::show(Eigen::Index state) {

@@ -164,7 +164,7 @@ TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
   Case input = paper_run(SectionKind::elastic, 0.3e-3);
   input.output.interval = 1e-6;
   input.output.shapes = 1e-5;
-  input.accuracy.event_times = 1e-5;           // met where nobody expected the last level
+  input.accuracy.event_times = 1e-5;           // which the first level meets, run without rows
   std::map<std::pair<int, double>, int> runs;  // by mesh and tolerance
   WithinOptions options;
   options.finished = [&](const Case& run, const Result&) {

@@ -86,7 +86,7 @@ struct OutputOptions {
   double extremes_interval(double end_time) const {
     const double rows = history_interval(end_time);
     return rows > 0.0 ? rows * std::max(std::round(end_time / 400.0 / rows), 1.0)
-                      : shape_interval(end_time);
+                      : shapes.value_or(0.0);
   }
 
   /// For refined runs, of which only the sub-impacts matter.
