@@ -1,14 +1,14 @@
 # One library target a source folder, with includes that can only point one way.
 #
-#   subimpact_library(<folder> [USES <folder>...] [LINK <target>...])
+#   subimpact_library(<folder> [STUDIES] [USES <folder>...] [LINK <target>...])
 #
-# Its sources are all of src/<folder>. src/<folder> (private headers, included as "<folder>/x.h") and include/subimpact/<folder> (public
+# It is part of the library of studies with STUDIES, else of the core (SubimpactPackage.cmake). Its sources are all of src/<folder>. src/<folder> (private headers, included as "<folder>/x.h") and include/subimpact/<folder> (public
 # headers, included as "subimpact/<folder>/x.h") are visible to the targets that name <folder> under
 # USES, directly or through others, and to nobody else: each folder is reached through a link of its
 # own in the build tree, so an include that goes against the floors does not compile. A folder
 # without sources holds headers only.
 function(subimpact_library folder)
-  cmake_parse_arguments(ARG "" "" "USES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "STUDIES" "" "USES;LINK" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
   set(target subimpact_${folder})
   set(stage ${PROJECT_BINARY_DIR}/stage/${folder})
@@ -24,7 +24,11 @@ function(subimpact_library folder)
     add_library(${target} STATIC ${sources})
     target_include_directories(${target} PUBLIC ${stage})
     target_link_libraries(${target} PUBLIC ${ARG_USES} ${ARG_LINK} PRIVATE subimpact_flags)
-    set_property(GLOBAL APPEND PROPERTY SUBIMPACT_FLOORS ${target})
+    set(library core)
+    if(ARG_STUDIES)
+      set(library studies)
+    endif()
+    set_property(GLOBAL APPEND PROPERTY SUBIMPACT_OBJECTS_${library} $<TARGET_OBJECTS:${target}>)
   else()
     add_library(${target} INTERFACE)
     target_include_directories(${target} INTERFACE ${stage})

@@ -3,9 +3,10 @@
 #   SUBIMPACT_PYTHON   AUTO: if an interpreter with NumPy and pybind11 are there; ON: they must be; OFF
 #   Python_EXECUTABLE  the interpreter; by default the first one with NumPy of python3 and /usr/bin/python3
 #
-# Sets SUBIMPACT_PYTHON_FOUND. The module is a shared object, so the floors are then compiled as
-# position-independent code; without semantic interposition, which the module rules out by its own
-# list of symbols, this costs no inlining.
+# Sets SUBIMPACT_PYTHON_FOUND. The module is a shared object, so the floors are compiled as
+# position-independent code, also where an interpreter is still missing: installing it later then
+# compiles nothing again. Without semantic interposition, which the module rules out by its own list
+# of symbols, this costs no inlining.
 set(SUBIMPACT_PYTHON AUTO CACHE STRING "Build the Python package: AUTO, ON or OFF")
 set_property(CACHE SUBIMPACT_PYTHON PROPERTY STRINGS AUTO ON OFF)
 set(SUBIMPACT_PYTHON_FOUND FALSE)
@@ -44,6 +45,8 @@ elseif(SUBIMPACT_PYTHON STREQUAL AUTO AND NOT PROJECT_IS_TOP_LEVEL)
   return()
 endif()
 
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+target_compile_options(subimpact_flags INTERFACE -fno-semantic-interposition)
 subimpact_find_interpreter()
 if(NOT Python_EXECUTABLE)
   subimpact_without_python("no interpreter has NumPy")
@@ -60,6 +63,4 @@ if(NOT pybind11_FOUND)
   return()
 endif()
 set(SUBIMPACT_PYTHON_FOUND TRUE)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-target_compile_options(subimpact_flags INTERFACE -fno-semantic-interposition)
 message(STATUS "Python package: for ${Python_EXECUTABLE} (${Python_VERSION})")

@@ -5,7 +5,7 @@
 #include "io/run_record.h"
 #include "io/run_tables.h"
 #include "subimpact/io/read_results.h"
-#include "subimpact/io/report.h"
+#include "subimpact/report/text.h"
 #include "targets.h"
 
 namespace subimpact::fuzz {

@@ -10,8 +10,8 @@
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 #include "targets.h"
 
 namespace subimpact::fuzz {

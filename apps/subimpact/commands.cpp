@@ -13,7 +13,7 @@
 #include "io/printable.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/case/doubtful_units.h"
-#include "subimpact/io/report.h"
+#include "subimpact/report/text.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/study/sweep.h"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "commands.h"
-#include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
+#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/compare.h"
 
 namespace subimpact::app {

@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "report/files.h"
-#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact::app {
 namespace {

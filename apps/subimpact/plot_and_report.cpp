@@ -5,10 +5,10 @@
 #include "commands.h"
 #include "io/listed_files.h"
 #include "subimpact/io/read_results.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/figures.h"
 #include "subimpact/report/pages.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/overlay.h"
 
 namespace subimpact::app {

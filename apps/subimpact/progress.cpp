@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "io/printable.h"
-#include "subimpact/io/report.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact::app {
 namespace {

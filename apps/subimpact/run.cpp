@@ -4,9 +4,9 @@
 #include <cerrno>
 
 #include "commands.h"
-#include "io/uncertain.h"
-#include "subimpact/io/report.h"
+#include "report/uncertain.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/predictability.h"
 #include "subimpact/study/run_as_asked.h"
 

@@ -3,8 +3,8 @@
 
 #include "commands.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
+#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::app {

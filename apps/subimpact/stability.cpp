@@ -29,27 +29,32 @@ std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
   };
   return {
       {"critical", "Explicit methods: largest stable step, elastic beam",
-       [&] { return part_of(critical_steps(input, methods)); }},
+       [=, &input, &command] { return part_of(critical_steps(input, methods, command.jobs)); }},
       {"contact", "Central differences: largest stable step in stiff contact",
-       [=, &input] {
-         return asked("central-difference") ? part_of(stiff_contact(input)) : StabilityPart();
+       [=, &input, &command] {
+         return asked("central-difference") ? part_of(stiff_contact(input, command.jobs))
+                                            : StabilityPart();
        }},
       {"damping", "Implicit methods: what one step leaves of an oscillation",
-       [=, &input] {
+       [=, &input, &command] {
          if (!asked("dirk") && !asked("bdf")) return StabilityPart();
-         return part_of(damping_of_implicit_tables(input), bdf_growths());
+         return part_of(damping_of_implicit_tables(input, command.jobs), bdf_growths());
        }},
       {"map", "How runs of the case come out",
        [=, &input, &command] {
-         return part_of(outcome_map(input, command.methods, command.run_seconds, counter("runs")));
+         return part_of(outcome_map(input, command.methods, command.run_seconds, command.jobs,
+                                    counter("runs")));
        }},
       {"pairs", "Sub-impacts within one step, elastic beam at several speeds",
-       [=, &input] {
-         return asked("exponential") ? part_of(missed_pairs(input, counter("strikes")))
-                                     : StabilityPart();
+       [=, &input, &command] {
+         return asked("exponential")
+                    ? part_of(missed_pairs(input, command.jobs, counter("strikes")))
+                    : StabilityPart();
        }},
       {"layers", "Layers against the exact section",
-       [=, &input] { return part_of(layers_against_exact(input, counter("numbers of layers"))); }},
+       [=, &input, &command] {
+         return part_of(layers_against_exact(input, command.jobs, counter("numbers of layers")));
+       }},
   };
 }
 
@@ -128,9 +133,9 @@ void add_stability(CLI::App& program, int& status) {
                        "name without its ending, and -stability, in the current directory");
   add_seconds_option(command, "--run-seconds", options.run_seconds,
                      "Runs of the map that take longer are left out");
+  add_jobs_option(command, options.jobs);
   command.footer(
-      "All cores are used, since nothing is timed. Parts are printed and written one by one; after "
-      "Ctrl-C the finished parts remain.\n"
+      "Parts are printed and written one by one; after Ctrl-C the finished parts remain.\n"
       "Examples:\n"
       "  subimpact stability case.toml --out out/stability\n"
       "  subimpact stability case.toml --parts critical --methods central-difference,erk\n"

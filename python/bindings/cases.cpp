@@ -7,8 +7,8 @@
 #include "bindings.h"
 #include "subimpact/case/doubtful_units.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact::python {
@@ -113,8 +113,7 @@ void bind_cases(py::module_& module) {
            [](const LoadedCase& loaded) {
              std::vector<std::string> names;
              for (const CaseKey& key : case_keys()) {
-               const bool is_given = loaded.given.in_file.contains(key.name) ||
-                                     loaded.given.in_settings.contains(key.name);
+               const bool is_given = loaded.given.contain(key.name);
                if (is_given) names.push_back(key.name);
              }
              return names;

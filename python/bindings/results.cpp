@@ -10,8 +10,8 @@
 #include "finished.h"
 #include "io/run_tables.h"
 #include "subimpact/io/read_results.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 #include "tables.h"
 
 namespace subimpact::python {
@@ -47,7 +47,7 @@ auto member(auto pointer) {
 
 // The value of a function of an optional part of the result; none without that part.
 template <class Part, class Value>
-auto of_part(std::optional<Part> Result::*part, Value value) {
+auto of_part(std::optional<Part> Assessment::*part, Value value) {
   return [=](const Finished& run) {
     const std::optional<Part>& there = run.result.*part;
     return there ? std::optional(std::invoke(value, *there)) : std::nullopt;
@@ -55,11 +55,10 @@ auto of_part(std::optional<Part> Result::*part, Value value) {
 }
 
 // The same of the first sub-impact.
-template <class Value>
-auto of_first(std::optional<Value> SubImpact::*value) {
+auto of_first(auto value) {
   return [=](const Finished& run) {
     const auto& all = run.result.sub_impacts;
-    return all.empty() ? std::optional<Value>() : all.front().*value;
+    return all.empty() ? std::optional<double>() : all.front().*value;
   };
 }
 

@@ -106,10 +106,6 @@ constexpr IdleKey idle_keys[] = {
 
 constexpr std::string_view scatter_table = "scatter.";
 
-bool is_given(const GivenKeys& given, const std::string& name) {
-  return given.in_file.contains(name) || given.in_settings.contains(name);
-}
-
 // The key because of which another one has no effect; nullptr if it has one. A scatter has none if
 // its key is not given, 0 or infinite, or has no effect itself.
 const char* reason_of(const CaseKey& key, const Case& input) {
@@ -134,18 +130,35 @@ std::string setting_text(const Case& input, std::string_view name) {
   return fmt::format("{} = {}", name, value ? to_text(*value) : "(not given)");
 }
 
+bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
+  return std::ranges::any_of(keys, [&](const char* key) { return given.contain(key); });
+}
+
 }  // namespace
 
 std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given) {
   std::vector<std::string> notes;
   for (const CaseKey& key : case_keys()) {
-    const char* reason = is_given(given, key.name) ? reason_of(key, input) : nullptr;
+    const char* reason = given.contain(key.name) ? reason_of(key, input) : nullptr;
     if (reason == nullptr) continue;
     if (!given.in_settings.contains(key.name) && given.in_settings.contains(reason)) continue;
     notes.push_back(fmt::format("{} has no effect with {}", setting_text(input, key.name),
                                 setting_text(input, reason)));
   }
   return notes;
+}
+
+OpenChoices open_choices(const GivenKeys& given) {
+  OpenChoices open;
+  open.size = !has_any(given, {"model.segments", "model.elements"});
+  open.mesh = open.size &&
+              !has_any(given, {"model.mesh", "model.spacing", "model.sections_per_element",
+                               "model.hinges", "model.strike_refinement", "model.refined_length"});
+  open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
+  open.method =
+      open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",
+                                         "solver.events", "solver.reversals"});
+  return open;
 }
 
 }  // namespace subimpact

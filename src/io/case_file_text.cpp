@@ -10,7 +10,6 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/results.h"
-#include "subimpact/study/within.h"
 
 namespace subimpact {
 namespace {

@@ -1,7 +1,7 @@
 #include "io/run_tables.h"
 
 #include "io/run_record.h"
-#include "subimpact/io/report.h"
+#include "subimpact/io/results.h"
 
 namespace subimpact {
 namespace {

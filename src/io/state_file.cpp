@@ -103,9 +103,7 @@ FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& lo
     read_json(directory / state_name, files.text(state_name), "the state of a run",
               "; run the case again", read);
   });
-  const auto is_given = [&](const CaseKey& key) {
-    return loaded.given.in_file.contains(key.name) || loaded.given.in_settings.contains(key.name);
-  };
+  const auto is_given = [&](const CaseKey& key) { return loaded.given.contain(key.name); };
   const auto gives_table = [&](const std::string& table) {
     return std::ranges::any_of(
         case_keys(), [&](const CaseKey& key) { return key.table() == table && is_given(key); });

@@ -229,9 +229,4 @@ void write_results(const fs::path& directory, const Case& input, const Result& r
   files.finish(input, result);
 }
 
-void write_comparison(const fs::path& directory, const Comparison& comparison) {
-  write_file(directory / "comparison.csv", comparison_csv(comparison));
-  write_file(directory / "matches.csv", matches_csv(comparison));
-}
-
 }  // namespace subimpact

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "case/counted.h"
-#include "io/uncertain.h"
 #include "report/page.h"
+#include "report/uncertain.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/event_errors.h"
 
 namespace subimpact {

@@ -10,7 +10,7 @@
 #include "io/listed_files.h"
 #include "report/figure_script.h"
 #include "report/files.h"
-#include "subimpact/io/report.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact {
 namespace {

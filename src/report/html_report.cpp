@@ -7,11 +7,11 @@
 #include "case/counted.h"
 #include "io/listed_files.h"
 #include "io/run_record.h"
-#include "io/uncertain.h"
 #include "report/page.h"
+#include "report/uncertain.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/io/report.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact {
 namespace {

@@ -5,12 +5,12 @@
 #include "case/case_choices.h"
 #include "case/meshes.h"
 #include "io/listed_files.h"
-#include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
+#include "report/study_columns.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
 #include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact {
 namespace {

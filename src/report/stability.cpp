@@ -6,9 +6,9 @@
 #include "case/case_choices.h"
 #include "case/counted.h"
 #include "io/listed_files.h"
-#include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
+#include "report/study_columns.h"
 #include "subimpact/report/studies.h"
 
 namespace subimpact {

@@ -7,13 +7,13 @@
 #include "case/counted.h"
 #include "io/csv_reader.h"
 #include "io/listed_files.h"
-#include "io/study_columns.h"
 #include "numerics/units.h"
 #include "report/gnuplot.h"
+#include "report/study_columns.h"
 #include "subimpact/io/case_file.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact {
 

@@ -28,9 +28,8 @@ RootOptions to_rounding(double time) { return {8.0 * epsilon * time}; }
 
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at) {
-  const double of_value = function.kind == EventKind::contact_unloads || function.by_rate
-                              ? velocity_rounding * beam.scales().velocity
-                              : beam.displacement_rounding(y);
+  const double of_value = function.of_rate() ? velocity_rounding * beam.scales().velocity
+                                             : beam.displacement_rounding(y);
   return of_value + epsilon * t * std::abs(at.rate);
 }
 
@@ -42,64 +41,53 @@ std::optional<Crossing> EventLocator::find_crossing_in(const IndentationStep& en
   return find_crossing(beam_.contact(), ends, {dealt_with_, double_roots, rounding});
 }
 
-std::optional<EventFunction> EventLocator::find_end(const StepEnds& whole,
-                                                    const IndentationStep& indentation, double& t1,
-                                                    const State*& y1,
-                                                    SectionCorrection& correction) {
-  const State& y0 = whole.y0;
-  const double t0 = whole.t0;
-  t1 = whole.t1;
-  y1 = &whole.y1;
+StepEnd EventLocator::find_end(const StepEnds& whole, const IndentationStep& indentation) {
+  StepEnd end{whole.t1, &whole.y1};
   for (int n_cuts = 0; n_cuts < most_cuts; ++n_cuts) {
-    std::optional<EventFunction> event;
-    if (events_ == EventHandling::located) event = find_event(whole, indentation, t1, y1);
-    if (events_ == EventHandling::library && n_cuts == 0) event = event_of_integrator(whole, y1);
-    corrector_.correct({t0, t1, y0, *y1, whole.event_free}, correction);
-    if (!(correction.valid_until < t1)) {
-      if (correction.is_empty()) return event;
-      if (!event) event = event_of_correction(indentation, t1, *y1, correction);
-      if (!event) return std::nullopt;
-      if (!relocate(*event, {t0, t1, y0, *y1}, whole.t1, t1, correction)) return std::nullopt;
-      y1 = &end_;
-      return event;
+    if (events_ == EventHandling::located) end = find_event(whole, indentation, end);
+    if (events_ == EventHandling::library && n_cuts == 0) end = event_of_integrator(whole, end);
+    corrector_.correct({whole.t0, end.t, whole.y0, *end.y, whole.event_free}, correction_);
+    if (!(correction_.valid_until < end.t)) {
+      if (correction_.is_empty()) return end;
+      if (!end.event) end.event = event_of_correction(indentation, end);
+      if (!end.event) return end;
+      const std::optional<double> time =
+          relocate(*end.event, {whole.t0, end.t, whole.y0, *end.y}, whole.t1);
+      return time ? StepEnd{*time, &end_, end.event} : StepEnd{end.t, end.y};
     }
-    t1 = correction.valid_until;
-    integrator_.state_at(t1, end_);
-    y1 = &end_;
+    end = {correction_.valid_until, &end_};
+    integrator_.state_at(end.t, end_);
   }
   throw RunStopped(OutcomeKind::solver_failed,
                    "section events cut one step over and over, without an end");
 }
 
-std::optional<EventFunction> EventLocator::find_event(const StepEnds& whole, IndentationStep ends,
-                                                      double& t1, const State*& y1) {
+StepEnd EventLocator::find_event(const StepEnds& whole, IndentationStep ends, StepEnd end) {
   dealt_with_.clear();
-  if (whole.event_free) return std::nullopt;
+  if (whole.event_free) return end;
   const auto cut = [&] {
-    ends = {
-        ends.t0, t1, ends.lambda0, ends.rate0, beam_.indentation(*y1), beam_.indentation_rate(*y1)};
+    ends.t1 = end.t;
+    ends.lambda1 = beam_.indentation(*end.y);
+    ends.rate1 = beam_.indentation_rate(*end.y);
   };
-  if (t1 < ends.t1) cut();
-  std::optional<EventFunction> event;
-  while (auto crossing = find_crossing_in(ends, *y1)) {
-    const StepEnds step{whole.t0, t1, whole.y0, *y1};
+  if (end.t < ends.t1) cut();
+  while (auto crossing = find_crossing_in(ends, *end.y)) {
+    const StepEnds step{whole.t0, end.t, whole.y0, *end.y};
     dealt_with_.push_back(crossing->function);
     if (crossing->unresolved && !resolve(*crossing, step)) continue;
-    t1 = locate(*crossing, step);
+    end = {locate(*crossing, step), &end_, crossing->function};
     std::swap(end_, trial_);
-    y1 = &end_;
-    event = crossing->function;
     cut();
   }
-  return event;
+  return end;
 }
 
-std::optional<EventFunction> EventLocator::event_of_correction(
-    IndentationStep ends, double t1, const State& y1, const SectionCorrection& correction) {
+std::optional<EventFunction> EventLocator::event_of_correction(IndentationStep ends,
+                                                               const StepEnd& end) {
   if (events_ != EventHandling::located) return std::nullopt;
-  trial_ = y1;
-  correction.add_to(trial_);
-  ends.t1 = t1;
+  trial_ = *end.y;
+  correction_.add_to(trial_);
+  ends.t1 = end.t;
   ends.lambda1 = beam_.indentation(trial_);
   ends.rate1 = beam_.indentation_rate(trial_);
   const std::optional<Crossing> crossing = find_crossing_in(ends, trial_);
@@ -107,20 +95,18 @@ std::optional<EventFunction> EventLocator::event_of_correction(
   return crossing->function;
 }
 
-std::optional<EventFunction> EventLocator::event_of_integrator(const StepEnds& whole,
-                                                               const State*& y1) {
+StepEnd EventLocator::event_of_integrator(const StepEnds& whole, StepEnd end) {
   const auto root = integrator_.root();
-  if (!root || whole.t1 < integrator_.time()) return std::nullopt;
+  if (!root || whole.t1 < integrator_.time()) return end;
   end_ = whole.y1;
-  y1 = &end_;
-  return beam_.contact().event_functions()[root->function];
+  return {end.t, &end_, beam_.contact().event_functions()[root->function]};
 }
 
 bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {
   // The event function is largest where the indentation reverses: from growing, or from falling for
   // the end of contact.
-  const double sense = crossing.function.kind == EventKind::contact_ends ? -1.0 : 1.0;
-  const EventFunction reversal{EventKind::contact_unloads, sense};
+  EventFunction reversal{EventKind::contact_unloads};
+  if (crossing.function.kind == EventKind::contact_ends) reversal.before = Direction::falling;
   const double top = find_rise(
       [&](double t) {
         integrator_.state_at(t, trial_);
@@ -162,34 +148,32 @@ double EventLocator::locate(const Crossing& crossing, const StepEnds& step) {
   return find_rise(value_at, lower, upper, guess, to_rounding(step.t1));
 }
 
-bool EventLocator::relocate(const EventFunction& function, const StepEnds& step, double latest,
-                            double& time, SectionCorrection& correction) {
+std::optional<double> EventLocator::relocate(const EventFunction& function, const StepEnds& step,
+                                             double latest) {
   const RootOptions options = to_rounding(step.t1);
   // The state at t without the correction is left in end_.
   const auto value_at = [&](double t) {
     integrator_.state_at(t, end_);
-    corrector_.correct({step.t0, t, step.y0, end_}, correction);
+    corrector_.correct({step.t0, t, step.y0, end_}, correction_);
     trial_ = end_;
-    correction.add_to(trial_);
+    correction_.add_to(trial_);
     beam_.set_time(t);
     return beam_.evaluate(function, trial_);
   };
   // The method's own state: a root of the library lies on the library's dense output.
   const EventValue here = value_at(step.t1);
-  if (std::abs(here.value) <= rounding_of(function, beam_, trial_, step.t1, here)) return true;
+  if (std::abs(here.value) <= rounding_of(function, beam_, trial_, step.t1, here)) return step.t1;
   const double guess = step.t1 - here.value / here.rate;
   if (here.value > 0.0) {
-    time = find_rise(value_at, step.t0, step.t1, guess, options);
-    return true;
+    return find_rise(value_at, step.t0, step.t1, guess, options);
   }
   // Not reached yet: a little later, if the function certainly rises fast enough.
   const double ahead = std::min(step.t1 - 2.0 * here.value / here.rate, latest);
   if (here.rate > 0.0 && ahead > step.t1 && value_at(ahead).value > 0.0) {
-    time = find_rise(value_at, step.t1, ahead, guess, options);
-    return true;
+    return find_rise(value_at, step.t1, ahead, guess, options);
   }
   value_at(step.t1);
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace subimpact

@@ -14,6 +14,13 @@ namespace subimpact {
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at);
 
+/// Where a step, or its shortened part, ends.
+struct StepEnd {
+  double t;        ///< s
+  const State* y;  ///< without the section correction
+  std::optional<EventFunction> event = {};
+};
+
 /// Finds the end of a step: its first event of the contact (docs/theory.md, "Events"), or where its
 /// section correction stops being valid, or its own end. If sections leave their smooth pieces
 /// before the event, it is located again on the corrected trajectory.
@@ -30,32 +37,29 @@ class EventLocator {
         events_(events),
         double_roots_(double_roots) {}
 
-  /// Shortens the step that begins at (t0, y0) and ends at `t1`, `y1`, by moving the pointer to a
-  /// state stored in this object until the next call. Returns the event at the end, if there is
-  /// one. `indentation`: of the whole step. `correction`: of the step as it then is, not yet added.
-  std::optional<EventFunction> find_end(const StepEnds& whole, const IndentationStep& indentation,
-                                        double& t1, const State*& y1,
-                                        SectionCorrection& correction);
+  /// The first event of a step or, if there is none, its end. The state is stored in this object
+  /// until the next call, unless it is that of the whole step. `indentation`: of the whole step.
+  StepEnd find_end(const StepEnds& whole, const IndentationStep& indentation);
+  /// The section correction of the step to the end found last, not yet added to its state.
+  const SectionCorrection& correction() const { return correction_; }
 
  private:
-  // The earliest event in a step, which is shortened to end there. `ends`: of the whole step.
-  std::optional<EventFunction> find_event(const StepEnds& whole, IndentationStep ends, double& t1,
-                                          const State*& y1);
+  // The earliest event before an end of the step, or else that end. `ends`: of the whole step.
+  StepEnd find_event(const StepEnds& whole, IndentationStep ends, StepEnd end);
   // The same, of a step that the integrator's own root-finding has shortened.
-  std::optional<EventFunction> event_of_integrator(const StepEnds& whole, const State*& y1);
+  StepEnd event_of_integrator(const StepEnds& whole, StepEnd end);
   // An event of a step to (t1, y1) that has none before its correction is added, by which the end
   // passes the event function. `ends`: of the whole step.
-  std::optional<EventFunction> event_of_correction(IndentationStep ends, double t1, const State& y1,
-                                                   const SectionCorrection& correction);
+  std::optional<EventFunction> event_of_correction(IndentationStep ends, const StepEnd& end);
   std::optional<Crossing> find_crossing_in(const IndentationStep& ends, const State& y1);
   // Whether the double root of a crossing exists; if so, narrows it to the first of the two.
   bool resolve(Crossing& crossing, const StepEnds& step);
-  // The instant of a crossing, its state in trial_.
+  // The instant of a crossing (s), its state in trial_.
   double locate(const Crossing& crossing, const StepEnds& step);
-  // Moves an event found at step.t1, with step.y1 in end_, to where the corrected state meets its
-  // event function; false if that is not before `latest`: then the step has no event.
-  bool relocate(const EventFunction& function, const StepEnds& step, double latest, double& time,
-                SectionCorrection& correction);
+  // The instant (s), its state in end_, at which the corrected state meets an event function whose
+  // root was found at step.t1; nothing if that is not before `latest`.
+  std::optional<double> relocate(const EventFunction& function, const StepEnds& step,
+                                 double latest);
 
   StruckBeam& beam_;
   Integrator& integrator_;
@@ -64,6 +68,7 @@ class EventLocator {
   bool double_roots_;
   std::vector<EventFunction> dealt_with_;  // in the step being searched
   State end_, trial_;
+  SectionCorrection correction_;
 };
 
 }  // namespace subimpact

@@ -164,15 +164,13 @@ void EventLoop::show_piece(const StepEnds& piece, bool from_end) {
 
 void EventLoop::locate_events() {
   const StepEnds whole = step_to_end_time();
-  double t1 = whole.t1;
-  const State* y1 = &whole.y1;
-  const std::optional<EventFunction> event =
-      locator_.find_end(whole, indentation_of(whole), t1, y1, correction_);
+  const auto [t1, found, event] = locator_.find_end(whole, indentation_of(whole));
+  const State* y1 = found;
   show_piece({whole.t0, t1, whole.y0, *y1, whole.event_free});
-  const bool is_corrected = !correction_.is_empty();
+  const bool is_corrected = !locator_.correction().is_empty();
   if (is_corrected) {
     event_state_ = *y1;
-    correction_.add_to(event_state_);
+    locator_.correction().add_to(event_state_);
     y1 = &event_state_;
     report_reversals();
   }
@@ -198,7 +196,7 @@ bool EventLoop::pass_corner(double t, const State& y) {
 
 void EventLoop::report_reversals() {
   reversals_.clear();
-  for (const SectionEvent& event : correction_.events) {
+  for (const SectionEvent& event : locator_.correction().events) {
     if (!event.reversal) continue;
     const auto& [time, curvature] = *event.reversal;
     beam_.commit_reversal(event.section, curvature);
@@ -242,8 +240,7 @@ void EventLoop::check_root(const EventFunction& function, double time, const Sta
     audit_->fail(time, OutcomeKind::inaccurate,
                  "{} was located at {:.6g} us, but its condition is missed there by {:.2e} {}, "
                  "tolerated are {:.1e}",
-                 to_string(function.kind), us * time, at.value,
-                 function.kind == EventKind::contact_unloads || function.by_rate ? "m/s" : "m",
+                 to_string(function.kind), us * time, at.value, function.of_rate() ? "m/s" : "m",
                  tolerated);
   }
   if (!(time >= last_event_)) {

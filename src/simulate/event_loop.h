@@ -112,8 +112,7 @@ class EventLoop {
   SectionCorrector corrector_;
   EventLocator locator_;
   LossQuadrature losses_;
-  SectionCorrection correction_;       // of the step being searched
-  std::vector<Transition> reversals_;  // in it, in their order
+  std::vector<Transition> reversals_;  // of the step being searched, in their order
   double last_event_ = 0.0;
   double contact_start_ = 0.0;
   double events_since_ = 0.0;  // s: of the events counted by n_events_in_place_

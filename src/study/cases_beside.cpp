@@ -182,23 +182,20 @@ std::vector<RunBeside> simulate_beside(const Case& input, const std::vector<Case
                                        Result& run) {
   std::atomic<bool> stop = false, lacks_memory = false;
   std::vector<std::optional<Result>> others(cases.size());
-  in_parallel(
-      cases.size() + 1,
-      [&](std::size_t k) {
-        if (k == 0) {
-          run = simulate(input, progress, nullptr, rows);
-          if (run.outcome.kind == OutcomeKind::stopped) stop = true;
-          return;
-        }
-        NoRows none;
-        try {
-          others[k - 1] = simulate(
-              cases[k - 1].input, [&](double) { return !stop; }, nullptr, &none);
-        } catch (const std::bad_alloc&) {
-          lacks_memory = true;
-        }
-      },
-      std::max(jobs, 1u));
+  in_parallel(cases.size() + 1, std::max(jobs, 1u), [&](std::size_t k) {
+    if (k == 0) {
+      run = simulate(input, progress, nullptr, rows);
+      if (run.outcome.kind == OutcomeKind::stopped) stop = true;
+      return;
+    }
+    NoRows none;
+    try {
+      others[k - 1] = simulate(
+          cases[k - 1].input, [&](double) { return !stop; }, nullptr, &none);
+    } catch (const std::bad_alloc&) {
+      lacks_memory = true;
+    }
+  });
   keep_states(cases, others, run);
   if (stop) return {};
   if (lacks_memory) {

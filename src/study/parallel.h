@@ -15,8 +15,8 @@ namespace subimpact {
 
 /// Calls task(0) to task(n - 1), `jobs` at a time (0: as many as the machine has cores), in no
 /// particular order. Not for anything that is timed. Rethrows the first exception, which stops all.
-inline void in_parallel(std::size_t n, const std::function<void(std::size_t)>& task,
-                        unsigned jobs = 0) {
+inline void in_parallel(std::size_t n, unsigned jobs,
+                        const std::function<void(std::size_t)>& task) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
   std::mutex mutex;
@@ -52,15 +52,12 @@ inline std::vector<Result> simulate_all(const std::vector<Case>& cases, unsigned
     if (progress && !progress(time)) stop = true;
     return !stop;
   };
-  in_parallel(
-      cases.size(),
-      [&](std::size_t i) {
-        results[i] = simulate(cases[i], goes_on);
-        if (results[i].outcome.kind == OutcomeKind::stopped) return;
-        const std::lock_guard lock(mutex);
-        if (finished) finished();
-      },
-      jobs);
+  in_parallel(cases.size(), jobs, [&](std::size_t i) {
+    results[i] = simulate(cases[i], goes_on);
+    if (results[i].outcome.kind == OutcomeKind::stopped) return;
+    const std::lock_guard lock(mutex);
+    if (finished) finished();
+  });
   return results;
 }
 

@@ -102,14 +102,14 @@ double shortest_of(const std::vector<SubImpact>& sub_impacts, double shortest) {
 }  // namespace
 
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods,
-                       double run_seconds, const Count& progress) {
+                       double run_seconds, Jobs jobs, const Count& progress) {
   OutcomeMap map;
   map.reference = compute_reference(input, reference_error);
   map.points = points_of(input, methods);
   std::mutex mutex;
   std::size_t done = 0;
   bool stopped = false;
-  in_parallel(map.points.size(), [&](std::size_t i) {
+  in_parallel(map.points.size(), jobs, [&](std::size_t i) {
     {
       const std::lock_guard lock(mutex);
       if (stopped) {
@@ -124,12 +124,12 @@ OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& method
   return map;
 }
 
-std::vector<MissedPairs> missed_pairs(const Case& input, const Count& progress) {
+std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs, const Count& progress) {
   std::vector<MissedPairs> rows;
   for (const double step : steps_us) rows.push_back({1e-6 * step, n_speeds, 0, 0, 0.0});
   std::vector<std::vector<MissedPairs>> of_speed(n_speeds, rows);
   std::atomic<std::size_t> done{0};
-  in_parallel(n_speeds, [&](std::size_t k) {
+  in_parallel(n_speeds, jobs, [&](std::size_t k) {
     Case scene = with_method(input, "exponential");
     scene.model.section = SectionKind::elastic;
     scene.scene.striker.velocity *= 0.5 + static_cast<double>(k) / (n_speeds - 1);
@@ -158,14 +158,14 @@ std::vector<MissedPairs> missed_pairs(const Case& input, const Count& progress) 
   return rows;
 }
 
-LayerStudy layers_against_exact(const Case& input, const Count& progress) {
+LayerStudy layers_against_exact(const Case& input, Jobs jobs, const Count& progress) {
   LayerStudy study;
   Case exact = input;
   exact.model.section = SectionKind::exact;
   study.exact = compute_reference(exact, reference_error);
   for (const int layers : layer_counts) study.points.push_back({layers, {}});
   std::atomic<std::size_t> done{0};
-  in_parallel(study.points.size(), [&](std::size_t i) {
+  in_parallel(study.points.size(), jobs, [&](std::size_t i) {
     Case trial = with_method(study.exact.input, "nystrom");
     trial.solver.rtol = tolerance_of_layers;
     trial.model.section = SectionKind::layers;

@@ -142,8 +142,8 @@ bool asked_for(const std::vector<std::string>& methods, const std::string& metho
   });
 }
 
-std::vector<CriticalStep> critical_steps(const Case& input,
-                                         const std::vector<std::string>& methods) {
+std::vector<CriticalStep> critical_steps(const Case& input, const std::vector<std::string>& methods,
+                                         Jobs jobs) {
   std::vector<CriticalStep> list;
   for (const std::string& method : explicit_methods()) {
     if (!asked_for(methods, method)) continue;
@@ -159,7 +159,7 @@ std::vector<CriticalStep> critical_steps(const Case& input,
       }
     }
   }
-  in_parallel(list.size(), [&](std::size_t i) {
+  in_parallel(list.size(), jobs, [&](std::size_t i) {
     CriticalStep& row = list[i];
     Case trial = with_method(input, row.method);
     trial.scene.beam.theory = row.theory;
@@ -175,9 +175,9 @@ std::vector<CriticalStep> critical_steps(const Case& input,
   return list;
 }
 
-std::vector<StiffContact> stiff_contact(const Case& input) {
+std::vector<StiffContact> stiff_contact(const Case& input, Jobs jobs) {
   std::vector<StiffContact> list(std::size(decades));
-  in_parallel(list.size(), [&](std::size_t i) {
+  in_parallel(list.size(), jobs, [&](std::size_t i) {
     StiffContact& row = list[i];
     Case trial = with_method(input, "central-difference");
     trial.model.section = SectionKind::elastic;
@@ -196,7 +196,7 @@ std::vector<StiffContact> stiff_contact(const Case& input) {
   return list;
 }
 
-std::vector<Damping> damping_of_implicit_tables(const Case& input) {
+std::vector<Damping> damping_of_implicit_tables(const Case& input, Jobs jobs) {
   std::vector<Damping> list;
   for (const MethodTable& table : method_tables()) {
     if (table.method != Method::dirk) continue;
@@ -206,7 +206,7 @@ std::vector<Damping> damping_of_implicit_tables(const Case& input) {
           {"dirk:" + table.name, angle, std::abs(dirk_stability(table.name, {0.0, angle})), 0.0});
     }
   }
-  in_parallel(list.size(), [&](std::size_t i) {
+  in_parallel(list.size(), jobs, [&](std::size_t i) {
     Case trial = with_method(input, list[i].method);
     trial.solver.rtol = newton_tolerance;
     FreeVibration beam(trial);

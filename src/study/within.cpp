@@ -19,12 +19,6 @@ namespace {
 
 constexpr double tolerance_of_rigid_bodies = 1e-10;
 
-bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
-  return std::any_of(keys.begin(), keys.end(), [&](const char* key) {
-    return given.in_file.contains(key) || given.in_settings.contains(key);
-  });
-}
-
 // Why elements, and mostly natural modes, suit a beam of which no section yields.
 std::string elastic_reason(const Case& chosen) {
   if (chosen.solver.method != Method::exponential) return "the beam bends elastically";
@@ -294,19 +288,6 @@ class Search {
 };
 
 }  // namespace
-
-OpenChoices open_choices(const GivenKeys& given) {
-  OpenChoices open;
-  open.size = !has_any(given, {"model.segments", "model.elements"});
-  open.mesh = open.size &&
-              !has_any(given, {"model.mesh", "model.spacing", "model.sections_per_element",
-                               "model.hinges", "model.strike_refinement", "model.refined_length"});
-  open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
-  open.method =
-      open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",
-                                         "solver.events", "solver.reversals"});
-  return open;
-}
 
 ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields) {
   ChosenModel chosen{input, {}};

@@ -63,7 +63,7 @@ std::optional<Crossing> find_crossing(const ContactState& contact, const Indenta
     const EventValue g0 = contact.event_function(function, step.lambda0, step.rate0);
     const EventValue g1 = contact.event_function(function, step.lambda1, step.rate1);
     std::optional<Crossing> found;
-    if (kind == EventKind::contact_unloads || function.by_rate) {
+    if (function.of_rate()) {
       found = find_rise_of_rate(function, step, g0, g1);
     } else if (g1.value > 0.0) {
       found = find_rise_of(kind, step, g0, g1);

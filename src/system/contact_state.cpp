@@ -16,8 +16,8 @@ std::span<const EventFunction> ContactState::event_functions() const {
                                               {EventKind::contact_yields}};
   static constexpr EventFunction plastic[] = {{EventKind::contact_unloads}};
   static constexpr EventFunction damped[] = {{EventKind::contact_ends},
-                                             {EventKind::contact_ends, 1.0, true}};
-  static constexpr EventFunction recovering[] = {{EventKind::contact_begins, 1.0, true},
+                                             {EventKind::contact_ends, EventVariable::rate}};
+  static constexpr EventFunction recovering[] = {{EventKind::contact_begins, EventVariable::rate},
                                                  {EventKind::contact_ends}};
   switch (branch_) {
     case ContactBranch::separated:
@@ -51,7 +51,8 @@ ContactState::Energies ContactState::energies(double indentation) const {
 
 EventValue ContactState::event_function(const EventFunction& function, double indentation,
                                         double rate) const {
-  if (function.by_rate) {
+  if (function.kind == EventKind::contact_unloads) return {-rate, 0.0};
+  if (function.of_rate()) {
     const double above = rate + 1.0 / damping_;
     return {function.kind == EventKind::contact_ends ? -above : above, 0.0};
   }
@@ -63,7 +64,6 @@ EventValue ContactState::event_function(const EventFunction& function, double in
     case EventKind::contact_yields:
       return {indentation - law_->yield_threshold(history_), rate};
     case EventKind::contact_unloads:
-      return {-rate, 0.0};
     case EventKind::section_reverses:
       break;
   }
@@ -76,7 +76,7 @@ void ContactState::commit(double indentation) {
 }
 
 void ContactState::pass(const EventFunction& event, double indentation) {
-  recovering_ = event.kind == EventKind::contact_ends && event.by_rate;
+  recovering_ = event.kind == EventKind::contact_ends && event.of_rate();
   switch (event.kind) {
     case EventKind::contact_begins:
       branch_ = law_->first_branch(history_);

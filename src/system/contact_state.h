@@ -17,18 +17,29 @@ enum class Evaluation {
   switching  ///< the branch follows the motion, as in schemes that do not locate events
 };
 
+/// Which way a quantity moves.
+enum class Direction { rising, falling };
+
+/// What an event function is a function of.
+enum class EventVariable {
+  indentation,
+  rate  ///< contact_unloads; a damped contact that begins or ends as its rate passes -1/chi
+};
+
 /// A condition under which the equations of motion change: a function of the state that is negative
 /// before and positive after its event.
 struct EventFunction {
   EventKind kind;
-  double sense;  ///< sign of the indentation rate before contact_unloads
-  bool by_rate;  ///< of a damped contact that begins or ends because its rate passes -1/chi
+  EventVariable variable;
+  Direction before = Direction::rising;  ///< of the indentation, before contact_unloads
 
-  constexpr EventFunction(EventKind kind, double sense = 1.0, bool by_rate = false)
-      : kind(kind), sense(sense), by_rate(by_rate) {}
-  friend bool operator==(const EventFunction& a, const EventFunction& b) {
-    return a.kind == b.kind && a.by_rate == b.by_rate;
-  }
+  constexpr EventFunction(EventKind kind)
+      : EventFunction(kind, kind == EventKind::contact_unloads ? EventVariable::rate
+                                                               : EventVariable::indentation) {}
+  constexpr EventFunction(EventKind kind, EventVariable variable)
+      : kind(kind), variable(variable) {}
+  bool of_rate() const { return variable == EventVariable::rate; }
+  bool operator==(const EventFunction&) const = default;
 };
 
 /// The contact between striker and beam in one run: the law, the branch in force and the history.

@@ -292,10 +292,13 @@ void StruckBeam::read_motion(const State& y, SectionMotion& motion) const {
 EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
   const double rate = indentation_rate(y);
   const EventValue at = contact_.event_function(function, indentation(y), rate);
-  if (function.kind != EventKind::contact_unloads && !function.by_rate) return at;
+  if (!function.of_rate()) return at;
   acceleration_at(y, trial_);
   const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
-  if (!function.by_rate) return {-function.sense * rate, -function.sense * second};
+  if (function.kind == EventKind::contact_unloads) {
+    const double sign = function.before == Direction::rising ? -1.0 : 1.0;
+    return {sign * rate, sign * second};
+  }
   return {at.value, function.kind == EventKind::contact_ends ? -second : second};
 }
 

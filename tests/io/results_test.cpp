@@ -1,6 +1,5 @@
 #include "subimpact/io/results.h"
 #include "io/run_tables.h"
-#include "subimpact/io/report.h"
 
 #include <nlohmann/json.hpp>
 

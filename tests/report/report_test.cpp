@@ -1,5 +1,5 @@
-#include "subimpact/io/report.h"
 #include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 #include <fmt/format.h>
 

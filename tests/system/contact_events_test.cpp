@@ -22,16 +22,17 @@ TEST(EventFunctions, RatesAreThoseOfTheirValuesAlongTheFlow) {
                    {EventKind::contact_unloads, ContactBranch::plastic}};
   for (const Model& model : models()) {
     for (const auto& [kind, branch] : functions) {
-      for (const double sense : {1.0, -1.0}) {
+      for (const Direction before : {Direction::rising, Direction::falling}) {
         StruckBeam beam = make_beam(model);
         enter(beam, branch, 2.0 * unit);
-        const EventFunction function{kind, sense};
+        EventFunction function{kind};
+        function.before = before;
         const State y = smooth_state(beam, 5, 2.0, 3.0 * unit, 4.0);
         const double h = 1e-9;
         const EventValue at = beam.evaluate(function, y);
-        const double before = beam.evaluate(function, along_the_flow(beam, y, -h)).value;
-        const double behind = beam.evaluate(function, along_the_flow(beam, y, h)).value;
-        EXPECT_NEAR(at.rate, (behind - before) / (2.0 * h), 1e-5 * std::abs(at.rate))
+        const double earlier = beam.evaluate(function, along_the_flow(beam, y, -h)).value;
+        const double later = beam.evaluate(function, along_the_flow(beam, y, h)).value;
+        EXPECT_NEAR(at.rate, (later - earlier) / (2.0 * h), 1e-5 * std::abs(at.rate))
             << model.name << ", " << to_string(kind);
         EXPECT_NE(at.rate, 0.0);
       }

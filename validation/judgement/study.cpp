@@ -244,7 +244,7 @@ void study_hammer(const std::string& path, int n_velocities) {
   int n_certain = 0, n_over = 0;
   std::vector<double> lacking;
   std::mutex mutex;
-  in_parallel(static_cast<std::size_t>(n_velocities), [&](std::size_t i) {
+  in_parallel(static_cast<std::size_t>(n_velocities), 0, [&](std::size_t i) {
     Case input = loaded.value;
     input.scene.striker.velocity = 2.0 + 2.0 * static_cast<double>(i) / (n_velocities - 1);
     RunRequest request;
@@ -343,7 +343,7 @@ int main(int argc, char** argv) {
   }
   Findings all;
   std::mutex mutex;
-  in_parallel(static_cast<std::size_t>(n_scenes), [&](std::size_t i) {
+  in_parallel(static_cast<std::size_t>(n_scenes), 0, [&](std::size_t i) {
     const int number = first + static_cast<int>(i);
     const Findings outcome = study(strikes::draw(seed, number, budget, kind));
     const std::lock_guard lock(mutex);

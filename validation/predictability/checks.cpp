@@ -326,26 +326,23 @@ bool check_coverage(Jobs jobs) {
       Coverage here;
       int n_unjudged = 0;
       std::mutex mutex;
-      in_parallel(
-          study.keys.size(),
-          [&](std::size_t k) {
-            const TightDifferences tight(study, study.keys[k]);
-            const std::lock_guard lock(mutex);
-            for (const SensitivityRow& row : study.rows) {
-              if (row.value == 0.0 || !row.flag.empty() || !row.by_key[k]) continue;
-              const auto exact = tight.of(row.quantity, row.sub_impact);
-              if (!exact || exact->error > 0.3 * row.by_key[k]->error) {
-                ++n_unjudged;
-                continue;
-              }
-              const double off = std::abs(row.by_key[k]->value - exact->value);
-              for (Coverage* c :
-                   {&total, &here, &by_quantity[static_cast<std::size_t>(row.quantity)]}) {
-                c->add(row.by_key[k]->error, off);
-              }
-            }
-          },
-          jobs);
+      in_parallel(study.keys.size(), jobs, [&](std::size_t k) {
+        const TightDifferences tight(study, study.keys[k]);
+        const std::lock_guard lock(mutex);
+        for (const SensitivityRow& row : study.rows) {
+          if (row.value == 0.0 || !row.flag.empty() || !row.by_key[k]) continue;
+          const auto exact = tight.of(row.quantity, row.sub_impact);
+          if (!exact || exact->error > 0.3 * row.by_key[k]->error) {
+            ++n_unjudged;
+            continue;
+          }
+          const double off = std::abs(row.by_key[k]->value - exact->value);
+          for (Coverage* c :
+               {&total, &here, &by_quantity[static_cast<std::size_t>(row.quantity)]}) {
+            c->add(row.by_key[k]->error, off);
+          }
+        }
+      });
       fmt::print(
           "scene {} {}: {} contacts, {} derivatives, {:.1f} % covered, stated/true {:.1f}; {} more "
           "without a better difference\n",

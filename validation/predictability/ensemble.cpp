@@ -68,22 +68,19 @@ Ensemble ensemble(const Sensitivity& study, const Scatter& scatter,
   std::atomic<bool> stop = false;
   std::mutex mutex;
   std::size_t n_done = 0;
-  in_parallel(
-      options.n_runs,
-      [&](std::size_t i) {
-        Sample sample = draw(study, population, options.rtol, i);
-        shifts[i] = std::move(sample.shifts);
-        Result run = simulate(sample.input, [&](double time) {
-          if (options.progress && !options.progress(time)) stop = true;
-          return !stop;
-        });
-        run.transitions.clear();
-        run.transitions.shrink_to_fit();
-        if (run.outcome.completed()) runs[i] = std::move(run);
-        const std::lock_guard lock(mutex);
-        if (options.finished) options.finished(++n_done);
-      },
-      options.jobs);
+  in_parallel(options.n_runs, options.jobs, [&](std::size_t i) {
+    Sample sample = draw(study, population, options.rtol, i);
+    shifts[i] = std::move(sample.shifts);
+    Result run = simulate(sample.input, [&](double time) {
+      if (options.progress && !options.progress(time)) stop = true;
+      return !stop;
+    });
+    run.transitions.clear();
+    run.transitions.shrink_to_fit();
+    if (run.outcome.completed()) runs[i] = std::move(run);
+    const std::lock_guard lock(mutex);
+    if (options.finished) options.finished(++n_done);
+  });
 
   Ensemble result;
   result.interrupted = stop;

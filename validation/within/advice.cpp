@@ -120,13 +120,10 @@ void print_row(const Request& request) {
 
 int study_advice(const WishStudy& study) {
   std::vector<Request> requests = requests_of(study);
-  in_parallel(
-      requests.size(),
-      [&](std::size_t i) {
-        judge(requests[i]);
-        fmt::print(stderr, "request {} done\n", i);
-      },
-      study.jobs);
+  in_parallel(requests.size(), study.jobs, [&](std::size_t i) {
+    judge(requests[i]);
+    fmt::print(stderr, "request {} done\n", i);
+  });
   fmt::print(
       "| scene | wish, us | advice | horizon, us | judged | largest error, us | work over cheapest "
       "| work of the plan over the advised run's | of its reference |\n"

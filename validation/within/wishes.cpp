@@ -100,13 +100,10 @@ void print_row(const JudgedScene& scene, const Wished& wished, double ratio) {
 
 int study_wishes(const WishStudy& study) {
   std::vector<JudgedScene> scenes(static_cast<std::size_t>(study.n_scenes));
-  in_parallel(
-      scenes.size(),
-      [&](std::size_t i) {
-        scenes[i] = judge(static_cast<int>(i), study);
-        fmt::print(stderr, "scene {} done\n", i);
-      },
-      study.jobs);
+  in_parallel(scenes.size(), study.jobs, [&](std::size_t i) {
+    scenes[i] = judge(static_cast<int>(i), study);
+    fmt::print(stderr, "scene {} done\n", i);
+  });
   fmt::print(
       "| scene | beam | wish, us | chosen | sub-impacts | before horizon | judged | largest "
       "error, us | work over cheapest | why not all "

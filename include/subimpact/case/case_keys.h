@@ -111,7 +111,23 @@ void check(const Case& input);
 struct GivenKeys {
   std::set<std::string> in_file;
   std::set<std::string> in_settings;  ///< of the command line, which override the file
+  bool contain(const std::string& key) const {
+    return in_file.contains(key) || in_settings.contains(key);
+  }
 };
+
+/// What a case leaves to the program.
+struct OpenChoices {
+  bool mesh = true;       ///< model.mesh
+  bool size = true;       ///< model.segments or model.elements
+  bool method = true;     ///< solver.method
+  bool tolerance = true;  ///< solver.rtol, or solver.step
+
+  bool all() const { return mesh && size && method && tolerance; }
+};
+
+/// What the keys that a user gave leave open. Keys of one mesh or method fix that mesh or method.
+OpenChoices open_choices(const GivenKeys& given);
 
 /// Keys that were given but have no effect beside another key: one sentence per key, such as
 /// 'model.layers = 40 has no effect with model.section = "exact"'. None for a key of the file that

@@ -10,7 +10,6 @@
 
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/result.h"
-#include "subimpact/study/overlay.h"
 
 namespace subimpact {
 

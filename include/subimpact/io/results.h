@@ -9,8 +9,6 @@
 #include "subimpact/case/case.h"
 #include "subimpact/io/output_directory.h"
 #include "subimpact/simulate/result.h"
-#include "subimpact/study/compare.h"
-#include "subimpact/study/sensitivity.h"
 
 namespace subimpact {
 
@@ -73,26 +71,16 @@ class ResultWriter final : public RowSink {
   std::string lost_;  // why rows could be written nowhere
 };
 
-/// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact)
-/// into a directory. Throws OutputError.
-void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
-std::string comparison_csv(const Comparison& comparison);
-std::string matches_csv(const Comparison& comparison);
-
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that
 /// is not finite as null.
 std::string summary_json(const Case& input, const Result& result);
+
+/// The CSV tables of a run and their columns.
+std::string column_listing();
 
 std::string project_version();
 
 /// Name and version of every library the program is made of.
 std::vector<std::pair<std::string, std::string>> library_versions();
-
-/// sensitivity.csv: one row per number of a sub-impact, and for each key of the study its
-/// derivative by the logarithm of the key (d_<key>) and the error of that (error_<key>).
-std::string sensitivity_csv(const Sensitivity& study);
-
-/// Writes sensitivity.csv into a directory. Throws OutputError.
-void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study);
 
 }  // namespace subimpact

@@ -9,11 +9,23 @@
 #include <vector>
 
 #include "subimpact/io/output_directory.h"
+#include "subimpact/study/compare.h"
 #include "subimpact/study/plan.h"
+#include "subimpact/study/sensitivity.h"
 #include "subimpact/study/stability.h"
 #include "subimpact/study/work_precision.h"
 
 namespace subimpact {
+
+/// Writes comparison.csv (one row per method) and matches.csv (one row per method and sub-impact).
+void write_comparison(const std::filesystem::path& directory, const Comparison& comparison);
+std::string comparison_csv(const Comparison& comparison);
+std::string matches_csv(const Comparison& comparison);
+
+/// sensitivity.csv: one row per number of a sub-impact, and for each key of the study its
+/// derivative by the logarithm of the key (d_<key>) and the error of that (error_<key>).
+std::string sensitivity_csv(const Sensitivity& study);
+void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study);
 
 /// The reference's event times with their errors.
 std::string plan_reference_table(const Plan& plan);

@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "subimpact/simulate/assessment.h"
 #include "subimpact/system/events.h"
 
 namespace subimpact {
 
 /// From the instant contact begins to the instant its force returns to zero.
-struct SubImpact {
+struct SubImpact : SubImpactAssessment {
   double start = 0.0;                 ///< s
   std::optional<double> end;          ///< s; none: still in contact when the simulation ended
   double peak_force = 0.0;            ///< N
@@ -26,25 +27,6 @@ struct SubImpact {
   double end_rate = 0.0;              ///< m/s, the same at the end
   int zone = 0;                       ///< numbered from 1
   int subzone = 0;                    ///< numbered from 1 within the zone
-  /// What runs beside this one show (study/judgement.h); none, or no doubt, without them.
-  std::optional<bool> certain;                  ///< it exists, alone, in this place
-  std::optional<double> probability;            ///< of that; 1 where certain
-  std::string doubt;                            ///< why it is not certain
-  std::optional<double> start_error;            ///< s, error estimate of start: sum of its parts
-  std::optional<double> end_error;              ///< s, error estimate of end
-  std::optional<double> error_time;             ///< s, their part from the integration in time
-  std::optional<double> error_mesh;             ///< s, from the mesh
-  std::optional<double> error_layers;           ///< s, from layers in place of the exact section
-  std::optional<double> peak_force_error;       ///< N
-  std::optional<double> impulse_error;          ///< N s
-  std::optional<double> max_indentation_error;  ///< m
-  std::optional<double> residual_indentation_error;  ///< m
-  std::optional<double> striker_velocity_error;      ///< m/s
-  /// Times extrapolated to the limit of fine meshes (s) and their uncertainty, where a sequence of
-  /// meshes converges at the expected order.
-  std::optional<double> start_mesh_limit, end_mesh_limit, mesh_limit_error;
-  /// s, standard deviations of start and end where numbers of the scene scatter.
-  std::optional<double> start_scatter, end_scatter;
 };
 
 /// What nearly happened where the indentation came close to the residual one and turned back.
@@ -78,5 +60,11 @@ struct ZoneSummary {
   double peak_force = 0.0;    ///< N
 };
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts);
+
+/// A force at increasing times, linear in between.
+struct Signal {
+  std::vector<double> times;   ///< s, not decreasing
+  std::vector<double> forces;  ///< N, as many
+};
 
 }  // namespace subimpact

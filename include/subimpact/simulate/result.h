@@ -232,23 +232,6 @@ struct Work : WorkCounts {
   double all_seconds = 0.0;   ///< with the runs beside and before it; 0: there were none
 };
 
-/// A number of the run as a whole, and its estimated error; none: not known.
-struct Total {
-  double value = 0.0;
-  std::optional<double> error;
-};
-
-struct NamedTotal {
-  std::string name;  ///< with its unit, as in summary.json
-  Total total;
-};
-
-struct ZoneTotals {
-  Total start, end;   ///< s
-  Total impulse;      ///< N s
-  Total sub_impacts;  ///< their number
-};
-
 /// Where the gap between the bodies is smallest before it grows for good, or until the run ends.
 struct ClosestApproach {
   double time = 0.0;            ///< s
@@ -256,80 +239,8 @@ struct ClosestApproach {
   std::optional<double> error;  ///< m, of the gap
 };
 
-/// What the runs beside a run show: which sub-impacts are certain, and errors.
-struct ErrorEstimate {
-  std::string refined_run;  ///< the runs it was compared with, in words
-  /// The first sub-impact (from 0) that is not certain, or that follows a flight which may hold
-  /// another one; none if all are certain and no others are possible.
-  std::optional<std::size_t> first_unresolved;
-  std::string reason;          ///< why it is not
-  double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
-
-  /// One source of error.
-  struct Part {
-    std::string name;         ///< "time", "mesh", "layers"
-    std::string refined_run;  ///< the runs, in words
-    std::optional<std::size_t> first_unresolved;
-    std::string reason;
-    double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
-  };
-  std::vector<Part> parts;
-
-  /// A time between two sub-impacts, or after the last, that may hold another one.
-  struct UncertainFlight {
-    std::size_t after = 0;  ///< sub-impact, from 0
-    std::string reason;
-  };
-  std::vector<UncertainFlight> uncertain_flights;
-  /// On a mesh that the case fixes: errors of sub-impacts are then those in time, and this is what
-  /// finer meshes would change.
-  struct FinerMeshes {
-    std::string mesh;                           ///< that shows it, in words
-    std::size_t n_there = 0;                    ///< sub-impacts on that mesh
-    std::size_t n_same = 0;                     ///< sub-impacts that it confirms
-    std::optional<double> change_of_first_end;  ///< s, of the end of the first sub-impact
-    std::string doubt;  ///< why the mesh shows nothing of the beam, if it does not
-  };
-  std::optional<FinerMeshes> finer_meshes;
-  std::vector<NamedTotal> totals;
-  std::vector<ZoneTotals> zones;
-};
-
-/// Ends of the first contact on one coarse mesh, without and with shear.
-struct NeglectedShear {
-  double without = 0.0;        ///< s
-  std::optional<double> with;  ///< s; none: not within three times the other
-};
-
-/// What became of a tolerance on the event times (starts and ends of sub-impacts).
-struct ToleranceOutcome {
-  double asked = 0.0;    ///< s, error of event times that was asked for
-  bool met = false;      ///< whether every event time of the run is certain and within it
-  double reached = 0.0;  ///< s, largest error of the event times before the horizon; inf: not known
-  double horizon = 0.0;  ///< s, up to which event times are certain and within it
-  std::string reason;    ///< why the horizon comes before the end; else empty
-  std::string key;       ///< key of the case that stands in the way and could be freed; or empty
-};
-
-/// How far a strike can be predicted of which numbers scatter: standard deviations by first
-/// derivatives, and where these end to describe what happens.
-struct Predictability {
-  /// The first sub-impact (from 0) that cannot be predicted; none if all can.
-  std::optional<std::size_t> first_unpredictable;
-  std::string reason;            ///< why that one cannot
-  double horizon = 0.0;          ///< s: the end of the last one before it
-  double largest_scatter = 0.0;  ///< s, of the starts and ends up to there
-
-  /// Standard deviations of what a zone is as a whole; none where they are not known.
-  struct Zone {
-    std::optional<double> start_scatter, end_scatter;  ///< s
-    std::optional<double> impulse_scatter;             ///< N s
-  };
-  std::vector<Zone> zones;
-  std::optional<double> striker_velocity_scatter;  ///< m/s, after the last sub-impact
-};
-
-struct Result {
+/// What one run computes. Its assessment is empty until other runs are compared with it.
+struct Result : Assessment {
   Outcome outcome;
   Options given;          ///< of the run, as passed by the caller
   ResolvedSettings used;  ///< the same after resolve()
@@ -356,8 +267,6 @@ struct Result {
   /// s: a time from which it is proven that no contact follows: the end of the run, or sooner with
   /// time.stop = "no-more-contact".
   std::optional<double> no_more_contact;
-  /// Whether that is proven for this run and for those beside it.
-  bool contact_over = false;
   /// Of the flight after the last sub-impact; none if the gap does nothing but grow.
   std::optional<ClosestApproach> closest_approach;
   std::size_t n_yielded_sections = 0;  ///< of the sections modelled
@@ -392,12 +301,6 @@ struct Result {
   std::shared_ptr<const RunState> end_state;
   /// Reasons to doubt results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
-  std::optional<ErrorEstimate> error_estimate;    ///< with error bars
-  std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
-  std::optional<ToleranceOutcome> tolerance;      ///< of runs that were asked for an accuracy
-  std::optional<Predictability> predictability;   ///< of a case with scatter
-  /// Why mesh and method are what they are, where the program chose them; else empty.
-  std::string choice;
   Work work;
 
   /// Whether the whole result passed every check. If not, the part up to
@@ -409,8 +312,6 @@ struct Result {
   double impulse() const;
   /// How many sub-impacts are certain. None without an error estimate.
   std::optional<std::size_t> n_certain() const;
-  /// Whether it is certain that there are these sub-impacts and no others.
-  bool all_certain() const { return error_estimate && !error_estimate->first_unresolved; }
 
   /// One line: outcome, sub-impacts, error of the energy, steps and time.
   std::string brief_report() const;

@@ -9,12 +9,6 @@
 
 namespace subimpact {
 
-/// A force at increasing times, linear in between.
-struct Signal {
-  std::vector<double> times;   ///< s, not decreasing
-  std::vector<double> forces;  ///< N, as many
-};
-
 /// What a transducer with a Butterworth low-pass of fourth order makes of a force that is zero
 /// before the first sample:
 ///

@@ -1,6 +1,7 @@
 #pragma once
 
 /// Where methods fail, and how: measured on the beam of a case, beside the prediction of theory.
+/// Nothing is timed, so `jobs` runs go at a time (0: one for each processor).
 
 #include <functional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
+#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 
@@ -46,7 +48,8 @@ bool asked_for(const std::vector<std::string>& methods, const std::string& metho
 /// Central differences and every explicit table, both beam theories, meshes of about a fifth, two
 /// fifths, four fifths and eight fifths of the case's cells.
 std::vector<CriticalStep> critical_steps(const Case& input,
-                                         const std::vector<std::string>& methods = {});
+                                         const std::vector<std::string>& methods = {},
+                                         Jobs jobs = 0);
 
 /// The critical step of central differences while a linear spring holds the striker in contact.
 struct StiffContact {
@@ -55,7 +58,7 @@ struct StiffContact {
   double predicted = 0.0;  ///< s, 2/omega_max of beam, spring and striker together
   double measured = 0.0;   ///< s
 };
-std::vector<StiffContact> stiff_contact(const Case& input);
+std::vector<StiffContact> stiff_contact(const Case& input, Jobs jobs = 0);
 
 /// What an implicit table leaves of an oscillation in one step.
 struct Damping {
@@ -64,7 +67,7 @@ struct Damping {
   double predicted = 0.0;  ///< |R(i omega h)|
   double measured = 0.0;   ///< on a mode of the case's beam
 };
-std::vector<Damping> damping_of_implicit_tables(const Case& input);
+std::vector<Damping> damping_of_implicit_tables(const Case& input, Jobs jobs = 0);
 
 /// Growth per step of backward differentiation on an undamped oscillation, from the coefficients.
 struct MultistepGrowth {
@@ -87,11 +90,11 @@ struct OutcomeMap {
 
 /// Methods against fixed steps, from far below to far beyond what is stable, and against
 /// tolerances; backward differentiation order by order; implicit methods with steps at which high
-/// modes are damped away. Nothing is timed, so runs go on all cores. A run that takes more than
-/// `run_seconds` is left out. `progress` is called with the numbers of finished and of all runs.
+/// modes are damped away. A run that takes more than `run_seconds` is left out. `progress` is
+/// called with the numbers of finished and of all runs.
 using Count = std::function<bool(std::size_t done, std::size_t all)>;
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
-                       double run_seconds = 20.0, const Count& progress = {});
+                       double run_seconds = 20.0, Jobs jobs = 0, const Count& progress = {});
 
 /// Sub-impacts and separations that begin and end within one step: of runs at several striking
 /// speeds (from half to one and a half times the case's; elastic beam, exponential method), how
@@ -103,7 +106,7 @@ struct MissedPairs {
   int right_without = 0;
   double shortest = 0.0;  ///< s, the shortest sub-impact or separation of all references
 };
-std::vector<MissedPairs> missed_pairs(const Case& input, const Count& progress = {});
+std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs = 0, const Count& progress = {});
 
 /// Layers beside the exact law that they tend to, integrated as accurately as the reference.
 struct LayerPoint {
@@ -114,6 +117,6 @@ struct LayerStudy {
   Reference exact;
   std::vector<LayerPoint> points;
 };
-LayerStudy layers_against_exact(const Case& input, const Count& progress = {});
+LayerStudy layers_against_exact(const Case& input, Jobs jobs = 0, const Count& progress = {});
 
 }  // namespace subimpact

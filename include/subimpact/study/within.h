@@ -11,19 +11,6 @@
 
 namespace subimpact {
 
-/// What a case leaves to the program.
-struct OpenChoices {
-  bool mesh = true;       ///< model.mesh
-  bool size = true;       ///< model.segments or model.elements
-  bool method = true;     ///< solver.method
-  bool tolerance = true;  ///< solver.rtol, or solver.step
-
-  bool all() const { return mesh && size && method && tolerance; }
-};
-
-/// What the keys that a user gave leave open. Keys of one mesh or method fix that mesh or method.
-OpenChoices open_choices(const GivenKeys& given);
-
 struct WithinOptions {
   Jobs jobs = 1;
   /// Called before each run, with its description.

@@ -4,12 +4,12 @@
 
 #include "case/counted.h"
 #include "io/listed_files.h"
-#include "io/study_columns.h"
-#include "io/uncertain.h"
 #include "numerics/units.h"
+#include "report/study_columns.h"
+#include "report/uncertain.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
+#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact {
 namespace {

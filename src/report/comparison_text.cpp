@@ -4,12 +4,13 @@
 
 #include "case/case_choices.h"
 #include "case/counted.h"
-#include "io/study_columns.h"
-#include "io/uncertain.h"
+#include "io/listed_files.h"
 #include "numerics/units.h"
+#include "report/study_columns.h"
+#include "report/uncertain.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
-#include "subimpact/io/results.h"
+#include "subimpact/report/studies.h"
+#include "subimpact/report/text.h"
 
 namespace subimpact {
 namespace {
@@ -177,6 +178,11 @@ std::string matches_csv(const Comparison& comparison) {
   add("peak_force", "_N", &SubImpact::peak_force);
   add("impulse", "_Ns", &SubImpact::impulse);
   return csv_text(columns, matches);
+}
+
+void write_comparison(const std::filesystem::path& directory, const Comparison& comparison) {
+  write_file(directory / "comparison.csv", comparison_csv(comparison));
+  write_file(directory / "matches.csv", matches_csv(comparison));
 }
 
 std::string model_table(const std::vector<ModelRun>& runs) {

@@ -6,8 +6,8 @@
 
 #include "case_with.h"
 #include "subimpact/case/simulate.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 #include "testing.h"
 
 namespace subimpact {

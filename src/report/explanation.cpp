@@ -9,8 +9,8 @@
 #include "case/problem.h"
 #include "numerics/units.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/study/run_as_asked.h"
 

@@ -1,4 +1,4 @@
-#include "io/uncertain.h"
+#include "report/uncertain.h"
 
 #include <fmt/format.h>
 

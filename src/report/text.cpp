@@ -1,4 +1,4 @@
-#include "subimpact/io/report.h"
+#include "subimpact/report/text.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "case/counted.h"
-#include "io/uncertain.h"
 #include "numerics/units.h"
+#include "report/uncertain.h"
 #include "subimpact/case/doubtful_units.h"
 
 namespace subimpact {

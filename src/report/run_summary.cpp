@@ -7,11 +7,11 @@
 #include "case/counted.h"
 #include "case/problem.h"
 #include "io/printable.h"
-#include "io/uncertain.h"
 #include "numerics/units.h"
+#include "report/uncertain.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
+#include "subimpact/report/text.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {

@@ -104,9 +104,6 @@ std::string explanation(const Case& input, const GivenKeys& given);
 /// All keys of a case file, with units, what they accept and their defaults.
 std::string key_listing();
 
-/// The CSV tables of a run and their columns.
-std::string column_listing();
-
 /// The methods and their Butcher tables, one line each.
 std::string method_listing();
 
