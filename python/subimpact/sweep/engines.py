@@ -29,7 +29,8 @@ _SECONDS_TO_END = 10.0  # for the thread of a pool whose workers are dead
 _ROOM_FOR_A_CASE = 0.25  # GiB
 _CHUNKS_AHEAD = 3  # per worker, handed out beyond what it runs
 
-Sink = Callable[[list[Row]], None]
+#: Takes rows by the numbers of their cases.
+Sink = Callable[[dict[int, Row]], None]
 
 
 def n_cores() -> int:
@@ -149,7 +150,7 @@ def _is_death(error: BaseException) -> bool:
 def run_here(plan: Plan, numbers: Iterable[int], sink: Sink) -> None:
     """Runs cases one after another in this process."""
     for number in numbers:
-        sink([run_case(plan, number)])
+        sink({number: run_case(plan, number)})
 
 
 class Coordinator:
@@ -211,19 +212,19 @@ class Coordinator:
             return False
 
     def _take(self, done: Iterable[Future[Any]]) -> None:
-        rows: list[Row] = []
+        rows: dict[int, Row] = {}
         is_broken = False
         for future in done:
             numbers = self._futures.pop(future)
             error = future.exception()
             if error is None:
                 chunk, seconds = future.result()
-                rows += chunk
+                rows.update(zip(numbers, chunk, strict=True))
                 self._seconds += seconds
                 self._n_timed += len(numbers)
             elif _is_death(error):
                 is_broken = True
-                rows += self._blame(numbers)
+                rows.update(self._blame(numbers))
             else:
                 raise error
         if rows:
@@ -231,22 +232,22 @@ class Coordinator:
         if is_broken and isinstance(self._engine, Processes):
             self._abandon()
 
-    def _blame(self, numbers: list[int]) -> list[Row]:
+    def _blame(self, numbers: list[int]) -> dict[int, Row]:
         if self._is_alone:
             number = numbers[0]
             self._deaths[number] += self._engine.deaths_per_failure
             if self._deaths[number] >= MOST_DEATHS:
                 message = f"ended its worker {MOST_DEATHS} times"
-                return [row_without_result(identity_of(self._plan, number), "crashed", message)]
+                return {number: row_without_result(identity_of(self._plan, number), "crashed", message)}
         self._suspects.extend(numbers)
-        return []
+        return {}
 
     def _abandon(self) -> None:
         """All tasks of a broken pool fail: what has not ended is run again."""
         for future in list(self._futures):
             numbers = self._futures.pop(future)
             if future.done() and not future.cancelled() and future.exception() is None:
-                self._sink(future.result()[0])
+                self._sink(dict(zip(numbers, future.result()[0], strict=True)))
             else:
                 self._suspects.extend(numbers)
         self._engine.restart()

@@ -68,16 +68,20 @@ class Sweep:
 class _Sink:
     """Collects rows and stores them twice per second."""
 
-    def __init__(self, store: Store, n_done: int, n_all: int, progress: Progress | None) -> None:
+    def __init__(
+        self, store: Store, identities: dict[int, str], n_done: int, n_all: int, progress: Progress | None
+    ) -> None:
         self._store = store
+        self._identities = identities
         self._rows: list[Row] = []
         self._last = time.monotonic()
         self._n_done = n_done
         self._n_all = n_all
         self._progress = progress
 
-    def __call__(self, rows: list[Row]) -> None:
-        self._rows += rows
+    def __call__(self, rows: dict[int, Row]) -> None:
+        self._identities.update((number, row.identity) for number, row in rows.items())
+        self._rows += rows.values()
         self._n_done += len(rows)
         if time.monotonic() - self._last >= _SECONDS_BETWEEN_COMMITS:
             self.flush()
@@ -91,7 +95,14 @@ class _Sink:
             self._progress(self._n_done, self._n_all)
 
 
-def _missing(numbers: Iterable[int], identities: list[str], known: Mapping[str, str]) -> list[int]:
+def _has_equal_cases(plan: Plan) -> bool:
+    settings = [repr(plan.settings(number)) for number in range(len(plan))]
+    return len(set(settings)) < len(settings)
+
+
+def _missing(
+    numbers: Iterable[int], identities: Mapping[int, str], known: Mapping[str, str]
+) -> list[int]:
     """The cases without a row; of cases of one identity the first."""
     seen = set(known)
     missing = []
@@ -202,14 +213,19 @@ def sweep(
     else:
         plan = Plan(case, {} if axes is None else axes, scatter, samples, seed, error_bars, timeout)
     numbers = range(len(plan))[slice(*only)] if only else range(len(plan))
-    identities = [identity_of(plan, number) for number in range(len(plan))]
     with Interruption() as interruption, Store(out) as store:
         for directory in merge:
             _merge(store, directory)
         if retry:
             store.drop(RETRIED)
-        missing = _missing(numbers, identities, store.outcomes())
-        sink = _Sink(store, len(numbers) - len(missing), len(numbers), progress)
+        known = store.outcomes()
+        identities: dict[int, str] = {}
+        missing = list(numbers)
+        # Without rows to go on from, the identities come with the rows: each takes time to find.
+        if known or _has_equal_cases(plan):
+            identities = {number: identity_of(plan, number) for number in range(len(plan))}
+            missing = _missing(numbers, identities, known)
+        sink = _Sink(store, identities, len(numbers) - len(missing), len(numbers), progress)
         try:
             _hand_out(plan, missing, sink, workers, memory, executor)
         finally:

@@ -6,6 +6,7 @@ import hashlib
 import json
 import zlib
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 from typing import IO, Any
 
@@ -22,7 +23,7 @@ HDF5 = "sweep.h5"
 _MANIFEST = "manifest.json"
 
 
-def write_tables(plan: Plan, identities: list[str], store: Store) -> Counter[str]:
+def write_tables(plan: Plan, identities: Mapping[int, str], store: Store) -> Counter[str]:
     """Writes runs.csv and sub_impacts.csv, both as one, from the rows there are, which have the
     identities of the plan's cases; returns how many rows have each outcome. Raises OutputError."""
     try:
@@ -47,13 +48,13 @@ def _not_written(directory: Path, error: Exception) -> OutputError:
 
 
 def _write_rows(
-    plan: Plan, identities: list[str], store: Store, runs: IO[str], sub_impacts: IO[str]
+    plan: Plan, identities: Mapping[int, str], store: Store, runs: IO[str], sub_impacts: IO[str]
 ) -> Counter[str]:
     keys = plan.keys()
     outcomes: Counter[str] = Counter()
     runs.write(",".join(["run", *keys, *COLUMNS, "message"]) + "\n")
     sub_impacts.write("run," + events_heading() + "\n")
-    for number, identity in enumerate(identities):
+    for number, identity in sorted(identities.items()):
         row = store.get(identity)
         if row is None:
             continue
@@ -62,8 +63,8 @@ def _write_rows(
         values = dict(plan.settings(number))
         cells = [str(number), *(cell(values[key]) for key in keys), outcome, one_line(row.cells)]
         runs.write(",".join(cells) + "\n")
-        for line in zlib.decompress(row.sub_impacts).decode().splitlines(keepends=True):
-            sub_impacts.write(f"{number},{line}")
+        lines = zlib.decompress(row.sub_impacts).decode().splitlines(keepends=True)
+        sub_impacts.write("".join(f"{number},{line}" for line in lines))
     return outcomes
 
 
