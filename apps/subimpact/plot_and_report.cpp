@@ -143,7 +143,7 @@ int report_sweep(const FinishedRunOptions& options) {
 
 int report_any(FinishedRunOptions& options) {
   if (!options.measured.empty() && (options.runs.size() > 1 || holds_sweep(options.runs.front()))) {
-    throw CLI::ValidationError("--measured", "is laid beside one run; give its directory alone");
+    throw CLI::ValidationError("--measured", "is compared with one run; give its directory alone");
   }
   for (const std::string& run : options.runs) {
     if (!holds_sweep(run)) continue;
@@ -207,7 +207,7 @@ void add_report(CLI::App& program, int& status) {
                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                      "Default: that of Debian's libjs-dygraphs");
   CLI::Option* measured = command.add_option("--measured", options.measured,
-                                             "CSV file of a measured force, to be laid beside the "
+                                             "CSV file of a measured force, to be compared with the "
                                              "computed one; its heading has the units: "
                                              "time_us,force_kN");
   measured->check(not_empty);

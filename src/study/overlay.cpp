@@ -278,7 +278,7 @@ Overlay overlay_of(const std::vector<HistoryRow>& history, const Signal& measure
         fmt::format("the {} force lies between {:.4g} and {:.4g} N; {}", whose, low, high, remedy));
   };
   refuse_flat(computed, "computed",
-              "a run without contact has nothing to lay beside a measurement");
+              "a run without contact has no force to compare with a measurement");
   refuse_flat(measured, "measured",
               "contact pushes, and its force is positive here: change the sign of the column");
   const Search search(computed, measured);
