@@ -207,7 +207,7 @@ void add_report(CLI::App& program, int& status) {
                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                      "Default: that of Debian's libjs-dygraphs");
   CLI::Option* measured = command.add_option("--measured", options.measured,
-                                             "CSV file of a measured force, to be compared with the "
+                                             "CSV file of a measured force, to compare with the "
                                              "computed one; its heading has the units: "
                                              "time_us,force_kN");
   measured->check(not_empty);
