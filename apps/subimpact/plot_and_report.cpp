@@ -169,7 +169,7 @@ void add_plot(CLI::App& program, int& status) {
   command.footer(
       "Draws response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
       "(both unless output.shapes = 0) and, if the run kept sections (output.sections), bending; "
-      "needs gnuplot. The gnuplot scripts stay beside the figures, ready to be edited and run "
+      "needs gnuplot. The gnuplot scripts are kept next to the figures, to be edited and run "
       "again.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
@@ -191,8 +191,8 @@ bool is_cutoff(const std::string& text) {
 }
 
 void add_report(CLI::App& program, int& status) {
-  auto [command, options] = add_command(program, status, "report",
-                                        "Write finished runs up as one page of HTML", report_any);
+  auto [command, options] =
+      add_command(program, status, "report", "Write finished runs as one page of HTML", report_any);
   command
       .add_option(
           "DIR", options.runs,

@@ -34,12 +34,12 @@ std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
        [=, &input] {
          return asked("central-difference") ? part_of(stiff_contact(input)) : StabilityPart();
        }},
-      {"damping", "Implicit methods: what one step leaves of an oscillation",
+      {"damping", "Implicit methods: share of an oscillation left by one step",
        [=, &input] {
          if (!asked("dirk") && !asked("bdf")) return StabilityPart();
          return part_of(damping_of_implicit_tables(input), bdf_growths());
        }},
-      {"map", "How runs of the case come out",
+      {"map", "Outcomes of runs of the case",
        [=, &input, &command] {
          return part_of(outcome_map(input, command.methods, command.run_seconds, counter("runs")));
        }},

@@ -251,7 +251,7 @@ void check_section(const Case& input) {
   }
   if (input.parts.section && shape != SectionShape::rectangle) {
     refuse_section(input, "beam.section.shape",
-                   "is given beside Case::parts.section, whose strips are fractions of a "
+                   "is given with Case::parts.section, whose strips are fractions of a "
                    "rectangle; allowed: \"rectangle\"");
   }
 }

@@ -22,7 +22,7 @@ std::string quoted_list(std::vector<std::string> names) {
 std::string typed(const KeyValue& value) {
   static constexpr const char* kinds[] = {
       "a boolean", "a whole number",    "a floating-point number",   "a text",
-      "a list",    "a list of numbers", "a list of things at points"};
+      "a list",    "a list of numbers", "a list of loads or springs"};
   return fmt::format("{} ({})", kinds[value.index()], to_text(value));
 }
 

@@ -87,7 +87,7 @@ auto read_listed(const std::filesystem::path& directory, Read read) {
     } catch (const ReplacedMeanwhile&) {
     }
   }
-  fail<ResultsError>("{}: is written anew again and again; read it when the runs have ended",
+  fail<ResultsError>("{}: is being rewritten repeatedly; read it when the runs have ended",
                      directory.string());
 }
 

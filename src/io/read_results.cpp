@@ -64,7 +64,7 @@ FinishedRun read_once(const fs::path& directory, const ListedFiles& files) {
 
 constexpr const char* runs_name = "runs.csv";
 constexpr const char* sub_impacts_name = "sub_impacts.csv";
-constexpr const char* remedy = "run the sweep again, which takes what it has from its store";
+constexpr const char* remedy = "run the sweep again; it keeps the runs in its store";
 
 struct SweptSubImpact : SubImpact {
   long run = 0;

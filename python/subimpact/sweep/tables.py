@@ -115,7 +115,7 @@ def _manifest(directory: Path) -> dict[str, Any]:
     raise StoreError(f"{path}: is no list of the tables of a sweep; {_AGAIN}")
 
 
-_AGAIN = "run the sweep again, which takes what it has from its store"
+_AGAIN = "run the sweep again; it keeps the runs in its store"
 
 
 def _check_tables(directory: Path, identity: str) -> None:
