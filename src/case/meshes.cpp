@@ -45,7 +45,7 @@ bool strikes_end(const Case& input) {
   return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
 }
 
-// Of a strike at an end.
+// Whether the strike is at an end with a support.
 bool strikes_support(const Case& input) {
   const int end = input.scene.striker.position == 0.0 ? 0 : 1;
   return input.scene.beam.ends[end] != EndSupport::free;

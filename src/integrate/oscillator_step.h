@@ -29,7 +29,7 @@ struct DampedOscillator {
   double forced[n_powers];
 
  private:
-  // The same at twice the time t.
+  // The oscillator's step for twice the time t.
   DampedOscillator continued(double omega, double t) const;
 };
 

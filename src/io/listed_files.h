@@ -18,10 +18,10 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Of all that can be read; the file is at its beginning then.
+/// Fingerprint of the whole stream, which is then rewound.
 Fingerprint fingerprint_of(std::istream& file);
-/// Of a regular file; nothing if there is none of that name (a symbolic link is none). Throws
-/// std::system_error if the file cannot be opened.
+/// Fingerprint of a regular file; nothing if there is no such file (a symbolic link is none).
+/// Throws std::system_error if the file cannot be opened.
 std::optional<Fingerprint> fingerprint_of(const std::filesystem::path& file);
 
 struct Manifest {

@@ -70,7 +70,7 @@ struct SweptSubImpact : SubImpact {
   long run = 0;
 };
 
-// Those of events.csv after the run's number.
+// The number of the run, then the columns of events.csv.
 Columns<SweptSubImpact> sub_impact_columns() {
   Columns<SweptSubImpact> columns = {{"run", &SweptSubImpact::run}};
   for (const Column<SubImpact>& of_run : run_table<SubImpact>().columns) {

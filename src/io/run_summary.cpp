@@ -186,7 +186,7 @@ double magnitude(const EnvelopeRow::Range& range) {
   return std::max(range.largest.value, -range.smallest.value);
 }
 
-// Of the outer fibre, at which a section first yields.
+// Strain of the outer fibre at which a section first yields.
 double first_yield_strain(const Case& input, const Result& result) {
   const double n = input.model.layers;
   const bool has_layers = descriptor_of(input.model.section).has_layers;

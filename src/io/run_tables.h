@@ -15,7 +15,7 @@ struct RunTable {
   std::vector<Row> Result::*rows;
   /// How many rows there are at an instant; 0: the run leaves no such table.
   std::size_t (*group)(const Case& input, const Result& result);
-  /// Of a table that may be too long to hold: how many instants it has; what keeps its extremes.
+  /// For a table that may be too long to hold: how many instants it has; what keeps its extremes.
   std::size_t (*n_instants)(const Result& result) = nullptr;
   std::vector<double Row::*> drawn = {};
 };

@@ -7,7 +7,7 @@
 
 #include "subimpact/model/beam_mesh.h"
 
-/// Frequencies and modes of beams and of their meshes, beside BeamMesh::natural_modes().
+/// Frequencies and modes of beams and of their meshes, in addition to BeamMesh::natural_modes().
 
 namespace subimpact {
 

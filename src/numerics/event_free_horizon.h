@@ -44,7 +44,7 @@ class EventFreeHorizon {
   };
   bool stays_within_limits(std::size_t function) const;
   bool passes(Level& level, std::size_t function, double before, double after);
-  // Of `n` intervals of a level, begun at its z and rates: the time without an event.
+  // The time without an event in `n` intervals of a level, from its z and rates.
   double event_free_time(std::size_t level, std::size_t n);
 
   std::vector<double> omega_, functions_;

@@ -29,7 +29,7 @@ double maximum_in(const Function& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-// Of the largest force so far, between rows of a run that follows the force.
+// Change of force between rows, as a share of the largest force so far, if rows follow the force.
 constexpr double change_of_force = 0.01;
 
 // A tensile force is tolerated within so many roundings of displacements of the contact's end.

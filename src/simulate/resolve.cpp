@@ -72,7 +72,7 @@ std::string section_name(const Problem& problem, const StruckBeam& beam) {
   return problem.section ? name + ", elastic" : "elastic";
 }
 
-// Of the beam in bending, with its own section; layers stand for the rectangle.
+// First period of the beam in bending, with its own section; layers represent the rectangle.
 double first_period(const Problem& problem) {
   const double of_rectangle = 2.0 * M_PI / flexural_frequencies(problem.beam, 1).front();
   return problem.section ? of_rectangle / std::sqrt(problem.section->represented_slope())

@@ -39,7 +39,7 @@ struct RunParts {
   StruckBeam beam;
   ResolvedSettings settings;
   std::vector<std::string> warnings;  ///< for the result, before those of the run
-  /// Those that follow from the result, after those of the run; may be empty.
+  /// Warnings that follow from the result, after those of the run; may be empty.
   std::function<std::vector<std::string>(const Result&)> warnings_of_result;
   double setup_seconds = 0.0;
 };
@@ -74,7 +74,7 @@ void begin_from(const RunState& start, RunParts& parts);
 /// Its accounts and records, where the run continues the strike of that state.
 void read_records(const RunState& start, Audit& audit, Recorder& recorder);
 
-/// Of a run that has reached `time` (s) and y, before its records are closed.
+/// State of a run that has reached `time` (s) and y, before its records are closed.
 std::shared_ptr<const RunState> end_state(RunParts& parts, double time, State y, Audit& audit,
                                           Recorder& recorder);
 

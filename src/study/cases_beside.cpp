@@ -56,8 +56,8 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     const double order = std::max(mesh_order(input).value_or(2), 2);
     beside.gain = std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
     beside.input.output = output_beside(input);
-    // Of a run in natural modes nothing but the case can be refused, and resolving it would take
-    // most of the time of a short run.
+    // For a run in natural modes only the case can be refused, and resolving it would take most of
+    // the time of a short run.
     if (beside.input.solver.method == Method::exponential) {
       check(beside.input);
     } else {
@@ -140,7 +140,8 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
   if (!all.empty()) return all;
   all = cases_beside_in_time(input);
   if (all.empty()) return all;
-  // Where no other mesh takes the strike, what the mesh does not show is doubted all the same.
+  // If no other mesh allows the strike, effects that the mesh does not show still count as
+  // uncertain.
   if (mesh_order(input)) all.front().part = "mesh and time";
   return all;
 }

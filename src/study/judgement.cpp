@@ -181,7 +181,7 @@ class Judge {
     return doubt_by_near_miss(NearMissKind::closing, i, 1.0);
   }
 
-  // Of the closest approach after the last sub-impact, or of a run without any, m.
+  // Error (m) of the closest approach after the last sub-impact, or in a run without sub-impacts.
   double approach_error() const {
     const auto [time, gap, error] = *run_.closest_approach;
     if (all_.empty()) {
@@ -282,9 +282,9 @@ class Judge {
     return i + 1 < all_.size() ? all_[i + 1].start : run_.outcome.time;
   }
 
-  // Of the margin of a near miss, within a contact or flight of that length: what the margin
-  // differs by in the runs beside; the error of the indentation where one of them has no such near
-  // miss.
+  // Error of the margin of a near miss, within a contact or flight of that length: from the
+  // differences of the margin in the runs beside, or from the error of the indentation if one of
+  // them lacks this near miss.
   double margin_error(const NearMiss& here, double length, double delta) const {
     double error = 0.0;
     for (const std::size_t k : of_existence_) {

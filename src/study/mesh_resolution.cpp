@@ -38,14 +38,14 @@ double wave_constant(const Beam& beam) {
 constexpr double largest_mass_ratio = 0.2;  // of a part of the mesh to the striker
 constexpr double fewest_cells_to_end = 6.0;
 constexpr double coarsest_beside = 0.7;  // over the parts of the first mesh
-// Of elements, whose modes next to a node at the strike have no closed form: 800 take a second.
+// For elements, whose modes with a node at the strike have no closed form: 800 take a second.
 constexpr double most_cells_in_modes = 800.0;
 
 bool strikes_end(const Case& input) {
   return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
 }
 
-// Of the strike, as a share of the length.
+// Distance of the strike from the nearest end, as a share of the length.
 double distance_to_end(const Case& input) {
   return std::min(input.scene.striker.position, 1.0 - input.scene.striker.position);
 }
@@ -88,7 +88,7 @@ double parts_beside_striker(const Case& input, const ResolvedSettings& used) {
          size(largest_mass_ratio * input.scene.bodies().moving_mass());
 }
 
-// Of the strike, m; infinite without a free end.
+// Distance (m) of the strike from the nearest free end; infinite without one.
 double distance_to_free_end(const Scene& scene) {
   double nearest = std::numeric_limits<double>::infinity();
   const double at = scene.striker.position;

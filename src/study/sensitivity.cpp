@@ -226,7 +226,7 @@ std::vector<NearMissSensitivity> near_misses_of(const Result& base,
   return list;
 }
 
-// Flags what a near miss leaves in doubt: one that the shifts nearly reach.
+// Flags sub-impacts that a near miss makes uncertain: one that the shifts nearly reach.
 void flag_near_misses(Sensitivity& study) {
   for (const NearMissSensitivity& near_miss : study.near_misses) {
     const double margin = study.base.near_misses[near_miss.near_miss].margin;

@@ -24,7 +24,7 @@ struct Stencil {
     const auto is_base = [this](double f) { return f == base; };
     return std::ranges::all_of(plus, is_base) && std::ranges::all_of(minus, is_base);
   }
-  /// Of the values at both shifts, the mean less the value between them.
+  /// The mean of the values at both shifts minus the value between them.
   double bend(std::size_t i) const { return 0.5 * (plus[i] - base + (minus[i] - base)); }
 };
 

@@ -38,7 +38,7 @@ std::string elastic_reason(const Case& chosen) {
 constexpr double least_refinement = 1.25;
 constexpr double usual_refinement = 2.0;
 constexpr double largest_refinement = 4.0;  // while less than half of the sub-impacts are certain
-// Of the refinement that the stated error asks for.
+// Factor on the refinement that follows from the stated error.
 constexpr double margin = 1.1;
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
@@ -177,7 +177,7 @@ class Search {
   }
   bool is_met() const { return best_->result.all_certain() && largest_error() <= tolerance_; }
 
-  // Of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
+  // Work of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
   double work_of_next(double ratio) const {
     double growth = usual_growth;
     if (!best_->beside.empty()) {
@@ -290,7 +290,7 @@ class Search {
   std::optional<Level> best_;  // the last one that ended
   double work_ = 0.0;          // of all runs so far
   std::string obstacle_;       // why no finer mesh is run
-  std::string key_;            // that stands in the way
+  std::string key_;            // that prevents meeting the tolerance
 };
 
 }  // namespace

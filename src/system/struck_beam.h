@@ -150,7 +150,7 @@ class StruckBeam final : public MechanicalSystem {
   /// At the corner t of a load, in the state y, or before the start: goes on to the next piece.
   void begin_loads(const State& y, double t);
   double outer_stiffness() const { return outer_stiffness_; }  ///< E h/2, N/m
-  /// Of the beam without contact, rad/s.
+  /// Highest frequency (rad/s) of the beam without contact.
   double highest_frequency() const { return highest_frequency_; }
   /// Stiffness of each mode of an elastic beam in natural modes; else empty.
   std::span<const double> modal_stiffness() const { return modal_stiffness_; }
@@ -209,7 +209,7 @@ class StruckBeam final : public MechanicalSystem {
   Evaluation section_evaluation() const { return section_evaluation_; }
   /// Accepts y: advances the histories of contact and sections. Returns whether any section flowed.
   bool commit(const State& y);
-  /// The same for a state of which acceleration() was computed last.
+  /// commit() for the state whose acceleration() was computed last.
   bool commit_evaluated(const State& y);
   /// Commits the curvature (1/m) at which a section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature) {
@@ -254,7 +254,7 @@ class StruckBeam final : public MechanicalSystem {
   bool depends_on_velocity_;
   Losses losses_;
   bool shears_;
-  // Of an elastic beam in natural modes, else empty: stiffnesses, and what makes up accelerations.
+  // For an elastic beam in natural modes, else empty: stiffnesses, and factors of accelerations.
   std::span<const double> modal_stiffness_;
   std::vector<double> modal_frequencies_squared_, modal_loads_;
   std::vector<double> modal_damping_;  // 2 zeta omega of each mode, with that of alpha and beta
