@@ -182,7 +182,7 @@ bool EventLocator::relocate(const EventFunction& function, const StepEnds& step,
     time = find_rise(value_at, step.t0, step.t1, guess, options);
     return true;
   }
-  // Not reached yet: a little later, if the function certainly rises fast enough.
+  // The zero is not reached yet: search a little later if the function certainly rises fast enough.
   const double ahead = std::min(step.t1 - 2.0 * here.value / here.rate, latest);
   if (here.rate > 0.0 && ahead > step.t1 && value_at(ahead).value > 0.0) {
     time = find_rise(value_at, step.t1, ahead, guess, options);

@@ -73,7 +73,8 @@ class FieldRecorder {
   /// At every history row: the motion of the points, and the envelope.
   void follow(double time, const State& y, Accounts& accounts);
   void add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const;
-  /// At the end: the envelope and, of a state that `is_good`, the last shape and the bending left.
+  /// At the end: the envelope and, if the state `is_good`, the last shape and the permanent
+  /// bending.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
   /// The envelope at the stations, so far.
   const std::vector<EnvelopeRow>& envelope() {

@@ -24,8 +24,8 @@ constexpr double tolerated_energy_per_rtol = 1e4;
 constexpr double least_tolerated_energy = 1e-6;
 constexpr double most_tolerated_energy = 1e-3;
 
-// With more natural modes than these a run computes them when it begins: 600 take some ms where
-// they have a closed form, and 0.5 s where they have none.
+// A larger number of natural modes is computed when the run begins: 600 take a few ms if they have
+// a closed form, otherwise 0.5 s.
 constexpr std::size_t most_modes_before_run = 600;
 
 // Numbers that are possible one by one may overflow or vanish together.

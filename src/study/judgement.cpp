@@ -115,8 +115,8 @@ class Judge {
                      rounding_of_times * here.time});
   }
 
-  // At least the median of those around, in which agreement by chance does not count. `least`: the
-  // smallest error to be stated.
+  // Error of a value: at least the median of the errors around it, because single differences may
+  // be small by chance. `least`: the smallest error to be stated.
   double value_error(std::size_t i, double SubImpact::*value, double least = 0.0) const {
     const std::optional<double> own = difference(i, value);
     if (!own) return unknown;
@@ -126,7 +126,7 @@ class Judge {
     return std::max(value_safety * of_runs_ * error, least);
   }
 
-  // What the error of the indentation leaves of the largest one, m, and of the force, N.
+  // Errors of the largest indentation (m) and force (N) due to the error of the indentation.
   double least_indentation_error(std::size_t i) const { return depth_safety * delta(2 * i); }
   double least_force_error(std::size_t i) const {
     return least_indentation_error(i) * steepest * all_[i].peak_force / depth(i);
@@ -434,7 +434,7 @@ std::string first_mesh_doubt(const Case& input, const Result& run) {
   return doubt;
 }
 
-// What another mesh shows of a run whose rows do not carry the error of the mesh.
+// What another mesh shows about a run whose rows do not include the error of the mesh.
 ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
                                         const RunBeside& other) {
   Result here;

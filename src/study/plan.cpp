@@ -156,7 +156,7 @@ void Planner::admit(const Refinement& sequence, std::size_t first) {
   first_of_sequence_ = first;
 }
 
-// As the work of the last two runs of the sequence from `first` grows.
+// Extrapolated from the work of the last two runs of the sequence that begins at `first`.
 double Planner::work_of_next(std::size_t first) const {
   const auto& points = plan_.points;
   const double last = points.back().counted;

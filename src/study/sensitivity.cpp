@@ -125,7 +125,7 @@ class Differences {
     return error;
   }
 
-  /// What the check run shows of the error of the base run in one number.
+  /// The error of one number of the base run, as the check run shows it.
   double check_error(EventQuantity quantity, std::size_t i) const {
     const auto here = value_of(base_[i], quantity);
     const auto there = check_.of[i] != nullptr ? value_of(*check_.of[i], quantity) : std::nullopt;

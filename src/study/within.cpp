@@ -147,7 +147,7 @@ class Search {
     if (options_.finished) options_.finished(best_->input, best_->result);
   }
 
-  // What a user who interrupts gets: the last level that ended, else the one in hand.
+  // The result after an interruption: the last level that ended, else the current one.
   WithinRun ended_early(Level level) {
     if (!best_) return {level.input, std::move(level.result)};
     obstacle_ = "the search was stopped";
@@ -205,8 +205,8 @@ class Search {
     return best_->result.all_certain() && largest_error() / falls <= tolerance_;
   }
 
-  // What the largest error asks for; the usual refinement, or a larger one, while sub-impacts are
-  // uncertain.
+  // The refinement that the largest error requires; the usual one, or a larger one, while
+  // sub-impacts are uncertain.
   double ratio_wanted() const {
     const Result& best = best_->result;
     if (2 * best.n_certain().value_or(0) < best.sub_impacts.size()) return largest_refinement;
@@ -328,7 +328,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
                  : shears      ? MeshKind::spectral
                                : MeshKind::hermite;
     if (model.mesh == MeshKind::cells && !shears && input.accuracy.event_times) {
-      // Else the error of free ends, of first order, is the last to fall.
+      // Otherwise the error of free ends, of first order, falls last.
       model.spacing = CellSpacing::whole;
     }
   }

@@ -46,7 +46,7 @@ class BeamField {
 
   /// Displacements, curvatures and moments of a state.
   void read(const State& y, Accounts& accounts);
-  /// Its velocities and rotations as well.
+  /// Velocities and rotations of a state as well.
   void read_motion(const State& y);
   /// Whether the unknowns are natural modes of an elastic beam, so that read_modes() serves.
   bool in_modes() const { return in_modes_; }

@@ -34,8 +34,8 @@ struct StruckBeamParts {
   double velocity_scale = 0.0;  ///< m/s, of the strike; 0: striker_velocity
 };
 
-/// What is integrated over time since the run began: energy (J) that velocity-dependent forces have
-/// dissipated, and what changing loads leave of their potential, the integral of (df/dt) q.
+/// Quantities integrated over time since the run began: energy (J) that velocity-dependent forces
+/// have dissipated, and for changing loads the integral of (df/dt) q.
 struct Losses {
   double contact = 0.0;
   double beam = 0.0;
@@ -139,9 +139,9 @@ class StruckBeam final : public MechanicalSystem {
   const Loads& loads() const { return loads_; }
   /// Acceleration of the striker but for the contact force, m/s2.
   double striker_load() const { return has_stop() ? 0.0 : loads_.gravity(); }
-  /// Whether anything is lost or left to integrate over time (Losses).
+  /// Whether anything has to be integrated over time (Losses).
   bool has_losses() const { return depends_on_velocity_ || loads_.varies(); }
-  /// What the state y at time t has in the loads' potential, J.
+  /// Potential energy (J) of the loads in the state y at time t.
   double load_potential(const State& y, double t) const;
   /// The work of loads since the start, J.
   double work_of_loads(const State& y, double t) const {
