@@ -1,6 +1,6 @@
 #pragma once
 
-/// What both studies of wishes share: scenes, the truth, and the cheapest setting.
+/// What both studies of tolerances share: scenes, the truth, and the cheapest setting.
 
 #include <cstdint>
 #include <optional>
@@ -17,10 +17,10 @@ Case open_scene(std::uint64_t seed, int number, const strikes::Budget& budget, d
 /// Event times in the limit of fine meshes, and how far each is known.
 struct Reference {
   std::vector<SubImpact> sub_impacts;
-  std::vector<double> uncertainty;  ///< s, of those that are decided
+  std::vector<double> uncertainty;  ///< s, of the certain ones
 };
 
-/// From a mesh so many times as fine, extrapolated with its companion, half as fine. Nothing is
+/// From a mesh so many times as fine, extrapolated with one half as fine. Nothing is
 /// known where no such mesh is allowed.
 Reference reference_of(const Case& finest, double factor);
 
@@ -46,7 +46,7 @@ double cheapest_work(const std::vector<SequenceRun>& runs, const Reference& refe
 
 double median(std::vector<double> values);
 
-/// Wishes for event times: every time before the horizon within the wish?
+/// Tolerances on event times: is every time before the horizon within the tolerance?
 struct WishStudy {
   std::uint64_t seed = 2026;
   int n_scenes = 20;
