@@ -59,7 +59,7 @@ std::string mesh_words(const Case& input) {
   return words;
 }
 
-// The reference, its leading sub-impacts that are decided and within its own tolerance, and the
+// The reference, its leading sub-impacts that are certain and within its own tolerance, and the
 // horizon in the middle of the separation that follows.
 void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
   Case asked = input;

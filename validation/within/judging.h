@@ -24,7 +24,7 @@ struct Reference {
 /// known where no such mesh is allowed.
 Reference reference_of(const Case& finest, double factor);
 
-/// Leading sub-impacts that the reference knows well enough to judge a wish.
+/// Leading sub-impacts that the reference gives well enough to judge a tolerance.
 std::size_t n_judged(const Reference& reference, double wish);
 
 /// Largest error of the leading `n` sub-impacts; infinite if one is missing.
@@ -40,7 +40,7 @@ struct SequenceRun {
 /// the accuracy in time that goes with each mesh (Refinement).
 std::vector<SequenceRun> sequence_of(const Case& finest, double end_time);
 
-/// Work of the coarsest run that meets the wish together with all finer ones; 0 if none does.
+/// Work of the coarsest run that meets the tolerance together with all finer ones; 0 if none does.
 double cheapest_work(const std::vector<SequenceRun>& runs, const Reference& reference,
                      std::size_t n, double wish);
 

@@ -69,7 +69,7 @@ def _write_rows(
 
 def write_hdf5(directory: Path, notes: list[str]) -> Path:
     """Writes sweep.h5 beside the two tables: a group each, with one data set per column. Empty cells
-    of numbers are NaN. Needs h5py. `notes` takes what the user has to be told. Raises StoreError if
+    of numbers are NaN. Needs h5py. `notes` takes messages for the user. Raises StoreError if
     the tables are not as the sweep wrote them, and OutputError."""
     import h5py
 
