@@ -48,7 +48,7 @@ class SectionField {
     return stiffness_ * curvature - offset_[section];
   }
 
-  /// Takes the curvatures as reached (an accepted state). The curvature rates (1/(m s)), if given,
+  /// Accepts the curvatures of a state that was reached. The curvature rates (1/(m s)), if given,
   /// decide which of the sections that flowed continue to flow. Returns how many flowed.
   std::size_t commit(std::span<const double> curvatures, std::span<const double> rates = {});
   /// commit() for curvatures of which moments(), since the last commit, has listed those outside.
@@ -57,7 +57,7 @@ class SectionField {
   void commit_reversal(std::size_t section, double curvature);
   /// The histories of all sections.
   void exchange(Snapshot& snapshot);
-  /// From here on no section flows, until the next commit.
+  /// No section flows from now until the next commit.
   void stop_flow() { flowing_.clear(); }
 
   /// A section that continues to flow from its edge.

@@ -38,8 +38,8 @@ class SubCellSections {
   double part_of_step(std::size_t index, const Ends& moments, const Ends& step) const;
   static double part_of_step(double moment, double step);
 
-  /// What has flowed since the last commit, p and b of MixedSections (kappa_y m) at both nodes, and
-  /// the slopes over the moments at both.
+  /// The flow since the last commit, p and b of MixedSections (kappa_y m) at both nodes, and their
+  /// derivatives by the moments at both.
   struct Flow {
     Ends p{}, b{};
     std::array<Ends, 2> p_slope{}, b_slope{};

@@ -50,7 +50,7 @@ class SectionCorrector {
   // Sum of A^k a_(2k + order), k = 0..last.
   void sum_terms(const std::vector<SectionEvent>& events, std::size_t order, std::size_t last,
                  std::vector<double>& sum);
-  // A bound of what the k-th term adds to velocities, root mean square, m/s.
+  // A bound of the k-th term's contribution to velocities, root mean square, m/s.
   double bound_of_term(const std::vector<SectionEvent>& events, std::size_t k);
 
   const StruckBeam& beam_;
