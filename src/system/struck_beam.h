@@ -95,7 +95,7 @@ class BeamJacobian {
 ///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F + f(t),   m w_m'' = -F + m g,
 ///     F = F(lambda, history),   kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) positive where the curvature is, K_s the stiffness of shear and springs, if any,
+/// with M (N m; sign convention of kappa), K_s the stiffness of shear and springs, if any,
 /// and the loads f (Loads). In place of a striker of infinite mass there is a stop: w_m'' = 0. With
 /// damping the forces depend on velocities too (docs/theory.md, "Beam"). Other classes treat
 /// changes of branch within a step: ContactState and find_crossing for the contact,

@@ -74,11 +74,11 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
 /// sections (stress points) and their integration weights W (m), the beam obeys
 ///
 ///     Mass q'' = -B^T W M(kappa) - K_s q + S F,
-/// with the bending moments M (positive where the curvature is), the functional S of the struck
-/// point and the elastic stiffness K_s of shear and of springs to the ground, where the mesh has
-/// any. Bending work is sum W M dkappa and contact work F d(S q), so the discretisation in space
-/// neither produces nor loses energy. Where symmetry halves the unknowns, the mirrored half is
-/// folded into Mass and W, so all forces, energies and momenta are those of the whole beam.
+/// with the bending moments M (sign convention of kappa), the functional S of the struck point and
+/// the elastic stiffness K_s of shear and of springs to the ground, where the mesh has any. Bending
+/// work is sum W M dkappa and contact work F d(S q), so the discretisation in space neither
+/// produces nor loses energy. Where symmetry halves the unknowns, the mirrored half is folded into
+/// Mass and W, so all forces, energies and momenta are those of the whole beam.
 ///
 /// A user-defined mesh derives from this class, fills the protected members in its constructor and
 /// is assigned to `Case::parts.mesh` or `Problem::mesh`; the built-in meshes use the same
@@ -127,7 +127,7 @@ class BeamMesh {
 
   /// kappa = B q, 1/m.
   virtual void curvatures(std::span<const double> unknowns, std::span<double> kappa) const = 0;
-  /// forces = -B^T W moments, N; `moments` = M, N m, positive where the curvature is.
+  /// forces = -B^T W moments, N; `moments` = M, N m, with the sign convention of kappa.
   virtual void bending_forces(std::span<const double> moments, std::span<double> forces) const = 0;
   /// One row of B: coefficients (1/m2) of consecutive unknowns, beginning with `first`.
   struct SectionStencil {
