@@ -115,7 +115,7 @@ Jobs n_processors() { return std::max(1u, std::thread::hardware_concurrency()); 
 void add_jobs_option(CLI::App& command, Jobs& jobs) {
   command
       .add_option("--jobs", jobs,
-                  "Runs beside one another at most; results do not depend on it. Default: the "
+                  "Largest number of runs in parallel; results do not depend on it. Default: the "
                   "number of processors")
       ->check(CLI::Range(1u, 1024u));
 }

@@ -96,8 +96,8 @@ void add_compare(CLI::App& program, int& status) {
                   "with their errors, and how much later they come than by the first")
       ->excludes("--methods");
   add_list_option(command, "--laws", options.laws,
-                  "Contact laws to compare instead, separated by commas, each with what the case "
-                  "gives of its constants")
+                  "Contact laws to compare instead, separated by commas, each with the constants "
+                  "that the case gives for it")
       ->excludes("--methods")
       ->excludes("--theories");
   add_directory_option(command, options.directory,

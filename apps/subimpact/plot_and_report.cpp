@@ -143,7 +143,7 @@ int report_sweep(const FinishedRunOptions& options) {
 
 int report_any(FinishedRunOptions& options) {
   if (!options.measured.empty() && (options.runs.size() > 1 || holds_sweep(options.runs.front()))) {
-    throw CLI::ValidationError("--measured", "is laid beside one run; give its directory alone");
+    throw CLI::ValidationError("--measured", "is compared with one run; give its directory alone");
   }
   for (const std::string& run : options.runs) {
     if (!holds_sweep(run)) continue;
@@ -169,7 +169,7 @@ void add_plot(CLI::App& program, int& status) {
   command.footer(
       "Draws response, first-sub-impact, indentation, energies, timeline, shapes and envelope "
       "(both unless output.shapes = 0) and, if the run kept sections (output.sections), bending; "
-      "needs gnuplot. The gnuplot scripts stay beside the figures, ready to be edited and run "
+      "needs gnuplot. The gnuplot scripts are kept next to the figures, to be edited and run "
       "again.\n"
       "Examples:\n"
       "  subimpact run case.toml --out out/first --set output.sections=0.5,0.4\n"
@@ -191,8 +191,8 @@ bool is_cutoff(const std::string& text) {
 }
 
 void add_report(CLI::App& program, int& status) {
-  auto [command, options] = add_command(program, status, "report",
-                                        "Write finished runs up as one page of HTML", report_any);
+  auto [command, options] =
+      add_command(program, status, "report", "Write finished runs as one page of HTML", report_any);
   command
       .add_option(
           "DIR", options.runs,
@@ -207,7 +207,7 @@ void add_report(CLI::App& program, int& status) {
                      "Directory of dygraph.min.js and dygraph.css, for the zoomable charts. "
                      "Default: that of Debian's libjs-dygraphs");
   CLI::Option* measured = command.add_option("--measured", options.measured,
-                                             "CSV file of a measured force, to be laid beside the "
+                                             "CSV file of a measured force, to compare with the "
                                              "computed one; its heading has the units: "
                                              "time_us,force_kN");
   measured->check(not_empty);

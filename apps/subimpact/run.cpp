@@ -27,10 +27,10 @@ struct RunOptions {
 std::optional<ErrorBars> error_bars_of(const LoadedCase& loaded, const RunOptions& options) {
   if (options.error_bars.empty()) return std::nullopt;
   if (!options.continued.empty() && options.error_bars != "off") {
-    throw CaseFileError(fmt::format(
-        "--error-bars={}: cannot go with --continue: the errors of a run that goes on are those "
-        "that the runs beside the earlier one show; leave out --error-bars",
-        options.error_bars));
+    throw CaseFileError(
+        fmt::format("--error-bars={}: cannot go with --continue: the errors of a continued run "
+                    "come from the runs beside the earlier run; leave out --error-bars",
+                    options.error_bars));
   }
   if (loaded.value.accuracy.event_times) {
     throw CaseFileError(fmt::format(
@@ -77,7 +77,7 @@ void add_scatter(WithinRun& run, const RunOptions& options, const InterruptListe
   if (!run.result.outcome.completed() || scattering_keys(run.input).empty()) return;
   if (run.input.parts.start) {
     run.result.warnings.emplace_back(
-        "the scatter has no effect: it is known for the first strike on a straight beam alone");
+        "the scatter has no effect: it is known only for the first strike on a straight beam");
     return;
   }
   StatusLine status;
@@ -132,7 +132,7 @@ std::string next_steps(const RunOptions& options, const GivenKeys& given, const 
   };
   if (!directory.empty()) {
     add(fmt::format("{} report {}", program, quoted(directory)),
-        "draws it: the moving beam, charts, every number on one page (some seconds)");
+        "draws it: the moving beam, charts, every number on one page (a few seconds)");
   }
   if (run.input.parts.start) return text;  // advice is for a first strike
   for (const Advice& advice : advice(run.input, given, run.result)) {
@@ -233,15 +233,15 @@ void add_run(CLI::App& program, int& status) {
   options.input.may_repeat = true;
   command.add_option(
       "--continue", options.continued,
-      "Goes on from the end of the finished run in this directory, to a later "
+      "Continues the finished run in this directory to a later "
       "time.end; with another striker, or strike.rest, the beam there is struck "
       "again. Keys of model and solver that CASE does not give are those of that run");
   command
       .add_flag("--error-bars{all}", options.error_bars,
                 "By default all errors are estimated from runs on three coarser meshes, which take "
                 "about as long as the run itself. --error-bars=off: no estimate. --error-bars: "
-                "from other runs for each of time, mesh and layers; takes some four times as long. "
-                "--error-bars=time: of the integration in time alone, about twice as long")
+                "from other runs for each of time, mesh and layers; takes about 4 times as long. "
+                "--error-bars=time: of the integration in time only, about twice as long")
       ->check(CLI::IsMember({"all", "time", "off"}));
   add_jobs_option(command, options.jobs);
   command.add_flag("--quiet", options.quiet, "Print nothing but warnings and errors");

@@ -35,12 +35,12 @@ std::vector<Part> parts_of(const Case& input, const StabilityCommand& command,
          return asked("central-difference") ? part_of(stiff_contact(input, command.jobs))
                                             : StabilityPart();
        }},
-      {"damping", "Implicit methods: what one step leaves of an oscillation",
+      {"damping", "Implicit methods: share of an oscillation left by one step",
        [=, &input, &command] {
          if (!asked("dirk") && !asked("bdf")) return StabilityPart();
          return part_of(damping_of_implicit_tables(input, command.jobs), bdf_growths());
        }},
-      {"map", "How runs of the case come out",
+      {"map", "Outcomes of runs of the case",
        [=, &input, &command] {
          return part_of(outcome_map(input, command.methods, command.run_seconds, command.jobs,
                                     counter("runs")));

@@ -24,7 +24,7 @@ def columns() -> str:
 
 
 class Result:
-    """What a run leaves.
+    """The results of a run.
 
     Tables are structured NumPy arrays with the columns of the CSV files of a run; each is made once,
     at its first use, and is read-only. `table["start_s"]` is a view of a column;
@@ -119,7 +119,7 @@ class Result:
 
     @property
     def warnings(self) -> list[str]:
-        """Reasons to doubt results that passed all checks."""
+        """Warnings about results that passed all checks."""
         return self._finished.warnings
 
     @property

@@ -19,7 +19,7 @@ struct Named {
   const char* note;
 };
 
-/// Those of an enumeration; one without is refused by the compiler.
+/// The choices of an enumeration; the compiler refuses an enumeration without them.
 template <class Enum>
 inline constexpr bool choices = false;
 

@@ -70,7 +70,7 @@ double decades_of(const Case& input, const char* name) {
 // Refuses, for the key that is farthest from one, numbers whose products overflow, vanish or lose
 // all digits: each number of a case, and mass, stiffness, frequency and energy of its bodies.
 void check_scales(const Case& input) {
-  // In place of the short form of a rectangle's dimensions, the keys that give them.
+  // The keys that give the dimensions of a rectangle, of whichever form.
   const auto given_key = [&](const std::string_view key) {
     return key == "beam.width"       ? width_key(input.scene.beam)
            : key == "beam.thickness" ? height_key(input.scene.beam)
@@ -103,7 +103,7 @@ bool is_given(const Case& input, const char* key) {
   return find_case_key(key)->get(input).has_value();
 }
 
-// Under its own name or another one.
+// Whether a key is given, under its own name or another one.
 bool is_known(const Case& input, std::string_view key) {
   if (key == "contact.beam_poisson" && input.scene.beam.poisson) return true;
   return is_given(input, key.data());
@@ -138,7 +138,7 @@ void check_contact(const Case& input) {
   if (!why_not.empty()) refuse("contact.law", "is \"{}\", but {}", law.name, why_not);
 }
 
-// A row takes some 345 bytes in the file.
+// A row takes about 345 bytes in the file.
 constexpr double most_history_rows = 5e6;
 constexpr double most_shape_rows = 2e7;
 
@@ -183,7 +183,7 @@ void check_output(const Case& input) {
              " or a smaller output.shape_points");
 }
 
-// What each shape needs; a rectangle may have the short form instead.
+// The dimensions that each shape needs; a rectangle may have the short form instead.
 const std::map<SectionShape, std::vector<std::string>> dimensions = {
     {SectionShape::rectangle, {"beam.section.height", "beam.section.width"}},
     {SectionShape::circle, {"beam.section.diameter"}},
@@ -251,7 +251,7 @@ void check_section(const Case& input) {
   }
   if (input.parts.section && shape != SectionShape::rectangle) {
     refuse_section(input, "beam.section.shape",
-                   "is given beside Case::parts.section, whose strips are fractions of a "
+                   "is given with Case::parts.section, whose strips are fractions of a "
                    "rectangle; allowed: \"rectangle\"");
   }
 }
@@ -270,7 +270,7 @@ void check_shear(const Case& input) {
                 "(1 + nu)); allowed: from 0 to 0.5; give it (metals: 0.25 to 0.35)"}});
 }
 
-// What takes the place of striker or beam.
+// Checks a stop in place of the striker and a fixed beam.
 void check_bodies(const Case& input) {
   const Striker& striker = input.scene.striker;
   const Beam& beam = input.scene.beam;
@@ -297,7 +297,7 @@ void check_bodies(const Case& input) {
                {beam.fixed && beam.is_sprung(), "beam.springs", of_wall}});
 }
 
-// Where the scene is symmetric, first derivatives show nothing of a strike that is off its centre.
+// In a symmetric scene, first derivatives do not show the effect of a strike off the centre.
 void check_scatter(const Case& input) {
   const auto scatter = input.scatter.find("striker.position");
   if (scatter == input.scatter.end() || scatter->second == 0.0 || !is_symmetric(input)) return;

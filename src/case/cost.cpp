@@ -18,8 +18,8 @@ constexpr int batch = 64;
 // header for what they are worth): the angle omega_max h of a step at rtol 1e-8 is proportional to
 // what the step evaluates, and a Nystroem evaluation takes it twice as far.
 constexpr double reference_tolerance = 1e-8;
-// Of the decay of the highest mode that damping of the beam causes: beyond it explicit Runge-Kutta
-// steps are unstable, whatever the tolerance (dop853: 6.4 with 12 evaluations).
+// Largest decay of the highest mode, due to damping of the beam, beyond which explicit Runge-Kutta
+// steps are unstable at any tolerance (dop853: 6.4 with 12 evaluations).
 constexpr double stable_decay_per_evaluation = 0.5;
 // The steps of a beam that yields are cut, corrected and restarted at section events.
 constexpr double share_of_yielding = 2.1;
@@ -42,7 +42,7 @@ double measure_right_hand_side(StruckBeam& beam) {
   return best;
 }
 
-// Of the explicit methods: what an implicit or a multistep method costs depends on its iterations.
+// For explicit methods only: the cost of an implicit or multistep method depends on its iterations.
 const MethodTable* table_of(Method method, const ResolvedSettings& used) {
   if (!(descriptor_of(method).radians_per_evaluation > 0.0)) return nullptr;
   for (const MethodTable& table : method_tables()) {
@@ -51,7 +51,7 @@ const MethodTable* table_of(Method method, const ResolvedSettings& used) {
   return nullptr;
 }
 
-// Of a mode of frequency omega, 1/s.
+// Rate of decay (1/s) of a mode of frequency omega.
 double fastest_decay(const BeamDamping& damping, double omega) {
   return damping.mass + damping.stiffness * omega * omega + 2.0 * damping.ratio * omega;
 }

@@ -22,7 +22,7 @@ std::string quoted_list(std::vector<std::string> names) {
 std::string typed(const KeyValue& value) {
   static constexpr const char* kinds[] = {
       "a boolean", "a whole number",    "a floating-point number",   "a text",
-      "a list",    "a list of numbers", "a list of things at points"};
+      "a list",    "a list of numbers", "a list of loads or springs"};
   return fmt::format("{} ({})", kinds[value.index()], to_text(value));
 }
 
@@ -70,7 +70,7 @@ std::optional<std::string> pair_problem(const CaseKey& key, const std::vector<st
   return std::nullopt;
 }
 
-// Of things at points: the first number that is not allowed.
+// The refusal of the first number in a list of loads or springs that is not allowed.
 std::optional<std::string> placed_problem(const CaseKey& key, const PlacedValues& value) {
   const auto refuse = [&](const std::string& what) { return refusal(key, "a list with " + what); };
   for (const auto& [position, table] : value.entries) {

@@ -45,7 +45,7 @@ bool strikes_end(const Case& input) {
   return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
 }
 
-// Of a strike at an end.
+// Whether the strike is at an end with a support.
 bool strikes_support(const Case& input) {
   const int end = input.scene.striker.position == 0.0 ? 0 : 1;
   return input.scene.beam.ends[end] != EndSupport::free;
@@ -89,12 +89,12 @@ void check_mixed_model(const Case& input) {
   const bool is_shaped = beam.section.shape != SectionShape::rectangle;
   const bool yields = may_yield(input);
   const char* of_scene =
-      "is given, but mixed cells, of which masses and step are made for free waves, have no loads, "
+      "is given, but mixed cells, whose masses and step are made for free waves, have no loads, "
       "springs or motion at the start; leave it out, or use another mesh";
   const char* of_damping =
       "is above 0, but mixed cells have no damping; leave it out, or use another mesh";
   const char* of_section =
-      "is given, but where it yields mixed cells find the curvature from the moment by the closed "
+      "is given, but mixed cells that yield find the curvature from the moment by the closed "
       "form of a rectangle that does not harden; allowed with model.mesh = \"mixed\": such a "
       "rectangle, or model.section = \"elastic\"; choose one, or another mesh";
   check_rules({{input.scene.gravity != 0.0, "scene.gravity", of_scene},

@@ -41,7 +41,7 @@ struct MeshDescriptor {
   std::optional<Refinement> refinement = {};
 };
 
-/// Of a case that chooses mixed cells and not how many.
+/// Number of mixed cells if the case does not give it.
 inline constexpr int usual_mixed_cells = 400;
 
 std::span<const MeshDescriptor> meshes();

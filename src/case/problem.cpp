@@ -32,7 +32,7 @@ constexpr SectionDescriptor section_rows[] = {
      [](const ModelOptions&, const Beam& beam) -> Section { return Fibres::continuous(beam); }},
 };
 
-// Whether of things at points each has its like at the mirror image of its point.
+// Whether each load or spring has an equal one at the mirror image of its point.
 template <class Thing, class Amount>
 bool is_mirrored(const std::vector<Thing>& things, Amount Thing::*amount) {
   const auto count = [&](double position, const Amount& of) {

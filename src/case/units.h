@@ -11,17 +11,17 @@ namespace subimpact {
 /// The text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// A number and what follows it; no number: the number of "heavy" is empty.
+/// A number and the text after it; the number of "heavy" is empty.
 struct NumberAndUnit {
   std::string_view number, unit;
 };
 NumberAndUnit split_unit(std::string_view text);
 
-/// The value of a text such as "711.2 mm" in the unit of a key ("m"): the double that 0.7112 is.
-/// Nothing without a number, without a unit, or with one that does not measure what `unit` does.
+/// The value of a text such as "711.2 mm" in the unit of a key ("m"): exactly the double 0.7112.
+/// Nothing without a number or unit, or with a unit of another quantity than that of `unit`.
 std::optional<double> value_in(std::string_view unit, std::string_view text);
 
-/// The units that may stand in place of that of a key, separated: "m, mm, um"; empty: none may.
+/// The units allowed in place of that of a key, separated: "m, mm, um"; empty: none.
 std::string units_beside(std::string_view unit, std::string_view separator = ", ");
 
 }  // namespace subimpact

@@ -11,8 +11,8 @@ namespace subimpact {
 /// Motion of a damped oscillator, q'' + 2 delta q' + omega^2 q = f(t), in closed form for every
 /// omega >= 0 and delta >= 0 (1/s), overdamped or not:
 ///
-///     q(t) = position q(0) + response q'(0) + ..,   q'(t) = -omega^2 response q(0) + slope q'(0) +
-///     ..,
+///     q(t) = position q(0) + response q'(0) + ..,
+///     q'(t) = -omega^2 response q(0) + slope q'(0) + ..,
 ///
 /// and under the force f = t^m/m! from rest q(t) = forced[m], q'(t) = forced[m - 1], where
 /// forced[-1] is `response`, the answer to a unit impulse:
@@ -29,7 +29,7 @@ struct DampedOscillator {
   double forced[n_powers];
 
  private:
-  // The same at twice the time t.
+  // The oscillator's step for twice the time t.
   DampedOscillator continued(double omega, double t) const;
 };
 
@@ -72,7 +72,7 @@ class OscillatorStep {
   /// The step's end under the forces, or in free motion.
   void advance(std::span<const double> y, const NodeForces& forces, std::span<double> end) const;
   void advance_freely(std::span<const double> y, std::span<double> end) const;
-  /// What loads from the step's start on add to both, from rest.
+  /// Adds the response to loads that begin at the step's start, from rest, to the end or to lambda.
   void add_loads(const ForcedOscillators::Loads& loads, std::span<double> end) const;
   void add_loads(const ForcedOscillators::Loads& loads, NodeForces& lambda) const;
 

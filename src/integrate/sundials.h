@@ -39,9 +39,9 @@ std::unique_ptr<Integrator> make_arkode_erk(SecondOrderOde& ode, const Integrato
 std::unique_ptr<Integrator> make_arkode_dirk(MechanicalSystem& system,
                                              const IntegratorOptions& options);
 
-/// The same with the right-hand side in two parts: [v, stiff part of f] taken implicitly,
-/// [0, rest of f] explicitly, by a pair of tables that share their stages. The Newton matrix then
-/// only changes where a section flows. Throws std::invalid_argument for pairs not in imex_tables().
+/// ARKODE with the right-hand side in two parts: [v, stiff part of f] taken implicitly, [0, rest of
+/// f] explicitly, by a pair of tables that share their stages. The Newton matrix then only changes
+/// where a section flows. Throws std::invalid_argument for pairs not in imex_tables().
 std::unique_ptr<Integrator> make_arkode_imex(MechanicalSystem& system,
                                              const IntegratorOptions& options);
 
@@ -69,7 +69,7 @@ std::unique_ptr<Integrator> make_cvode_adams(SecondOrderOde& ode, const Integrat
 ///
 ///     (Mass + gamma^2 K) x2 = Mass b2 - gamma K b1,   x1 = b1 + gamma x2,
 ///
-/// (with gamma C beside the mass on the left where forces depend on velocities), which stays
+/// (with gamma C added to the mass on the left where forces depend on velocities), which stays
 /// sparse: KLU factors it, its pattern analysed once.
 std::unique_ptr<Integrator> make_cvode_bdf(MechanicalSystem& system,
                                            const IntegratorOptions& options);

@@ -100,7 +100,7 @@ Json json_of(const toml::node& node) {
 
 std::string describe_type(const toml::node& node) {
   static constexpr const char* types[] = {
-      "nothing",        "a table",        "a list of things of several types",
+      "nothing",        "a table",        "a list of values of several types",
       "a text",         "a whole number", "a number",
       "a boolean",      "a date",         "a time of day",
       "a date and time"};
@@ -392,7 +392,7 @@ void refuse_other_files(const std::filesystem::path& path) {
     fail<CaseFileError>(
         "{}: is {}, no case file (TOML); give the path of one, such as {}", path.string(), what,
         std::filesystem::exists(beside, ignored) ? beside.string()
-                                                 : "that which `subimpact new > case.toml` writes");
+                                                 : "the one of `subimpact new > case.toml`");
   }
 }
 

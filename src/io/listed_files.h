@@ -18,10 +18,10 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Of all that can be read; the file is at its beginning then.
+/// Fingerprint of the whole stream, which is then rewound.
 Fingerprint fingerprint_of(std::istream& file);
-/// Of a regular file; nothing if there is none of that name (a symbolic link is none). Throws
-/// std::system_error if the file cannot be opened.
+/// Fingerprint of a regular file; nothing if there is no such file (a symbolic link is none).
+/// Throws std::system_error if the file cannot be opened.
 std::optional<Fingerprint> fingerprint_of(const std::filesystem::path& file);
 
 struct Manifest {
@@ -87,7 +87,7 @@ auto read_listed(const std::filesystem::path& directory, Read read) {
     } catch (const ReplacedMeanwhile&) {
     }
   }
-  fail<ResultsError>("{}: is written anew again and again; read it when the runs have ended",
+  fail<ResultsError>("{}: is being rewritten repeatedly; read it when the runs have ended",
                      directory.string());
 }
 

@@ -53,7 +53,7 @@ std::optional<Manifest> manifest_for_writing(const fs::path& directory) {
     return read_manifest(directory);
   } catch (const ResultsError& error) {
     fail<OutputError>(
-        "{}; nothing is written beside it: move it away, or choose another directory with --out",
+        "{}; nothing is written next to it: move it away, or choose another directory with --out",
         error.what());
   }
 }

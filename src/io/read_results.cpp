@@ -64,13 +64,13 @@ FinishedRun read_once(const fs::path& directory, const ListedFiles& files) {
 
 constexpr const char* runs_name = "runs.csv";
 constexpr const char* sub_impacts_name = "sub_impacts.csv";
-constexpr const char* remedy = "run the sweep again, which takes what it has from its store";
+constexpr const char* remedy = "run the sweep again; it keeps the runs in its store";
 
 struct SweptSubImpact : SubImpact {
   long run = 0;
 };
 
-// Those of events.csv after the run's number.
+// The number of the run, then the columns of events.csv.
 Columns<SweptSubImpact> sub_impact_columns() {
   Columns<SweptSubImpact> columns = {{"run", &SweptSubImpact::run}};
   for (const Column<SubImpact>& of_run : run_table<SubImpact>().columns) {

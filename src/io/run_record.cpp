@@ -67,7 +67,7 @@ const Record<ToleranceOutcome> tolerance_record = {
     {"reached_error_s", "largest error of a certain event time; null: not known", &ToleranceOutcome::reached},
     {"horizon_s", "up to which event times are certain and within that error", &ToleranceOutcome::horizon, Form::finite},
     {"reason", "why the horizon comes before the end", &ToleranceOutcome::reason, Form::empty_is_null},
-    {"key_to_free", "key of the case that stands in the way", &ToleranceOutcome::key, Form::empty_is_null}};
+    {"key_to_free", "key of the case that prevents it and could be freed", &ToleranceOutcome::key, Form::empty_is_null}};
 
 const Record<ErrorEstimate::Part> error_part_record = {
     {"name", "time, mesh or layers", &ErrorEstimate::Part::name},
@@ -338,10 +338,10 @@ Record<DescribedRun> make_run_record() {
       {"outcome.message", "cause and what to do, of a run that did not complete", outcome(&Outcome::message)},
       {"outcome.first_failure_s", "last time at which every check passed, first at which one failed", outcome(&Outcome::first_failure), Form::finite},
       {"wish_met", "whether accuracy.event_times was met; null: none was asked for", &tolerance_met, &read_tolerance_met},
-      {"wish", "what became of accuracy.event_times", result(&Result::tolerance), tolerance_record},
+      {"wish", "outcome of accuracy.event_times", result(&Result::tolerance), tolerance_record},
       {"choice", "why mesh and method are what they are", result(&Result::choice)},
       {"neglected_shear", "end of the first contact without and with shear", result(&Result::neglected_shear), shear_record},
-      {"warnings", "reasons to doubt results that passed all checks", result(&Result::warnings)},
+      {"warnings", "warnings about results that passed all checks", result(&Result::warnings)},
 
       {"counts.sub_impacts", "number of sub-impacts", [](const DescribedRun& run) { return run.result->sub_impacts.size(); }},
       {"counts.zones", "number of zones", [](const DescribedRun& run) { return zones_of(run).size(); }},

@@ -31,7 +31,7 @@ struct NamedScalar {
   std::string name, meaning, value;
 };
 
-/// All that summary.json holds of a run, but for lists and what does not apply, in its order.
+/// All entries of summary.json for a run, except lists and entries that do not apply, in order.
 std::vector<NamedScalar> scalars_of(const FinishedRun& run);
 
 /// Reads what summary.json holds of a run; `path` is for messages. Throws ResultsError, also for

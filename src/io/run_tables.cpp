@@ -180,7 +180,7 @@ const RunTable<PointRow>& run_table() {
 template <>
 const RunTable<ShapeRow>& run_table() {
   static const RunTable<ShapeRow> table = {
-      "shapes.csv", "one row per point of the whole beam, at instants output.shapes apart and at every event of the contact; numbers beside the time have 9 digits",
+      "shapes.csv", "one row per point of the whole beam, at instants output.shapes apart and at every event of the contact; numbers other than the time have 9 digits",
       {{"time_s", "time", &ShapeRow::time},
        short_column("position_m", "position along the beam, from x = 0 to its length", &ShapeRow::position),
        short_column("displacement_m", "displacement w of the axis, positive in the direction of the strike", &ShapeRow::displacement),
@@ -215,9 +215,9 @@ const RunTable<StrikeRow>& run_table() {
        {"peak_force_N", "largest force", &StrikeRow::peak_force},
        {"impulse_Ns", "of all sub-impacts", &StrikeRow::impulse},
        {"dent_m", "residual indentation, of all strikes so far", &StrikeRow::dent},
-       {"permanent_set_m", "largest displacement at rest against the chord, likewise",
+       {"permanent_set_m", "largest displacement at rest against the chord, so far",
         &StrikeRow::permanent_set},
-       {"hinge_rotation_rad", "of the largest plastic hinge, likewise", &StrikeRow::hinge_rotation},
+       {"hinge_rotation_rad", "of the largest plastic hinge, so far", &StrikeRow::hinge_rotation},
        {"striker_J", "energy left in the striker", &StrikeRow::striker_energy},
        {"vibration_J",
         "motion and elastic energy of the beam, with what stays locked in sections that have "
@@ -226,10 +226,10 @@ const RunTable<StrikeRow>& run_table() {
        {"bending_J", "dissipated by bending and by the damping of the beam, in this strike",
         &StrikeRow::bending_dissipated},
        {"contact_J", "dissipated by the contact, in this strike", &StrikeRow::contact_dissipated},
-       {"restitution_error", "error of the restitution, from runs beside that were struck as often",
+       {"restitution_error", "error of the restitution, from runs beside with as many strikes",
         &StrikeRow::restitution_error},
-       {"peak_force_error_N", "error of the largest force, likewise", &StrikeRow::peak_force_error},
-       {"permanent_set_error_m", "error of the permanent set, likewise",
+       {"peak_force_error_N", "error of the force, from these runs", &StrikeRow::peak_force_error},
+       {"permanent_set_error_m", "error of the permanent set, from these runs",
         &StrikeRow::permanent_set_error}},
       &Result::strikes,
       one_if_repeated};

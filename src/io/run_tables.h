@@ -6,16 +6,16 @@
 
 namespace subimpact {
 
-/// A table that a run leaves: its file, and all that reading, writing and describing it need.
+/// A table that a run writes: its file, and all that is needed to read, write and describe it.
 template <class Row>
 struct RunTable {
   const char* file;
   const char* meaning;  ///< of a row
   Columns<Row> columns;
   std::vector<Row> Result::*rows;
-  /// How many rows there are at an instant; 0: the run leaves no such table.
+  /// How many rows there are at an instant; 0: the run writes no such table.
   std::size_t (*group)(const Case& input, const Result& result);
-  /// Of a table that may be too long to hold: how many instants it has; what keeps its extremes.
+  /// For a table that may be too long to hold: how many instants it has; what keeps its extremes.
   std::size_t (*n_instants)(const Result& result) = nullptr;
   std::vector<double Row::*> drawn = {};
 };

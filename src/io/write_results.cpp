@@ -88,7 +88,7 @@ class ResultWriter::RowFile {
 
 namespace {
 
-// Of the paper's example.
+// Sizes of rows in the paper's example.
 constexpr double bytes_per_history_row = 345.0;
 constexpr double bytes_per_section_row = 97.0;
 constexpr double bytes_per_point_row = 80.0;

@@ -110,7 +110,7 @@ void CellMesh::assemble_mass() {
     const double coupling = link(i) * rotary_inertia_ / spacing_;
     mass_.at(unknown, unknown) += copies() * coupling * share * share;
     mass_.at(next, next) += copies() * coupling * next_share * next_share;
-    // The same entry twice over if both cells share one unknown.
+    // If both cells share one unknown, this entry counts twice.
     mass_.at(unknown, next) -=
         (unknown == next ? 2.0 : 1.0) * copies() * coupling * share * next_share;
   }

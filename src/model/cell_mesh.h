@@ -32,7 +32,7 @@ class CellMesh final : public BeamMesh {
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   /// Linear between centres, as the strike is shared between them.
   std::optional<SparseFunctional> displacement_at(double x) const override;
-  /// Linear between the faces of cells, where it is the difference of the centres beside them.
+  /// Linear between the faces of cells, where it is the difference of the neighbouring centres.
   std::optional<SparseFunctional> rotation_at(double x) const override;
   /// The infinite grid's, which the constraints of supported ends on mirrored grids cannot exceed.
   double highest_frequency(double bending_stiffness) const override;

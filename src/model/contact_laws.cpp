@@ -146,7 +146,7 @@ double hertz_stiffness(GapRadii radii, double compliance) {
   const double ratio = std::max(radii.along, radii.across) / least;
   const double of_circle = 4.0 / 3.0 * std::sqrt(least * std::sqrt(ratio)) / compliance;
   if (ratio < 1.0 + 1e-5) return of_circle;
-  // Of the ellipse, a > b: k^2 = 1 - b^2/a^2, K and E the complete elliptic integrals.
+  // The ellipse of contact, a > b: k^2 = 1 - b^2/a^2, K and E the complete elliptic integrals.
   const auto shape = [](double axes) {
     const double k = std::sqrt(1.0 - 1.0 / (axes * axes));
     const double K = std::comp_ellint_1(k), E = std::comp_ellint_2(k);

@@ -18,7 +18,7 @@ double contact_compliance(double modulus_1, double poisson_1, double modulus_2, 
 struct GapRadii {
   double along, across;
 };
-/// Of a nose (its radius is needed) on the beam's struck surface, flat or round.
+/// Radii of the gap between the nose (its radius is needed) and the struck surface, flat or round.
 GapRadii gap_radii(const Scene& scene);
 
 /// K (N/m^1.5) of Hertz's contact of finite radii: 4/3 E* sqrt(R) where they are equal; otherwise
@@ -28,7 +28,7 @@ double hertz_stiffness(GapRadii radii, double compliance);
 /// A power of the indentation, with or without yielding.
 ///
 /// The branches are those of docs/theory.md, "Contact", with the exponent n in place of 1.5. Valid
-/// while the indentation is small beside the nose's radius and the beam's thickness.
+/// while the indentation is small compared with the nose's radius and the beam's thickness.
 ///
 /// Source: the struck-beam paper's equations (3)-(6), with the radical over 2R alone and the units
 /// mended; exact for the columns (the tests compare with a sum over a thousand of them), also under
@@ -84,9 +84,9 @@ class PowerContact final : public ContactLaw {
 ///     unloading   F = F_m (1 - (delta_m - delta)/d)^1.5,   d = 3 F_m/(4 E* a),
 ///                 a^2 = (2 F_m + F_y)/(2 pi p_y)
 ///
-/// Valid for dents that are small beside R, between fully elastic and fully plastic pressure.
-/// Source: C. Thornton, Coefficient of restitution for collinear collisions of elastic-perfectly
-/// plastic spheres, J. Appl. Mech. 64 (1997) 383.
+/// Valid for dents small compared with R, between fully elastic and fully plastic pressure. Source:
+/// C. Thornton, Coefficient of restitution for collinear collisions of elastic-perfectly plastic
+/// spheres, J. Appl. Mech. 64 (1997) 383.
 class SphereContact final : public ContactLaw {
  public:
   /// R (m), E* (Pa), p_y (Pa), positive and finite; throws std::invalid_argument otherwise.
@@ -102,7 +102,7 @@ class SphereContact final : public ContactLaw {
   double plastic_slope(double) const override { return plastic_stiffness_; }
 
  private:
-  // Of the unloading curve: its deepest force and length d.
+  // The unloading curve: its largest force, its length d and the residual indentation.
   struct Unloading {
     double force, length, residual;
   };

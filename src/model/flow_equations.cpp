@@ -263,7 +263,7 @@ void FlowEquations::find_step() {
   }
 }
 
-// Moves each node by the part of step_ that the sections beside the node allow.
+// Moves each node by the part of step_ that the sections next to the node allow.
 void FlowEquations::advance() {
   const std::size_t n = nodes_.size();
   std::ranges::fill(part_, 1.0);
@@ -330,7 +330,7 @@ bool FlowEquations::release_hinges() {
   return any;
 }
 
-// Where sections beside a node at the full plastic moment are past it.
+// Shrinks moments until no section next to a node at the full plastic moment is past it.
 void FlowEquations::pull_inside() {
   for (int k = 0; k < most_iterations && !is_inside(); ++k) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) moments_[i] *= 1.0 - tolerance;

@@ -8,7 +8,8 @@
 
 namespace subimpact {
 
-/// The equations of the nodes beside cells that flow (MixedSections): their moments m (in M_y) obey
+/// The equations of the nodes next to cells that flow (MixedSections): their moments m (in M_y)
+/// obey
 ///
 ///     m_i = m_i without flow + sum_j (response to p_j) p_j(m) + (response to b_j) b_j(m),
 ///
@@ -31,7 +32,7 @@ class FlowEquations {
   void add_to_moments(double factor, std::span<double> elastic_curvatures);
   void add_to_unknowns(double* unknowns);
   /// The elastic curvatures of the solution: equal to those that add_to_moments() gives within the
-  /// tolerance of the equations, which is too much for the law beside the full plastic moment.
+  /// tolerance of the equations, which is too coarse for the law near the full plastic moment.
   void read_moments(std::span<double> elastic_curvatures) const;
   /// p of what has flowed, rad, at all sections.
   void add_to_p(std::span<double> p) const;
@@ -39,7 +40,7 @@ class FlowEquations {
   void forget();
   /// Advances histories; `flowed` becomes the cells that flowed.
   void commit(std::vector<std::size_t>& flowed);
-  /// The same where nothing has flowed.
+  /// commit() for a state in which nothing has flowed.
   void commit_rest();
   /// M_p times the rotation of all hinges, either way, over M_y kappa_y m.
   double hinge_work() const;
@@ -79,7 +80,7 @@ class FlowEquations {
   // Newton's method with hinges that begin and stop to turn; after so many bold iterations the
   // error must fall in each.
   bool iterate(int bold);
-  // The same with hinges that begin to turn `within` a distance of M_p.
+  // Newton's method with hinges that begin to turn `within` a distance of M_p.
   bool converge(int bold, double within);
   // The moment, just below M_p, with which a hinge does not turn, by bisection: for one that turns
   // back at M_p and would turn again wherever it is freed.

@@ -23,7 +23,7 @@ struct ElementRule {
 /// Gauss points, 2 to 4 (two integrate the elastic stiffness exactly); else std::invalid_argument.
 ElementRule gauss_rule(std::size_t n);
 
-/// The share of its length that each element beside a hinge gives to the hinge.
+/// The share of its length that each element next to a hinge gives to the hinge.
 constexpr double hinge_share = 0.05;
 
 /// Two sections of an element with a hinge at its start, its end, or both, which has a section of
@@ -45,9 +45,9 @@ struct HermiteElement {
   /// Both in m.
   HermiteElement(double a, double h);
 
-  /// Of a section's curvature, whose parts are those of ElementRule::of_curvature, 1/m2.
+  /// Coefficients (1/m2) of a section's curvature, with its parts as in ElementRule::of_curvature.
   Coefficients curvature(const std::array<double, 2>& of_curvature) const;
-  /// Of w and w' at z = x/a from 0 to 1.
+  /// Coefficients of w and w' at z = x/a from 0 to 1.
   Coefficients displacement(double z) const;
   Coefficients slope(double z) const;
   /// integral of rho A N^T N + J N'^T N', kg.
@@ -112,7 +112,7 @@ struct HermiteNodes {
   std::size_t n_elements_whole() const { return half ? 2 * n_elements() : n_elements(); }
   const Node& struck_node() const { return nodes[struck]; }
   bool is_hinge(std::size_t node) const;
-  /// Of displacement and slope at the left node, then at the right one.
+  /// Unknowns of displacement and slope at the left node, then at the right one.
   std::array<std::size_t, 4> unknowns_of(std::size_t element) const;
   /// The element that contains x (m), and where in it, from 0 to 1.
   std::pair<std::size_t, double> element_at(double x) const;

@@ -274,8 +274,8 @@ std::optional<SparseFunctional> HermiteMesh::rotation_at(double x) const {
   return of_element(e, element(e).slope(z));
 }
 
-// Of every kind of element by itself. A hinge between two lengths has the energy EI/(2 L) (t_+ -
-// t_-)^2, at most EI/L (t_+^2 + t_-^2), of which either element takes its part.
+// The highest frequency of any single element. A hinge between two lengths has the energy EI/(2 L)
+// (t_+ - t_-)^2, at most EI/L (t_+^2 + t_-^2); each of the two elements takes its part.
 double HermiteMesh::highest_element_frequency_squared(double bending_stiffness) const {
   double highest = 0.0;
   const auto include = [&](const HermiteElement& element, const ElementRule& rule,
@@ -312,7 +312,7 @@ double HermiteMesh::highest_frequency(double bending_stiffness) const {
   return std::sqrt(bisect(within_spectrum, 0.0, bound, bound_tolerance).second);
 }
 
-// Of equal elements, with nothing between them.
+// Whether all elements are equal, without hinges between them.
 bool HermiteMesh::is_chain() const {
   const auto [shortest, longest] = std::ranges::minmax(nodes_.lengths);
   return hinges_.empty() && longest / shortest - 1.0 < 1e-14;

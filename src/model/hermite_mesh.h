@@ -13,7 +13,8 @@ namespace subimpact {
 /// 2 to 4 Gauss points per element as sections (docs/theory.md, "Hermite elements").
 ///
 /// Unknowns, node by node (HermiteNodes): w and h t, both in m, with h = l/n. At a node with a
-/// hinge, whose section is taken from the elements beside it (rule_beside_hinges): h t_-, w, h t_+.
+/// hinge, whose section is taken from the elements next to it (rule_beside_hinges): h t_-, w, h
+/// t_+.
 class HermiteMesh final : public BeamMesh {
  public:
   static constexpr std::size_t fewest_elements = HermiteNodes::fewest_elements;
@@ -30,13 +31,13 @@ class HermiteMesh final : public BeamMesh {
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
   std::optional<SparseFunctional> displacement_at(double x) const override;
   std::optional<SparseFunctional> rotation_at(double x) const override;
-  /// Bisected to 5e-6 from above.
+  /// Found by bisection to 5e-6, from above.
   double highest_frequency(double bending_stiffness) const override;
-  /// In closed form if all elements are equal, none beside a hinge, and not one end is free, the
-  /// other clamped (see hermite_chain_modes).
+  /// In closed form if all elements are equal, without hinges, unless one end is free and the other
+  /// clamped (see hermite_chain_modes).
   NaturalModes natural_modes(double bending_stiffness) const override;
   bool has_closed_modes() const override;
-  /// If they have the closed form, of up to 2000 unknowns.
+  /// True if the modes have the closed form, up to 2000 unknowns.
   bool prefers_modes() const override;
   std::string description() const override;
 
@@ -51,7 +52,7 @@ class HermiteMesh final : public BeamMesh {
     std::size_t first_unknown, first_section;
     HermiteElement element;
   };
-  // An element with unknowns held, or beside a hinge.
+  // An element with held unknowns, or next to a hinge.
   struct Single {
     std::array<std::size_t, 4> unknowns;
     std::size_t first_section;

@@ -21,7 +21,7 @@ double square_of_half(double number, Band band) {
   return band == Band::above ? -2.0 * half * half : 2.0 * half * half;
 }
 
-// The modes of one parity of a chain whose ends, alike, are m elements from its middle.
+// Finds the modes of one parity of a chain with equal ends, m elements from its middle.
 class Finder {
  public:
   Finder(const Element& element, EndSupport end, double m)
@@ -135,7 +135,7 @@ class Finder {
     }
   }
 
-  // The mode of a free end's own: in the optical band if it is even and long enough, else above.
+  // The extra mode of a free end: in the optical band if even and long enough, else above.
   bool add_highest(Parity parity, std::vector<Mode>& modes) const {
     const double least = 1e-6 / m_;
     const auto in_band = [&](double theta) {
@@ -173,7 +173,7 @@ class Finder {
     const double decay = decay_over(at);
     const bool above = band == Band::above;
     const bool even = parity == Parity::even;
-    // Of an end's two conditions the one in which the second wave weighs more.
+    // Uses the one of an end's two conditions in which the second wave has the larger weight.
     double second = 0.0;
     if (std::abs(at.ratio()) > 1.0) {
       const double share = at.first.with_sin / at.second.with_sin;

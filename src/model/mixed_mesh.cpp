@@ -341,7 +341,7 @@ std::optional<SparseFunctional> MixedMesh::rotation_at(double x) const {
   return rotation;
 }
 
-// That of the infinite grid: (-1, 1, -1, ..), of which T is h/3 and the slopes' L is 1/3.
+// Frequency of (-1, 1, -1, ..) on the infinite grid, where T is h/3 and the slopes' L is 1/3.
 double MixedMesh::highest_frequency(double bending_stiffness) const {
   const double inverse = 12.0 / std::pow(std::ranges::min(lengths_), 2);
   return std::sqrt(bending_stiffness * inverse * inverse / 3.0 /

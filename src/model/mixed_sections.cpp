@@ -143,8 +143,8 @@ std::size_t MixedSections::rest_at(std::span<const double> unknowns) {
   return i;
 }
 
-// Of the nodes of a cell whose sections have flowed: nothing flows beside a node while its moment
-// lies within the windows of both cells beside it.
+// Narrows the windows at the nodes of a cell whose sections have flowed: nothing flows next to a
+// node while its moment lies within the windows of both neighbouring cells.
 void MixedSections::narrow_windows(std::size_t cell) {
   for (const std::size_t node : {cell, cell + 1}) {
     const std::size_t section = node - mesh_.first_moment();

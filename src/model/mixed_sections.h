@@ -21,7 +21,7 @@ namespace subimpact {
 ///
 /// with beta(a) = (a - a^3)/6, kappa_p = kappa_p(M) at the sub-cell sections and the rotation alpha
 /// of ideal hinges, which turn at |M| = M_p only. All but kappa_p(M) is linear, so that p and b of
-/// the few nodes beside flow follow from as many equations (FlowEquations).
+/// the few nodes next to flow follow from as many equations (FlowEquations).
 ///
 /// Histories advance at commit() only. `mesh` must outlive this.
 class MixedSections {
@@ -34,10 +34,10 @@ class MixedSections {
   /// Takes unknowns that have moved without flow since the last commit to where flow takes them,
   /// w += s - s at the last commit. False if the law was not solved.
   bool settle(std::span<double> unknowns) { return solve(unknowns.data(), unknowns.data()); }
-  /// The same for unknowns that have been settled, which do not change.
+  /// Evaluates unknowns that have been settled, and does not change them.
   bool evaluate(std::span<const double> unknowns) { return solve(unknowns.data(), nullptr); }
-  /// That state becomes the history; `contact_force` (N) acts on it. Returns whether anything
-  /// flowed on the way to it.
+  /// Makes the evaluated state the history; `contact_force` (N) acts on it. Returns whether
+  /// anything flowed on the way to it.
   bool commit(double contact_force);
   /// Histories at the last commit, and the state there, which is then the one last evaluated.
   void exchange(Snapshot& snapshot);
@@ -47,18 +47,19 @@ class MixedSections {
   /// their number.
   std::size_t rest_at(std::span<const double> unknowns);
 
-  // Of the state last settled or evaluated:
+  // The following functions are for the state last settled or evaluated.
 
   /// M/(E I), 1/m, at the mesh's sections.
   std::span<const double> elastic_curvatures() const { return elastic_; }
   /// Curvatures (1/m; elastic, and plastic averaged over the hats of the mesh's sections) and
   /// moments (N m).
   void read_bending(std::span<double> curvatures, std::span<double> moments) const;
-  /// Of the outermost fibre away from the striker, Pa; `outer_stiffness` = E h/2, N/m.
+  /// Stress (Pa) of the outermost fibre away from the striker; `outer_stiffness` = E h/2, N/m.
   double outer_stress_at_strike(double outer_stiffness) const;
   BendingEnergies energies() const;
 
-  /// Of y, J, with the work that forces have done on w - y = s up to the last commit.
+  /// Kinetic energy (J) of y, with the work that forces have done on w - y = s up to the last
+  /// commit.
   double kinetic_energy(std::span<const double> velocities) const {
     return mesh_.kinetic_energy(velocities, scratch_) + work_on_shift_;
   }
@@ -66,7 +67,7 @@ class MixedSections {
   std::size_t n_yielded() const;
 
  private:
-  // Of a beam that may yield.
+  // The part that only a beam that may yield needs.
   struct Flow {
     Flow(const MixedMesh& mesh, const SectionLaw& law)
         : cells(mesh, law), equations(mesh, cells, law.window({}).high) {}

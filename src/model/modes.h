@@ -7,7 +7,7 @@
 
 #include "subimpact/model/beam_mesh.h"
 
-/// Frequencies and modes of beams and of their meshes, beside BeamMesh::natural_modes().
+/// Frequencies and modes of beams and of their meshes, in addition to BeamMesh::natural_modes().
 
 namespace subimpact {
 
@@ -50,12 +50,12 @@ constexpr bool has_closed_modes(std::array<EndSupport, 2> ends) {
   return ends[0] == ends[1] || ends[0] == EndSupport::pinned || ends[1] == EndSupport::pinned;
 }
 
-/// Its natural modes in closed form (docs/theory.md, "Hermite elements"); work n^2 for n shapes. A
-/// free end is taken as no force on and no couple on a further element into which the waves go on.
+/// Its natural modes in closed form (docs/theory.md, "Hermite elements"); work n^2 for n shapes. At
+/// a free end the waves continue into a further element, on which neither force nor couple acts.
 ///
 /// Frequencies ascend, rigid modes first; shapes have the unknowns of a HermiteMesh and are not
-/// normalised. Empty if one end is free and the other clamped, or if the number of modes found
-/// should not be that of the unknowns: then decompose.
+/// normalised. Empty if one end is free and the other clamped, or if the number of modes found is
+/// not that of the unknowns: the matrix must then be decomposed.
 std::optional<NaturalModes> hermite_chain_modes(const HermiteChain& chain);
 
 /// The lowest natural modes of a mesh, elastic, and its static response to a force at the struck
@@ -70,9 +70,9 @@ struct SlowMotion {
 };
 
 /// `n_modes` of them, or all if there are fewer. By subspace iteration with a banded factorisation
-/// of K + s Mass, s a part of the first frequency squared, in some n_modes n operations per unknown
-/// of the band; from the modes themselves where the unknowns are modes. `first_period`: of the
-/// beam in bending, roughly, s. Nothing if K + s Mass is not positive definite.
+/// of K + s Mass, s a part of the first frequency squared, in about n_modes n operations per
+/// unknown of the band; from the modes themselves where the unknowns are modes. `first_period`: of
+/// the beam in bending, roughly, s. Nothing if K + s Mass is not positive definite.
 std::optional<SlowMotion> slow_motion(const BeamMesh& mesh, double bending_stiffness,
                                       double first_period, std::size_t n_modes);
 

@@ -60,8 +60,8 @@ constexpr double small_correction = 1e-5;
 constexpr int most_corrections = 4;
 
 // B phi for every mode, times the root of each section's weight and stiffness: S = phi^T K phi is
-// the product of this matrix with itself, and low modes keep their digits beside high ones, which K
-// phi would take from them.
+// the product of this matrix with itself, and low modes keep their digits in spite of high ones,
+// which K phi would take from them.
 Eigen::MatrixXd scaled_curvatures(const BeamMesh& mesh, double bending_stiffness,
                                   const Eigen::MatrixXd& shapes) {
   const auto n = static_cast<std::size_t>(shapes.rows());

@@ -30,7 +30,7 @@ class PlasticResponse {
       return section - first < size ? of(kind)[section - first] : 0.0;
     }
   };
-  /// Of a section of the mesh.
+  /// The column of a section of the mesh.
   const Column& column(std::size_t section) {
     if (columns_[section].size == 0) columns_[section] = make(section);
     return columns_[section];

@@ -37,7 +37,7 @@ class SectionField {
   /// dM/dkappa of one section, N m2.
   double tangent(std::size_t section, double curvature) const;
 
-  /// The same on the smooth pieces that held at the last commit, each continued beyond its range: a
+  /// Moments on the smooth pieces that held at the last commit, each continued beyond its range: a
   /// section that continued to flow stays on its branch, every other one is linear. Neither has a
   /// discontinuity of slope.
   void smooth_moments(std::span<const double> curvatures, std::span<double> moments) const;
@@ -48,16 +48,16 @@ class SectionField {
     return stiffness_ * curvature - offset_[section];
   }
 
-  /// Takes the curvatures as reached (an accepted state). The curvature rates (1/(m s)), if given,
+  /// Accepts the curvatures of a state that was reached. The curvature rates (1/(m s)), if given,
   /// decide which of the sections that flowed continue to flow. Returns how many flowed.
   std::size_t commit(std::span<const double> curvatures, std::span<const double> rates = {});
-  /// The same for curvatures of which moments() has listed those outside, since the last commit.
+  /// commit() for curvatures of which moments(), since the last commit, has listed those outside.
   std::size_t commit(const std::vector<Outside>& outside);
   /// Commits the curvature at which one section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature);
   /// The histories of all sections.
   void exchange(Snapshot& snapshot);
-  /// From here on no section flows, until the next commit.
+  /// No section flows from now until the next commit.
   void stop_flow() { flowing_.clear(); }
 
   /// A section that continues to flow from its edge.

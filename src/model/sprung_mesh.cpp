@@ -12,7 +12,7 @@
 namespace subimpact {
 namespace {
 
-// Of the unknowns that one point of the beam moves with; elements of degree 4 have the most.
+// Bandwidth of the unknowns on which the motion of one point depends, largest for degree 4.
 std::size_t bandwidth_of(const BeamMesh& mesh) {
   return std::min(std::max<std::size_t>(3, mesh.stiffness_bandwidth()), mesh.n_unknowns() - 1);
 }

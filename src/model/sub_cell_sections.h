@@ -12,7 +12,7 @@
 namespace subimpact {
 
 /// The sections within the cells of a mixed mesh, at which plastic curvature is known; those of a
-/// cell are made when a moment at one of its nodes first leaves the elastic range. Beside a strike
+/// cell are made when a moment at one of its nodes first leaves the elastic range. Next to a strike
 /// or a clamped end there are five, at which the curvature's cusp, x^-1/2, is integrated exactly;
 /// in other cells two.
 ///
@@ -38,8 +38,8 @@ class SubCellSections {
   double part_of_step(std::size_t index, const Ends& moments, const Ends& step) const;
   static double part_of_step(double moment, double step);
 
-  /// What has flowed since the last commit, p and b of MixedSections (kappa_y m) at both nodes, and
-  /// the slopes over the moments at both.
+  /// The flow since the last commit, p and b of MixedSections (kappa_y m) at both nodes, and their
+  /// derivatives by the moments at both.
   struct Flow {
     Ends p{}, b{};
     std::array<Ends, 2> p_slope{}, b_slope{};
@@ -56,11 +56,11 @@ class SubCellSections {
   };
   const Window& window(std::size_t index) const { return cells_[index].window; }
 
-  /// The elastic one beside that of the moment.
+  /// Energies in the cell; the elastic one is in addition to that of the moment.
   BendingEnergies energies(std::size_t index, const Ends& moments) const;
-  /// The same while nothing flows in the cell, whatever the moments.
+  /// Energies while nothing flows in the cell, for any moments.
   const BendingEnergies& energies_at_rest(std::size_t index) const;
-  /// Of the outermost fibre away from the striker, Pa, at the section nearest to the second node.
+  /// Stress (Pa) of the outermost fibre away from the striker, at the section nearest to node 2.
   double outer_stress(std::size_t index, const Ends& moments) const;
 
  private:

@@ -18,7 +18,7 @@ std::size_t rotations_of_ends(const Beam& beam, bool half) {
   return (pinned(0) ? 1 : 0) + (!half && pinned(1) ? 1 : 0);
 }
 
-// Of a distance between places: nearer than this they are one.
+// Places nearer to each other than this count as one.
 constexpr double same_place = 1e-9;
 
 std::size_t nodes_kept(std::size_t n_cells, bool half) { return half ? n_cells / 2 + 1 : n_cells; }

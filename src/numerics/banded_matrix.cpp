@@ -39,7 +39,7 @@ double BandedMatrix::quadratic_form(std::span<const double> x) const {
   const double* at = x.data();
   const std::size_t width = std::min(half_bandwidth_ + 1, size_);
   const std::size_t whole = (size_ + 1 - width) / n_lanes * n_lanes;
-  // Diagonals beside the main one count twice: below it and above.
+  // Diagonals off the main one count twice: below it and above.
   Lanes main{};
   Lanes beside{};
   for (std::size_t i = 0; i < whole; i += n_lanes) {

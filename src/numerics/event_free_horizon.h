@@ -20,12 +20,12 @@ class EventFreeHorizon {
   std::span<const double> frequencies() const { return omega_; }
   std::size_t n_functions() const { return functions_.size() / n_; }
 
-  /// Horizon (s), at most `longest`, from displacements z and their rates; 0: nothing can be shown.
+  /// Horizon (s), at most `longest`, from displacements z and their rates; 0: nothing is proven.
   double from(std::span<const double> z, std::span<const double> rates, std::span<const double> low,
               std::span<const double> high, double longest);
 
-  /// When, after the start of that time, the samples of the last function are largest (s), and what
-  /// lies between two samples.
+  /// Time (s) after the start at which the samples of the last function are largest, and the time
+  /// between two samples.
   double time_of_largest() const { return time_of_largest_; }
   double sample_interval() const { return levels_.front().interval; }
 
@@ -44,7 +44,7 @@ class EventFreeHorizon {
   };
   bool stays_within_limits(std::size_t function) const;
   bool passes(Level& level, std::size_t function, double before, double after);
-  // Of `n` intervals of a level, begun at its z and rates: the time without an event.
+  // The time without an event in `n` intervals of a level, from its z and rates.
   double event_free_time(std::size_t level, std::size_t n);
 
   std::vector<double> omega_, functions_;

@@ -64,8 +64,8 @@ Lanes in_all_lanes(const Lanes& x) {
   return __builtin_shufflevector(x, x, lane, lane, lane, lane, lane, lane, lane, lane);
 }
 
-// The same for a recurrence y_i = x_i + g_i y_{i-1} (upwards: y_{i+1}). After the terms 1, 2 and 4
-// places away every lane holds the sum over its own block; what the block before adds is its last y
+// A block step for a recurrence y_i = x_i + g_i y_{i-1} (upwards: y_{i+1}). After the terms 1, 2
+// and 4 places away every lane holds the sum over its own block; the block before adds its last y
 // times the products of all g up to the lane.
 template <Direction direction>
 class RecurrenceStep {
@@ -150,9 +150,9 @@ Coefficients products(const BandedMatrix& factor, std::size_t b) {
           columns(inverse.transpose(), inverse.transpose() * after)};
 }
 
-// Of A = L D L^T with ones on the diagonal of L.
+// The recurrences of A = L D L^T with ones on the diagonal of L.
 Coefficients recurrences(const BandedMatrix& factor, std::size_t b) {
-  // How much of unknown i the next one has.
+  // Factor of unknown i in the next one.
   const auto share = [&factor](std::size_t i) {
     return -entry(factor, i + 1, i) / entry(factor, i, i);
   };

@@ -38,7 +38,7 @@ class BandedSolver final : public MassSolver {
   std::size_t size_;
   std::size_t n_blocks_;
   std::size_t half_bandwidth_;
-  // Of each distinct block, downwards and upwards, see BlockStep.
+  // Coefficients of each distinct block, downwards and upwards, see BlockStep.
   AlignedVector coefficients_;
   std::vector<std::size_t> down_, up_;  // where those of each block begin
 };

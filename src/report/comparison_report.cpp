@@ -96,7 +96,7 @@ std::string pair_words(const std::vector<MatchedPair>& pairs, const Result& firs
   if (n > 0) text += fmt::format("; their starts differ by {} at most", error_text(largest));
   if (n == pairs.size()) return text + ".";
   if (const auto other = first_unmatched(pairs, first.sub_impacts, second.sub_impacts)) {
-    text += fmt::format("; from {} on they part, where a contact of {} is in one of A and {} only",
+    text += fmt::format("; from {} on they differ: a contact of {} is in only one of A and {}",
                         duration_text(other->start), duration_text(other->duration), letter(run));
   }
   return text + ".";
@@ -120,7 +120,7 @@ std::string comparison_report(const std::vector<FinishedRun>& runs,
     const auto matched = match_sub_impacts(first.sub_impacts, result.sub_impacts);
     const std::string words = in_print(pair_words(matched, first, result, i));
     lines.push_back(headline(n_leading_matches(matched) == matched.size(), words));
-    lines.back()["about"] = fmt::format("{} beside A:", letter(i));
+    lines.back()["about"] = fmt::format("{} compared with A:", letter(i));
     const auto row = [&](const MatchedPair& pair) { return pair_row(pair, first, result); };
     pairs.push_back({{"letter", letter(i)}, {"words", words}, {"rows", list_of(matched, row)}});
   }

@@ -226,12 +226,12 @@ std::vector<Answer> answers(const Overlay& overlay) {
 std::string overlay_doubt(const Overlay& overlay) {
   if (overlay.correlation < like_each_other) {
     return fmt::format(
-        "the two forces have a correlation of {:.2f}, and two of one strike have more than {}: the "
+        "the two forces have a correlation of {:.2f}, and two of the same strike more than {}: the "
         "case is not that of the measurement, or the shift or the filter is wrong",
         overlay.correlation, like_each_other);
   }
   if (overlay.low_pass_at_bound) {
-    return "the cut-off found is at the end of what was searched: the measurement shows no "
+    return "the cut-off found is at an end of the searched range: the measurement shows no "
            "low-pass filter of fourth order between two periods in the record and half of the "
            "sampling rate";
   }

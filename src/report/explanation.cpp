@@ -195,7 +195,7 @@ std::string description(const Case& input, const ResolvedSettings& used,
     line("damping", fmt::format("{:.6g} s/m", scene.contact.damping));
   }
   line("stiffest", fmt::format("{:.4g} N/m, as deep as the strike's energy can press; contacts "
-                               "then last some {} or more",
+                               "then last about {} or more",
                                used.largest_contact_slope, duration_text(used.contact_time)));
   line("yield indentation", std::isinf(used.yield_indentation)
                                 ? "infinite: the contact never yields"

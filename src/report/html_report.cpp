@@ -118,7 +118,7 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   };
   Json page = {
       {"title", run.input.title.empty() ? "A strike" : run.input.title},
-      // Of the answers the first, who struck whom, stands above.
+      // The first answer, who struck whom, is in the line at the top.
       {"beam_kg", fmt::format("{:.4g}", scene.beam.mass())},
       {"meeting", scene.striker.fixed
                       ? std::string("on a stop")

@@ -24,7 +24,7 @@ constexpr std::size_t most_shape_rows = 240'000;  // of all shapes
 
 using HistoryColumn = Column<HistoryRow>;
 
-// Of the history, but the time.
+// All columns of the history except the time.
 auto value_columns() { return std::views::drop(run_table<HistoryRow>().columns, 1); }
 
 std::vector<HistoryRow> thinned(const std::vector<HistoryRow>& history, std::size_t most_rows) {

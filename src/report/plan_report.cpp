@@ -107,7 +107,7 @@ std::string plan_table(const Plan& plan) {
   if (plan.cheapest) {
     const PlanPoint& best = plan.points[*plan.cheapest];
     text += fmt::format(
-        "\ncheapest within {:g} us in all: {}, {}: {}, error {:.1e} us beside a "
+        "\ncheapest within {:g} us in all: {}, {}: {}, error {:.1e} us against a "
         "reference known to {:.1e} us; with this case, run\n  {}\n",
         plan.wanted * us, best.mesh, best.setting.method, duration_text(best.seconds),
         best.errors.maximum * us, plan.reference.error * us, settings_text(plan.asked, best));

@@ -186,7 +186,7 @@ double magnitude(const EnvelopeRow::Range& range) {
   return std::max(range.largest.value, -range.smallest.value);
 }
 
-// Of the outer fibre, at which a section first yields.
+// Strain of the outer fibre at which a section first yields.
 double first_yield_strain(const Case& input, const Result& result) {
   const double n = input.model.layers;
   const bool has_layers = descriptor_of(input.model.section).has_layers;
@@ -397,7 +397,7 @@ std::string run_summary(const Case& input, const Result& result, bool verbose) {
     text += labelled(answer.name, answer.value + (answer.note.empty() ? "" : ": " + answer.note));
   }
   if (result.error_estimate && !error_of_total(result, "impulse_Ns")) {
-    line("errors", "a run beside did not complete, so that those of totals are not known");
+    line("errors", "a run beside did not complete, so errors of totals are not known");
   }
   if (result.error_estimate && result.error_estimate->finer_meshes) {
     line("finer meshes", finer_meshes_words(result));

@@ -32,7 +32,7 @@ std::string error_text(double seconds);
 
 /// The sub-impacts of a run as people read them: microseconds, newtons, millimetres, with the
 /// digits that their errors allow; without an error estimate, with a fixed number of digits. A time
-/// has its error beside it, and a duration is rounded to the sum of the errors of start and end.
+/// is followed by its error, and a duration is rounded to the sum of the errors of start and end.
 /// Sub-impacts that are not certain have a question mark and three digits of the run that is shown,
 /// times as many as its duration needs.
 struct SubImpactRows {

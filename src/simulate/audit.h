@@ -69,7 +69,7 @@ class Audit {
   /// Whether the last check found the energy above what is tolerated.
   bool gained_energy() const { return latest_energy_error_ > limits_.energy; }
 
-  /// The same accounts, in which only a blow-up is an error.
+  /// A copy of these accounts in which only a blow-up is an error.
   Audit without_limits() const {
     Audit copy = *this;
     copy.limits_ = {};

@@ -167,7 +167,7 @@ std::optional<double> EventLocator::relocate(const EventFunction& function, cons
   if (here.value > 0.0) {
     return find_rise(value_at, step.t0, step.t1, guess, options);
   }
-  // Not reached yet: a little later, if the function certainly rises fast enough.
+  // The zero is not reached yet: search a little later if the function certainly rises fast enough.
   const double ahead = std::min(step.t1 - 2.0 * here.value / here.rate, latest);
   if (here.rate > 0.0 && ahead > step.t1 && value_at(ahead).value > 0.0) {
     return find_rise(value_at, step.t1, ahead, guess, options);

@@ -94,7 +94,7 @@ void EventLoop::advance() {
 }
 
 void EventLoop::check_step_end() {
-  // Of a flight as long as it may be, only the part before the touch counts.
+  // A step of flight may be long; only its part before the touch counts.
   if (!beam_.contact().is_closed() && options_.events != EventHandling::interpolated) return;
   if (!(indentation_.lambda1 >= options_.largest_indentation)) return;
   audit_->check(integrator_.time(), integrator_.state());  // a blow-up is called by its name

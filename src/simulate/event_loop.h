@@ -64,7 +64,7 @@ class EventLoop {
   void start();
   /// Goes on from the state that a run ended in, with contact and sections as they are.
   void resume(double time, const State& y);
-  /// The same in another state, with the contact as it is (see ContactState::set).
+  /// start() in another state, with the contact as it is (see ContactState::set).
   void start_from(const State& y);
   /// One step, to its end, to the first event in it or to the end time. Throws IntegrationFailure
   /// or RunStopped; time() and state() are then those of the last state that was accepted.
@@ -93,11 +93,11 @@ class EventLoop {
   // Throws RunStopped unless the state meets the event function at this time, from the right side.
   void check_root(const EventFunction& function, double time, const State& y);
   void watch_for_chattering(double time);
-  // Of every step's end, before anything is looked for in the step.
+  // Checks the end of every step, before events are searched in the step.
   void check_step_end();
   void read_indentation();
   IndentationStep indentation_of(const StepEnds& piece) const;
-  // Of the state accepted at the step's end, at every audit_interval-th step and where required.
+  // Checks the state accepted at the step's end, every audit_interval steps and where required.
   void check_accepted(bool now);
 
   StruckBeam& beam_;

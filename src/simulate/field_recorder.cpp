@@ -15,7 +15,7 @@ namespace {
 // History rows that the envelope follows, at most, roughly.
 constexpr double most_followed = 4000.0;
 
-// Of the envelope, relative to the largest value.
+// Tolerance of the envelope, relative to the largest value.
 constexpr double envelope_tolerance = 1e-8;
 
 // States in modes whose fields are read at once.

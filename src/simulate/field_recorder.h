@@ -59,7 +59,7 @@ class FieldRecorder {
 
   bool is_needed() const { return has_shapes() || !points_.empty() || reactions_; }
 
-  /// Of the next regular instant of the extremes along the beam, s; infinite: none.
+  /// The next regular instant (s) of the extremes along the beam; infinite: none.
   double next_instant() const;
   /// Adds the regular instants from there on, below `end` (s).
   void add_instants(double end, std::vector<double>& times) const {
@@ -73,9 +73,10 @@ class FieldRecorder {
   /// At every history row: the motion of the points, and the envelope.
   void follow(double time, const State& y, Accounts& accounts);
   void add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const;
-  /// At the end: the envelope and, of a state that `is_good`, the last shape and the bending left.
+  /// At the end: the envelope and, if the state `is_good`, the last shape and the permanent
+  /// bending.
   void finish(double time, const State& y, Accounts& accounts, bool is_good);
-  /// Of the stations, so far.
+  /// The envelope at the stations, so far.
   const std::vector<EnvelopeRow>& envelope() {
     take_waiting();
     return envelope_;

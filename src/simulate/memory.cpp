@@ -46,7 +46,7 @@ double free_in_group(const fs::path& group) {
   return most && now ? *most - (*now - pages_of_files) : unlimited;
 }
 
-// Of version 2 of control groups: "0::/path". A group has the limits of those above, too.
+// For version 2 of control groups: "0::/path". The limits of parent groups hold too.
 double free_in_control_groups(const fs::path& root) {
   std::ifstream file(root / "proc/self/cgroup");
   std::string line;

@@ -226,7 +226,7 @@ void check_natural_step(const Options& options, const ResolvedSettings& used) {
   }
   if (options.solver.step) {
     refuse("solver.step",
-           "is {:.6g} us, but no other step goes with the step of {:.6g} us that belongs to {}; "
+           "is {:.6g} us, but the only step allowed is that of {:.6g} us which belongs to {}; "
            "leave it out, or change model.segments",
            us * *options.solver.step, us * natural, used.mesh);
   }

@@ -59,7 +59,7 @@ void NearMissSearch::look_into(const ObservedStep& step, const StruckBeam& beam,
   for (int n = 0;; ++n) {
     const std::optional<double> s = part.minimum();
     if (!s) return;
-    // What the step does not show as an event is none, if only by rounding.
+    // The step has no event here, so the margin is at least the rounding.
     const double margin = std::max(part.value(*s), beam.displacement_rounding(step.y1()));
     if (n_ == most_kept && !(margin < kept_[n_ - 1].margin)) return;
     const double depth = std::min(part.g0, part.g1) - part.value(*s);

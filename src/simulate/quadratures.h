@@ -59,7 +59,7 @@ class LossQuadrature {
   /// `tolerance` of a step's integral, J.
   explicit LossQuadrature(double tolerance) : tolerance_(tolerance) {}
 
-  /// What is lost from the start of the step to a time t in it or at its end, where the state is y.
+  /// Losses from the start of the step to a time t in it or at its end, where the state is y.
   Losses over(const ObservedStep& step, double t, const State& y, StruckBeam& beam);
 
  private:
@@ -71,7 +71,7 @@ class LossQuadrature {
   static void read_acceleration(Node& node, StruckBeam& beam);
   Losses halved(const Node& a, const Node& b, const ObservedStep& step, StruckBeam& beam,
                 int depth);
-  // By quintics, or by cubics.
+  // Losses between two nodes, by quintics or by cubics.
   Losses between(const Node& a, const Node& b, bool quintic, StruckBeam& beam);
 
   double tolerance_;

@@ -29,7 +29,7 @@ double maximum_in(const Function& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-// Of the largest force so far, between rows of a run that follows the force.
+// Change of force between rows, as a share of the largest force so far, if rows follow the force.
 constexpr double change_of_force = 0.01;
 
 // A tensile force is tolerated within so many roundings of displacements of the contact's end.
@@ -312,7 +312,7 @@ void Recorder::begin(NearMissKind kind, const StruckBeam& beam) {
 void Recorder::add_event_row(const Transition& event, const State& y) {
   if (!row_instants_.exist()) return;
   HistoryRow row = make_row(event.time, y, accounts_);
-  // What the force differs from zero there is the rounding of the event's time.
+  // At these events the force is zero but for the rounding of the event's time.
   const bool of_zero_force =
       event.kind == EventKind::contact_begins || event.kind == EventKind::contact_ends;
   if (of_zero_force) row.force = 0.0;

@@ -24,8 +24,8 @@ constexpr double tolerated_energy_per_rtol = 1e4;
 constexpr double least_tolerated_energy = 1e-6;
 constexpr double most_tolerated_energy = 1e-3;
 
-// With more natural modes than these a run computes them when it begins: 600 take some ms where
-// they have a closed form, and 0.5 s where they have none.
+// A larger number of natural modes is computed when the run begins: 600 take a few ms if they have
+// a closed form, otherwise 0.5 s.
 constexpr std::size_t most_modes_before_run = 600;
 
 // Numbers that are possible one by one may overflow or vanish together.
@@ -72,7 +72,7 @@ std::string section_name(const Problem& problem, const StruckBeam& beam) {
   return problem.section ? name + ", elastic" : "elastic";
 }
 
-// Of the beam in bending, with its own section; layers stand for the rectangle.
+// First period of the beam in bending, with its own section; layers represent the rectangle.
 double first_period(const Problem& problem) {
   const double of_rectangle = 2.0 * M_PI / flexural_frequencies(problem.beam, 1).front();
   return problem.section ? of_rectangle / std::sqrt(problem.section->represented_slope())

@@ -44,8 +44,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// With a fixed step contacts may be too short for it although the accounts close. One that the end
-// of the run cuts off has shown no length.
+// Contacts may be too short for a fixed step although the accounts close. A contact cut off by the
+// end of the run has no known length.
 void warn_of_short_contacts(const Recorder& recorder, const ResolvedSettings& used,
                             Result& result) {
   if (!used.step) return;
@@ -128,7 +128,7 @@ void judge_end(Audit& audit, const EventLoop& loop, Outcome& outcome) {
   }
 }
 
-// What helps: when the integrator could not go on, or a check failed.
+// Adds a remedy to the message, if the integrator could not continue or a check failed.
 void add_remedy(Outcome& outcome, const RunParts& parts) {
   const std::optional<double>& step = parts.settings.step;
   const bool failed = outcome.kind == OutcomeKind::solver_failed;

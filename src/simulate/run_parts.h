@@ -27,8 +27,8 @@ StruckBeam make_struck_beam(const Problem& problem, const Options& options,
 struct RunParts {
   RunParts(const Problem& problem, const Options& options, StruckBeam struck_beam);
 
-  /// Before the run: puts the beam into natural modes, if there are so many that resolve() left
-  /// them out, so that settings are known at once whatever a run will take.
+  /// Before the run: puts the beam into natural modes if resolve() left them out because there are
+  /// many, so that settings are known quickly whatever a run costs.
   void complete();
 
   /// The integrator of the options as they stand now.
@@ -39,7 +39,7 @@ struct RunParts {
   StruckBeam beam;
   ResolvedSettings settings;
   std::vector<std::string> warnings;  ///< for the result, before those of the run
-  /// Those that follow from the result, after those of the run; may be empty.
+  /// Warnings that follow from the result, after those of the run; may be empty.
   std::function<std::vector<std::string>(const Result&)> warnings_of_result;
   double setup_seconds = 0.0;
 };
@@ -71,10 +71,10 @@ void check_continuation(const Problem& problem, const Options& options,
 
 /// Puts the beam into the state that Problem::start describes. Throws InvalidCase.
 void begin_from(const RunState& start, RunParts& parts);
-/// Its accounts and records, where the run continues the strike of that state.
+/// Reads accounts and records of `start`, for a run that continues the strike of that state.
 void read_records(const RunState& start, Audit& audit, Recorder& recorder);
 
-/// Of a run that has reached `time` (s) and y, before its records are closed.
+/// State of a run that has reached `time` (s) and y, before its records are closed.
 std::shared_ptr<const RunState> end_state(RunParts& parts, double time, State y, Audit& audit,
                                           Recorder& recorder);
 
@@ -122,7 +122,7 @@ bool modes_are_left_out(const Options& options, const StruckBeam& beam);
 /// The work of finding the modes that a run needs, in entries of right-hand sides.
 double decomposition_of(const Options& options, const StruckBeam& beam);
 
-/// What a run takes at most, in bytes; history goes to the disk.
+/// Upper bound (bytes) of the memory of a run; history goes to the disk.
 double memory_of(const Options& options, const StruckBeam& beam);
 
 }  // namespace subimpact

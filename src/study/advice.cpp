@@ -62,7 +62,7 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
   if (result.neglected_shear && is_notable(*result.neglected_shear)) {
     all.push_back({{{"--set", "beam.theory=timoshenko"}},
                    result.work.all_seconds,
-                   "has the shear that is left out here"});
+                   "includes the shear that is left out here"});
     if (!input.scene.beam.poisson) {
       const double nu = input.scene.beam_poisson().value_or(usual_poisson);
       all.back().options.emplace_back("--set", fmt::format("beam.poisson={:.4g}", nu));
@@ -84,7 +84,7 @@ std::vector<Advice> advice(const Case& input, const GivenKeys& given, const Resu
                       {"--set", fmt::format("accuracy.work_limit={:.3g}",
                                             times_more_accurate * input.accuracy.work_limit)}},
                      times_more_accurate * result.work.all_seconds,
-                     "goes on to finer meshes"});
+                     "continues on finer meshes"});
     }
   }
   if (!result.contact_over) {

@@ -18,9 +18,9 @@ namespace subimpact {
 namespace {
 
 constexpr double sizes[] = {0.85, 0.7};  // of the meshes beside, over that of the case
-// Where those are refused: strikes too close to an end for a coarser mesh.
+// Used where those are refused, for strikes too close to an end for a coarser mesh.
 constexpr double finer_sizes[] = {1.2, 1.45};
-// Neighbouring meshes may share an error that a far one shows; it lacks sub-impacts that they have.
+// A far mesh shows errors that neighbouring meshes share, but it lacks some of their sub-impacts.
 constexpr double far_size = 0.5;
 constexpr double most_gain = 2.0;  // of differences
 constexpr double looser = 10.0;    // rtol, for a mesh of 0.7 and in time alone
@@ -28,7 +28,7 @@ constexpr double loosest = 1e-1;
 constexpr double gain_of_tolerance = 1.0 / 3.0;  // a ninth, and room for errors that fall unevenly
 constexpr double shorter = 0.7;                  // step
 
-// No rows, and the instants at which the run beside takes its extremes.
+// Output of a run beside: no rows, and extremes at the instants of the run itself.
 OutputOptions output_beside(const Case& input) {
   OutputOptions output = input.output;
   const bool has_shapes = output.shape_interval(input.end_time) > 0.0;
@@ -56,8 +56,8 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
     const double order = std::max(mesh_order(input).value_or(2), 2);
     beside.gain = std::min(most_gain, 1.0 / std::abs(std::pow(ratio, order) - 1.0));
     beside.input.output = output_beside(input);
-    // Of a run in natural modes nothing but the case can be refused, and resolving it would take
-    // most of the time of a short run.
+    // For a run in natural modes only the case can be refused, and resolving it would take most of
+    // the time of a short run.
     if (beside.input.solver.method == Method::exponential) {
       check(beside.input);
     } else {
@@ -69,7 +69,7 @@ std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {
   }
 }
 
-// With the accuracy in time that goes with the mesh, at least that of the case.
+// The case on another mesh, with a matching accuracy in time.
 std::optional<CaseBeside> in_mesh_and_time(double size, const Case& input) {
   std::optional<CaseBeside> beside = on_mesh_of(size, input);
   if (!beside) return std::nullopt;
@@ -94,7 +94,7 @@ std::optional<CaseBeside> on_finer_cells(const Case& input) {
   return on_mesh_of(2.0, by_differences);
 }
 
-// With the ends of the runs beside it, if all have one.
+// Adds the end states of the runs beside to that of the run, if all have one.
 void keep_states(const std::vector<CaseBeside>& cases,
                  const std::vector<std::optional<Result>>& others, Result& run) {
   if (!run.end_state) return;
@@ -140,7 +140,8 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
   if (!all.empty()) return all;
   all = cases_beside_in_time(input);
   if (all.empty()) return all;
-  // Where no other mesh takes the strike, what the mesh does not show is doubted all the same.
+  // If no other mesh allows the strike, effects that the mesh does not show still count as
+  // uncertain.
   if (mesh_order(input)) all.front().part = "mesh and time";
   return all;
 }

@@ -70,7 +70,7 @@ Reference compute_reference(const Case& input, double largest_error, const Progr
   const char* second = yields ? "erk" : "nystrom";
   Reference reference;
   reference.input = accurate(input, first);
-  reference.description = fmt::format("{} at rtol {:.0e} beside {} at rtol {:.0e}", first,
+  reference.description = fmt::format("{} at rtol {:.0e} and {} at rtol {:.0e}", first,
                                       reference_tolerance, second, reference_tolerance);
 
   Result result;

@@ -115,8 +115,8 @@ class Judge {
                      rounding_of_times * here.time});
   }
 
-  // At least the median of those around, in which agreement by chance does not count. `least`: the
-  // smallest error to be stated.
+  // Error of a value: at least the median of the errors around it, because single differences may
+  // be small by chance. `least`: the smallest error to be stated.
   double value_error(std::size_t i, double SubImpact::*value, double least = 0.0) const {
     const std::optional<double> own = difference(i, value);
     if (!own) return unknown;
@@ -126,7 +126,7 @@ class Judge {
     return std::max(value_safety * of_runs_ * error, least);
   }
 
-  // What the error of the indentation leaves of the largest one, m, and of the force, N.
+  // Errors of the largest indentation (m) and force (N) due to the error of the indentation.
   double least_indentation_error(std::size_t i) const { return depth_safety * delta(2 * i); }
   double least_force_error(std::size_t i) const {
     return least_indentation_error(i) * steepest * all_[i].peak_force / depth(i);
@@ -181,7 +181,7 @@ class Judge {
     return doubt_by_near_miss(NearMissKind::closing, i, 1.0);
   }
 
-  // Of the closest approach after the last sub-impact, or of a run without any, m.
+  // Error (m) of the closest approach after the last sub-impact, or in a run without sub-impacts.
   double approach_error() const {
     const auto [time, gap, error] = *run_.closest_approach;
     if (all_.empty()) {
@@ -282,9 +282,9 @@ class Judge {
     return i + 1 < all_.size() ? all_[i + 1].start : run_.outcome.time;
   }
 
-  // Of the margin of a near miss, within a contact or flight of that length: what the margin
-  // differs by in the runs beside; the error of the indentation where one of them has no such near
-  // miss.
+  // Error of the margin of a near miss, within a contact or flight of that length: from the
+  // differences of the margin in the runs beside, or from the error of the indentation if one of
+  // them lacks this near miss.
   double margin_error(const NearMiss& here, double length, double delta) const {
     double error = 0.0;
     for (const std::size_t k : of_existence_) {
@@ -434,7 +434,7 @@ std::string first_mesh_doubt(const Case& input, const Result& run) {
   return doubt;
 }
 
-// What another mesh shows of a run whose rows do not carry the error of the mesh.
+// What another mesh shows about a run whose rows do not include the error of the mesh.
 ErrorEstimate::FinerMeshes finer_meshes(const Case& input, const Result& run,
                                         const RunBeside& other) {
   Result here;

@@ -82,7 +82,7 @@ std::vector<MatchedPair> match_sub_impacts(const std::vector<SubImpact>& first,
       for (; next < *partner; ++next) pairs.push_back({std::nullopt, next});
       pairs.push_back({i, next++});
     } else {
-      // What ends before it comes before it.
+      // Sub-impacts that end before this one come before it.
       while (next < second.size() && end_of(second[next]) <= first[i].start) {
         pairs.push_back({std::nullopt, next++});
       }

@@ -38,14 +38,14 @@ double wave_constant(const Beam& beam) {
 constexpr double largest_mass_ratio = 0.2;  // of a part of the mesh to the striker
 constexpr double fewest_cells_to_end = 6.0;
 constexpr double coarsest_beside = 0.7;  // over the parts of the first mesh
-// Of elements, whose modes next to a node at the strike have no closed form: 800 take a second.
+// For elements, whose modes with a node at the strike have no closed form: 800 take a second.
 constexpr double most_cells_in_modes = 800.0;
 
 bool strikes_end(const Case& input) {
   return input.scene.striker.position == 0.0 || input.scene.striker.position == 1.0;
 }
 
-// Of the strike, as a share of the length.
+// Distance of the strike from the nearest end, as a share of the length.
 double distance_to_end(const Case& input) {
   return std::min(input.scene.striker.position, 1.0 - input.scene.striker.position);
 }
@@ -54,9 +54,9 @@ double cells_over_length(const Case& input) {
   return refinement_at_strike(input) * cells_of_a_part(input) * mesh_count(input);
 }
 
-// The mass, kg, that the beam itself opposes to a blow: with rotary inertia and without shear an
-// impulse at once moves the stretch e^(-|x|/r) about it, less or more by what the nearest end
-// reflects.
+// The effective mass (kg) of the beam itself at a blow: with rotary inertia and without shear an
+// impulse at once moves the stretch e^(-|x|/r) about it, less or more by the reflection from the
+// nearest end.
 double mass_met_without_mesh(const Case& input) {
   const Beam& beam = input.scene.beam;
   if (beam.shears() || beam.rotary_inertia() == 0.0) return 0.0;
@@ -66,7 +66,7 @@ double mass_met_without_mesh(const Case& input) {
   return 2.0 * beam.mass_per_length() * r / (is_free ? 1.0 + reflected : 1.0 - reflected);
 }
 
-// What the mesh adds to it, kg.
+// The mass (kg) that the mesh adds to it.
 double mass_of_mesh(const Case& input, const ResolvedSettings& used) {
   const double share = used.contact_mass_share;
   const double met = input.scene.bodies().moving_mass() * share / (1.0 - share);
@@ -88,7 +88,7 @@ double parts_beside_striker(const Case& input, const ResolvedSettings& used) {
          size(largest_mass_ratio * input.scene.bodies().moving_mass());
 }
 
-// Of the strike, m; infinite without a free end.
+// Distance (m) of the strike from the nearest free end; infinite without one.
 double distance_to_free_end(const Scene& scene) {
   double nearest = std::numeric_limits<double>::infinity();
   const double at = scene.striker.position;
@@ -99,7 +99,7 @@ double distance_to_free_end(const Scene& scene) {
   return nearest;
 }
 
-// At least `parts`, though a symmetric mesh may have one fewer than it is asked for.
+// At least `parts`, although a symmetric mesh may have one part fewer than requested.
 int chosen_parts(const Case& input, double parts) {
   return static_cast<int>(std::min(std::ceil(parts) + 1.0, 1.0 * most_parts_at_first(input)));
 }

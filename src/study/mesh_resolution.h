@@ -8,19 +8,19 @@
 
 namespace subimpact {
 
-/// What a mesh needs to resolve short contacts. A contact or a separation of duration T sends out
+/// The mesh size that resolves short contacts. A contact or a separation of duration T sends out
 /// bending waves of the length
 ///
 ///     lambda = 2 pi sqrt(c r T/pi),  c r = sqrt(E I/(rho A)).
 ///
-/// A part of the mesh stands for one cell, an element for two, a spectral element for eight.
+/// A part of a mesh counts as one cell, an element as two, a spectral element as eight.
 
-/// Parts over the whole length of which eight cells lie in the waves of contacts as short as
-/// `contact_time` (s), from 64 cells to `most_cells`.
+/// Number of parts over the whole length that puts eight cells into the waves of contacts as short
+/// as `contact_time` (s), from 64 cells to `most_cells`.
 int parts_that_resolve(const Case& input, double contact_time, double most_cells = 1e9);
 /// The most that the program chooses without having run the case.
 constexpr double most_cells_at_first = 2000.0;
-/// The most that a strike near an end, or a light striker, makes it choose.
+/// The most that the program chooses for a strike near an end, or a light striker.
 int most_parts_at_first(const Case& input);
 
 /// Parts of a mesh that takes the strike, as coarser ones beside it do: as many as the case has, or

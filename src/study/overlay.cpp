@@ -102,8 +102,8 @@ class Search {
         measured_.times.begin());
   }
 
-  /// Of the first n samples, from a time of the run on. Near a maximum n must not change: a sample
-  /// more moves the correlation more than a small shift does.
+  /// Correlation of the first n samples, from a time of the run on. Near a maximum n must not
+  /// change: one more sample changes the correlation more than a small shift does.
   double correlation(const Signal& computed, double shift, std::size_t n,
                      double from = -std::numeric_limits<double>::infinity()) const {
     double products = 0.0, squares = 0.0, measured_squares = 0.0;
@@ -174,8 +174,8 @@ class Search {
     return {std::clamp(argmax_near(at, found, step, 1e-4), from, to), from, to};
   }
 
-  /// Standard errors of shift and of the logarithm of the cut-off by linear least squares beside a
-  /// factor of the force; what is given has none.
+  /// Standard errors of shift and of the logarithm of the cut-off by linear least squares together
+  /// with a factor of the force; a given value has no error.
   void add_errors(Overlay& overlay, bool has_found_shift, bool has_found_cutoff) const {
     const double s = overlay.shift.value, ds = 0.5 * interval_, dx = 1e-3;
     const Signal& computed = overlay.computed.force;
@@ -278,7 +278,7 @@ Overlay overlay_of(const std::vector<HistoryRow>& history, const Signal& measure
         fmt::format("the {} force lies between {:.4g} and {:.4g} N; {}", whose, low, high, remedy));
   };
   refuse_flat(computed, "computed",
-              "a run without contact has nothing to lay beside a measurement");
+              "a run without contact has no force to compare with a measurement");
   refuse_flat(measured, "measured",
               "contact pushes, and its force is positive here: change the sign of the column");
   const Search search(computed, measured);

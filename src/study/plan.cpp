@@ -22,7 +22,7 @@ constexpr int enough_in_a_row = 3;
 constexpr int enough_beside_reference = 2;
 constexpr int bisections = 2;
 constexpr int fewest_parts = 16;
-// Of a duration or separation, up to which an error leaves it what it is.
+// Share of a duration or separation up to which an error does not change it beyond recognition.
 constexpr double recognisable = 0.5;
 constexpr double grading = 4.0;  // length of far elements over that of those at the strike
 
@@ -59,7 +59,7 @@ std::string mesh_words(const Case& input) {
   return words;
 }
 
-// The reference, its leading sub-impacts that are decided and within its own tolerance, and the
+// The reference, its leading sub-impacts that are certain and within its own tolerance, and the
 // horizon in the middle of the separation that follows.
 void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
   Case asked = input;
@@ -90,8 +90,8 @@ void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {
                   outcome.reason.empty() ? "the first contact lasts to the end" : outcome.reason));
 }
 
-// Whether the errors of all sub-impacts are small beside their durations and the separations about
-// them, those of the reference included. A tolerance may be larger.
+// Whether the errors of all sub-impacts are small compared with their durations and the separations
+// around them, those of the reference included. A tolerance may be larger.
 bool are_recognisable(const std::vector<SubImpact>& run, const std::vector<SubImpact>& reference) {
   for (std::size_t i = 0; i < reference.size(); ++i) {
     const SubImpact& s = reference[i];
@@ -156,7 +156,7 @@ void Planner::admit(const Refinement& sequence, std::size_t first) {
   first_of_sequence_ = first;
 }
 
-// As the work of the last two runs of the sequence from `first` grows.
+// Extrapolated from the work of the last two runs of the sequence that begins at `first`.
 double Planner::work_of_next(std::size_t first) const {
   const auto& points = plan_.points;
   const double last = points.back().counted;

@@ -108,7 +108,7 @@ struct Limit {
   std::string reason;
 };
 
-// The first sub-impact that a near miss within its scatter leaves in doubt.
+// The first sub-impact that a near miss within its scatter makes uncertain.
 std::optional<Limit> limit_by_near_miss(const Deviations& deviation) {
   std::optional<Limit> limit;
   for (const NearMissSensitivity& near_miss : deviation.study().near_misses) {

@@ -6,7 +6,7 @@
 
 namespace subimpact {
 
-/// Of the time scale of the shortest contacts: an error that serves where none is asked for.
+/// Default tolerance, as a share of the time scale of the shortest contacts.
 inline constexpr double default_share_of_contact = 0.1;
 /// Exponent with which the work of a run grows with the number of cells or elements, usually.
 inline constexpr double usual_growth = 2.5;
@@ -24,7 +24,7 @@ class Refinement {
   double contact_time() const { return contact_time_; }
   /// Nothing if the mesh would be finer than allowed, or no finer than `from`.
   std::optional<Case> finer(const Case& from, double ratio) const;
-  /// The same of any ratio.
+  /// The case on a mesh resized by any ratio.
   std::optional<Case> resized(const Case& from, double ratio) const;
 
   double order() const { return order_; }

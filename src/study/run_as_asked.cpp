@@ -100,7 +100,7 @@ WithinRun run_once(const Case& input, const GivenKeys& given, RunRequest& reques
   const bool is_first = !input.parts.start;
   if (!is_first && request.error_bars != ErrorBars::off && !run.result.error_estimate) {
     run.result.warnings.push_back(
-        "errors are not known: the run to go on from had no runs beside it that could go on too");
+        "errors are not known: the earlier run had no runs beside it that could be continued too");
   }
   if (request.error_bars != ErrorBars::off && !is_interrupted && is_first) {
     run.result.neglected_shear = neglected_shear(run.input, run.result);

@@ -125,7 +125,7 @@ class Differences {
     return error;
   }
 
-  /// What the check run shows of the error of the base run in one number.
+  /// The error of one number of the base run, as the check run shows it.
   double check_error(EventQuantity quantity, std::size_t i) const {
     const auto here = value_of(base_[i], quantity);
     const auto there = check_.of[i] != nullptr ? value_of(*check_.of[i], quantity) : std::nullopt;
@@ -226,7 +226,7 @@ std::vector<NearMissSensitivity> near_misses_of(const Result& base,
   return list;
 }
 
-// Flags what a near miss leaves in doubt: one that the shifts nearly reach.
+// Flags sub-impacts that a near miss makes uncertain: one that the shifts nearly reach.
 void flag_near_misses(Sensitivity& study) {
   for (const NearMissSensitivity& near_miss : study.near_misses) {
     const double margin = study.base.near_misses[near_miss.near_miss].margin;

@@ -53,7 +53,7 @@ std::vector<MapRow> rows_of_map() {
   return rows;
 }
 
-// Those of the methods asked for that can run the case at all.
+// Points of the requested methods that can run the case at all.
 std::vector<OutcomePoint> points_of(const Case& input, const std::vector<std::string>& methods) {
   const double highest_frequency = resolve(with_method(input, "erk")).settings().highest_frequency;
   std::vector<OutcomePoint> points;

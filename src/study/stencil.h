@@ -19,38 +19,37 @@ struct Stencil {
   std::array<double, sensitivity_shifts.size()> plus{}, minus{};
 
   double slope(std::size_t i) const { return (plus[i] - minus[i]) / (2.0 * sensitivity_shifts[i]); }
-  /// As the first touch, which is where time begins.
+  /// Whether the number never changes, as for the first touch, where time begins.
   bool is_constant() const {
     const auto is_base = [this](double f) { return f == base; };
     return std::ranges::all_of(plus, is_base) && std::ranges::all_of(minus, is_base);
   }
-  /// Of the values at both shifts, the mean less the value between them.
+  /// The mean of the values at both shifts minus the value between them.
   double bend(std::size_t i) const { return 0.5 * (plus[i] - base + (minus[i] - base)); }
 };
 
-/// What the errors of single runs come to in the second differences: the bend at the smaller shift,
-/// less what follows for it from the larger one if the number is smooth, is the error of one run,
-/// times the root of 3/2.
+/// The error of one run, from second differences: the bend at the smaller shift, minus its value
+/// extrapolated from the larger shift for a smooth number, is that error times the root of 3/2.
 inline double noise_of(const Stencil& s) {
   return std::abs(s.bend(1) - s.bend(0) / (s.shift_ratio * s.shift_ratio)) / std::sqrt(1.5);
 }
 
-/// The difference of the two slopes beyond what the errors of runs (`error`: of one) account for.
+/// The difference of the two slopes in excess of the errors of runs (`error`: of one run).
 inline double bend_of_slope(const Stencil& s, double error) {
   return std::max(0.0, std::abs(s.slope(0) - s.slope(1)) - error / sensitivity_shifts[1]);
 }
 
-/// Where sections yield, a section that just does not flow for one value of a key does so for
-/// another, for a time that grows as the root of the distance: slopes then have a root's error.
+/// Where sections yield, a section may just not flow for one value of a key and flow for another,
+/// for a time that grows as the root of the distance; the error of slopes then has a root, too.
 enum class Smoothness { everywhere, between_thresholds };
 
 /// The derivative and its error, as sensitivity() describes. `error`: of one run.
 inline Derivative derivative_of(const Stencil& s, double error, Smoothness smoothness) {
-  // Stated error over the one that a difference stands for.
+  // Stated error over the error that follows from a difference.
   constexpr double safety = 3.0;
-  // What extrapolation adds to the slope over the smaller shift, of its difference from the other.
+  // Share of the difference of slopes that extrapolation adds to the slope of the smaller shift.
   constexpr double gain_if_smooth = 1.0 / (Stencil::shift_ratio * Stencil::shift_ratio - 1.0);
-  // What may be left of an error that grows as the root of the shift, in the same unit.
+  // Share that may remain of an error that grows as the root of the shift.
   constexpr double left_by_thresholds = 0.46;  // 1/(sqrt(shift_ratio) - 1)
   if (s.is_constant()) return {};
   const double step = s.slope(1) - s.slope(0);

@@ -16,8 +16,8 @@ constexpr double safety_of_dissipated = 4.0;
 constexpr double safety_of_largest = 5.0;  // of the force and of the indentation
 constexpr double of_one_run = 1.5;         // more where one run alone shows a part of the error
 constexpr double of_count = 0.0;           // the difference itself
-// Of the largest strain, over itself: larger where strains gather in a hinge and grow without limit
-// on finer meshes, so that no error is stated.
+// Relative error of the largest strain above which no error is stated: where a hinge forms, strains
+// grow without limit on finer meshes.
 constexpr double largest_error_of_strain = 0.5;
 
 double dissipated(const Energies& end) {
@@ -33,8 +33,8 @@ struct Quantity {
   double safety = usual_safety;
   From from = From::every_run;
   double largest_share = HUGE_VAL;  // of an error in the value; none is stated beyond
-  // Of an extreme along the beam: it is compared where runs share instants, and its error has a
-  // part from the distance of instants.
+  // Set for an extreme along the beam: runs are compared at the instants that they share, and the
+  // error has a part due to the distance between instants.
   SampledPeak FieldPeaks::*peak = nullptr;
 
   std::optional<double> of(const Case& input, const Result& run) const {

@@ -32,7 +32,7 @@ std::string elastic_reason(const Case& chosen) {
 constexpr double least_refinement = 1.25;
 constexpr double usual_refinement = 2.0;
 constexpr double largest_refinement = 4.0;  // while less than half of the sub-impacts are certain
-// Of the refinement that the stated error asks for.
+// Factor on the refinement that follows from the stated error.
 constexpr double margin = 1.1;
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
@@ -141,7 +141,7 @@ class Search {
     if (options_.finished) options_.finished(best_->input, best_->result);
   }
 
-  // What a user who interrupts gets: the last level that ended, else the one in hand.
+  // The result after an interruption: the last level that ended, else the current one.
   WithinRun ended_early(Level level) {
     if (!best_) return {level.input, std::move(level.result)};
     obstacle_ = "the search was stopped";
@@ -171,7 +171,7 @@ class Search {
   }
   bool is_met() const { return best_->result.all_certain() && largest_error() <= tolerance_; }
 
-  // Of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
+  // Work of a level on a mesh finer by `ratio` than the best one, with the runs beside it.
   double work_of_next(double ratio) const {
     double growth = usual_growth;
     if (!best_->beside.empty()) {
@@ -199,8 +199,8 @@ class Search {
     return best_->result.all_certain() && largest_error() / falls <= tolerance_;
   }
 
-  // What the largest error asks for; the usual refinement, or a larger one, while sub-impacts are
-  // uncertain.
+  // The refinement that the largest error requires; the usual one, or a larger one, while
+  // sub-impacts are uncertain.
   double ratio_wanted() const {
     const Result& best = best_->result;
     if (2 * best.n_certain().value_or(0) < best.sub_impacts.size()) return largest_refinement;
@@ -284,7 +284,7 @@ class Search {
   std::optional<Level> best_;  // the last one that ended
   double work_ = 0.0;          // of all runs so far
   std::string obstacle_;       // why no finer mesh is run
-  std::string key_;            // that stands in the way
+  std::string key_;            // that prevents meeting the tolerance
 };
 
 }  // namespace
@@ -309,7 +309,7 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
                  : shears      ? MeshKind::spectral
                                : MeshKind::hermite;
     if (model.mesh == MeshKind::cells && !shears && input.accuracy.event_times) {
-      // Else the error of free ends, of first order, is the last to fall.
+      // Otherwise the error of free ends, of first order, falls last.
       model.spacing = CellSpacing::whole;
     }
   }

@@ -25,7 +25,7 @@ class Accounts {
 
   const StruckBeam& beam() const { return beam_; }
 
-  /// At a time (s), which only loads that change make a difference to.
+  /// Energies at a time (s), which matters only if loads change.
   Energies energies(const State& y, double t = 0.0);
   /// kg m/s, of beam and striker, without the impulse of gravity and loads since t = 0, and with
   /// what the damping by mass has taken since then: alpha times the integral of the beam's

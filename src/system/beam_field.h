@@ -39,14 +39,14 @@ class BeamField {
   std::size_t size() const { return stations_.size(); }
   /// Stations of the whole beam: the same, and the mirrored ones.
   std::size_t whole_size() const { return size() + n_mirrored(); }
-  /// Of the part modelled; those of the stations with x < l - x have a mirror image at l - x.
+  /// Number of stations (x < l - x) of the part modelled that have a mirror image at l - x.
   std::size_t n_mirrored() const { return n_mirrored_; }
   double position(std::size_t station) const { return stations_[station].position; }
   double mirrored_position(std::size_t station) const { return length_ - position(station); }
 
   /// Displacements, curvatures and moments of a state.
   void read(const State& y, Accounts& accounts);
-  /// Its velocities and rotations as well.
+  /// Velocities and rotations of a state as well.
   void read_motion(const State& y);
   /// Whether the unknowns are natural modes of an elastic beam, so that read_modes() serves.
   bool in_modes() const { return in_modes_; }
@@ -119,7 +119,7 @@ class PermanentSet {
   double c1_ = 0.0, c2_ = 0.0, c3_ = 0.0;    // of x, x^2, x^3
 };
 
-/// Those of the whole beam, in order of x, where the plastic curvature exceeds `least` (1/m).
+/// Plastic zones of the whole beam, in order of x: plastic curvatures above `least` (1/m).
 std::vector<PlasticZone> plastic_zones(const BeamMesh& mesh, double length,
                                        std::span<const double> plastic_curvatures, double least);
 

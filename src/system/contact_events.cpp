@@ -44,7 +44,7 @@ MaybeCrossing find_rise_of(EventKind kind, const IndentationStep& step, const Ev
                   false};
 }
 
-// Of a function of the indentation's rate.
+// find_rise() for a function of the indentation's rate.
 MaybeCrossing find_rise_of_rate(const EventFunction& function, const IndentationStep& step,
                                 const EventValue& g0, const EventValue& g1) {
   if (!(g1.value > 0.0)) return std::nullopt;

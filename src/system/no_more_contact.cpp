@@ -15,7 +15,7 @@ namespace {
 // only the rigid ones are needed.
 constexpr std::size_t n_followed = 12;
 constexpr std::size_t most_rigid = 2;
-// What rounding leaves of the bounds.
+// Relative margin of the bounds for rounding.
 constexpr double rounding = 1e-5;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace subimpact {
 
-/// What the section events of a step change in the state at its end.
+/// The changes that the section events of a step make in the state at its end.
 struct SectionCorrection {
   std::vector<SectionEvent> events;
   std::vector<double> position_change, velocity_change;  ///< m, m/s, one entry per beam unknown
@@ -40,7 +40,7 @@ class SectionCorrector {
   long n_mass_solves() const { return n_mass_solves_; }
 
  private:
-  // Where a step that is to be cut at a time ends: no sooner than the shortest step.
+  // The end of a step that is to be cut at a time: no sooner than the shortest step.
   double cut_at(double time, const StepEnds& step) const;
   void read_loads(double t, const State& y, const SectionMotion& motion, SectionLoads& loads);
   void read_response(const StepEnds& step, SectionCorrection& correction);
@@ -50,7 +50,7 @@ class SectionCorrector {
   // Sum of A^k a_(2k + order), k = 0..last.
   void sum_terms(const std::vector<SectionEvent>& events, std::size_t order, std::size_t last,
                  std::vector<double>& sum);
-  // A bound of what the k-th term adds to velocities, root mean square, m/s.
+  // A bound of the k-th term's contribution to velocities, root mean square, m/s.
   double bound_of_term(const std::vector<SectionEvent>& events, std::size_t k);
 
   const StruckBeam& beam_;

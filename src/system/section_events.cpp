@@ -11,7 +11,7 @@
 namespace subimpact {
 namespace {
 
-// Of an influence: entries below this share of the largest are left out.
+// Entries of an influence below this share of the largest are left out.
 constexpr double negligible = 0.01 * std::numeric_limits<double>::epsilon();
 
 constexpr std::size_t n_gauss = 5;

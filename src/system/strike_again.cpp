@@ -12,7 +12,7 @@
 namespace subimpact {
 namespace {
 
-// Of the beam's own restoring forces in its first mode, so that a free beam is held too.
+// Added restoring force as a share of the beam's own in its first mode; it also holds a free beam.
 constexpr double share_of_mass = 1e-2;
 constexpr int most_iterations = 120;
 constexpr int until_residual = 15;     // iterations until the residual is computed anew

@@ -34,8 +34,8 @@ struct StruckBeamParts {
   double velocity_scale = 0.0;  ///< m/s, of the strike; 0: striker_velocity
 };
 
-/// What is integrated over time since the run began: energy (J) that velocity-dependent forces have
-/// dissipated, and what changing loads leave of their potential, the integral of (df/dt) q.
+/// Quantities integrated over time since the run began: energy (J) that velocity-dependent forces
+/// have dissipated, and for changing loads the integral of (df/dt) q.
 struct Losses {
   double contact = 0.0;
   double beam = 0.0;
@@ -95,12 +95,11 @@ class BeamJacobian {
 ///     Mass w'' = -B^T W M(kappa, history) - K_s w + S F + f(t),   m w_m'' = -F + m g,
 ///     F = F(lambda, history),   kappa = B w,   lambda = w_m - S.w,
 ///
-/// with M (N m) of the sign of the curvature, K_s the stiffness of shear and springs, if any, and
-/// the loads f (Loads). In place of a striker of infinite mass there is a stop: w_m'' = 0. With
-/// damping
-/// the forces depend on velocities too (docs/theory.md, "Beam"). Other classes treat changes of
-/// branch within a step: ContactState and find_crossing for the contact, SectionCorrector for the
-/// sections. Accounts computes energies and momenta.
+/// with M (N m; sign convention of kappa), K_s the stiffness of shear and springs, if any,
+/// and the loads f (Loads). In place of a striker of infinite mass there is a stop: w_m'' = 0. With
+/// damping the forces depend on velocities too (docs/theory.md, "Beam"). Other classes treat
+/// changes of branch within a step: ContactState and find_crossing for the contact,
+/// SectionCorrector for the sections. Accounts computes energies and momenta.
 class StruckBeam final : public MechanicalSystem {
  public:
   explicit StruckBeam(StruckBeamParts parts);
@@ -109,7 +108,7 @@ class StruckBeam final : public MechanicalSystem {
   ~StruckBeam() override;
 
   std::size_t n_positions() const override { return n_ + 1; }
-  /// On mixed cells only: adds what sections that flow displace. Throws IntegrationFailure.
+  /// On mixed cells only: adds the displacement due to flow. Throws IntegrationFailure.
   void settle(std::span<double> positions) override;
   void acceleration(std::span<const double> positions, std::span<double> result) override;
   bool depends_on_velocity() const override { return depends_on_velocity_; }
@@ -137,11 +136,11 @@ class StruckBeam final : public MechanicalSystem {
   double striker_mass() const { return striker_mass_; }  ///< kg; infinite: a stop
   bool has_stop() const { return std::isinf(striker_mass_); }
   const Loads& loads() const { return loads_; }
-  /// Acceleration of the striker but for the contact force, m/s2.
+  /// Acceleration of the striker without the contact force, m/s2.
   double striker_load() const { return has_stop() ? 0.0 : loads_.gravity(); }
-  /// Whether anything is lost or left to integrate over time (Losses).
+  /// Whether anything has to be integrated over time (Losses).
   bool has_losses() const { return depends_on_velocity_ || loads_.varies(); }
-  /// What the state y at time t has in the loads' potential, J.
+  /// Potential energy (J) of the loads in the state y at time t.
   double load_potential(const State& y, double t) const;
   /// The work of loads since the start, J.
   double work_of_loads(const State& y, double t) const {
@@ -150,19 +149,19 @@ class StruckBeam final : public MechanicalSystem {
   /// At the corner t of a load, in the state y, or before the start: goes on to the next piece.
   void begin_loads(const State& y, double t);
   double outer_stiffness() const { return outer_stiffness_; }  ///< E h/2, N/m
-  /// Of the beam without contact, rad/s.
+  /// Highest frequency (rad/s) of the beam without contact.
   double highest_frequency() const { return highest_frequency_; }
   /// Stiffness of each mode of an elastic beam in natural modes; else empty.
   std::span<const double> modal_stiffness() const { return modal_stiffness_; }
   /// Damping force over velocity and mass of each of these modes, 1/s.
   std::span<const double> modal_damping() const { return modal_damping_; }
 
-  /// At the start: of displacements zero and a beam at rest, unless set_start(), resume() or
-  /// begin_strike() has given it. Energies and momenta of accounts are those since then.
+  /// The state at the start: zero displacements and a beam at rest, unless set by set_start(),
+  /// resume() or begin_strike(). Accounts of energies and momenta begin with it.
   State initial_state() const;
   void set_start(State start);
   /// K^-1 f of the loads f at the start of their piece, with the stiffness K of an elastic beam:
-  /// its displacements at rest under them. Nothing where K is not positive definite.
+  /// its displacements at rest under them. Nothing if K is not positive definite.
   std::optional<std::vector<double>> equilibrium() const;
   /// Histories and the accepted state y that they hold at, in the unknowns of the mesh, in natural
   /// modes too.
@@ -174,12 +173,12 @@ class StruckBeam final : public MechanicalSystem {
   /// rotation; `first_frequency` (rad/s, roughly): of the beam. What was dissipated before does not
   /// count. Throws std::domain_error where nothing is struck, or a beam at rest would yield.
   void begin_strike(State y, bool at_rest, double first_frequency);
-  /// Dissipated before the present strike: parts of Energies.
+  /// Energy dissipated before the present strike: parts of Energies.
   struct Spent {
     double bending = 0.0, contact = 0.0;  ///< J
   };
   const Spent& spent() const { return spent_; }
-  /// A time (s) before it, in the striker's approach.
+  /// The state at a time (s) before the first touch, while the striker approaches.
   State state_before_touch(double time) const;
   std::span<const double> beam_positions(std::span<const double> y) const { return y.first(n_); }
   std::span<const double> beam_velocities(std::span<const double> y) const {
@@ -192,9 +191,9 @@ class StruckBeam final : public MechanicalSystem {
                                 : contact_.force(indentation(y));
   }
   const BeamDamping& damping() const { return damping_; }
-  /// v^T C v, W: what the damping of the beam dissipates at velocities v.
+  /// v^T C v, W: dissipation by the damping of the beam at velocities v.
   double damping_power(std::span<const double> velocities);
-  /// Advanced by the run as it goes (LossQuadrature); zero without damping.
+  /// Losses so far, advanced by the run (LossQuadrature); zero without damping.
   const Losses& losses() const { return losses_; }
   void set_losses(const Losses& losses) { losses_ = losses; }
   void add_losses(const Losses& more) { losses_ = losses_ + more; }
@@ -209,7 +208,7 @@ class StruckBeam final : public MechanicalSystem {
   Evaluation section_evaluation() const { return section_evaluation_; }
   /// Accepts y: advances the histories of contact and sections. Returns whether any section flowed.
   bool commit(const State& y);
-  /// The same for a state of which acceleration() was computed last.
+  /// commit() for the state whose acceleration() was computed last.
   bool commit_evaluated(const State& y);
   /// Commits the curvature (1/m) at which a section reversed on the way to the next state.
   void commit_reversal(std::size_t section, double curvature) {
@@ -254,7 +253,7 @@ class StruckBeam final : public MechanicalSystem {
   bool depends_on_velocity_;
   Losses losses_;
   bool shears_;
-  // Of an elastic beam in natural modes, else empty: stiffnesses, and what makes up accelerations.
+  // For an elastic beam in natural modes, else empty: stiffnesses, and factors of accelerations.
   std::span<const double> modal_stiffness_;
   std::vector<double> modal_frequencies_squared_, modal_loads_;
   std::vector<double> modal_damping_;  // 2 zeta omega of each mode, with that of alpha and beta

@@ -106,7 +106,7 @@ double SupportReactions::value(const Eliminated& of, double t, const State& y,
 
 SupportReactions::Forces SupportReactions::at(double t, const State& y, Accounts& accounts) const {
   const double force = beam_.contact_force(y);
-  // Of loads, springs and bedding.
+  // The resultant of loads, springs and bedding.
   const std::span<const double> unknowns = beam_.beam_positions(y);
   const auto of_ground = [&](std::span<const double> functional) {
     return std::inner_product(functional.begin(), functional.end(), unknowns.begin(), 0.0);

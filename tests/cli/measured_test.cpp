@@ -43,9 +43,9 @@ TEST(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
   EXPECT_NEAR(std::stod(found[1]), -0.99, 0.06);
   EXPECT_TRUE(directory.has("here/figures/measured.svg"));
   const std::string page = directory.read("here/report.html");
-  expect_in(page, "Beside the measurement", "figure-measured", "\"overlay\":[{");
+  expect_in(page, "Compared with the measurement", "figure-measured", "\"overlay\":[{");
   run_in(directory, {"report", "here"});
-  expect_not_in(directory.read("here/report.html"), "Beside the measurement");
+  expect_not_in(directory.read("here/report.html"), "Compared with the measurement");
 }
 
 TEST(ReportWithMeasurement, TakesAGivenShiftAndCutoff) {

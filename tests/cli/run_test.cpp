@@ -269,9 +269,9 @@ TEST(Run, TakesTheDiskThatIsForetold) {
   const auto taken = static_cast<double>(std::filesystem::file_size(here / "history.csv") +
                                          std::filesystem::file_size(here / "sections.csv") +
                                          std::filesystem::file_size(here / "shapes.csv"));
-  const double foreseen = expected_bytes(read_results(here).input);
-  EXPECT_GT(foreseen, 0.8 * taken);
-  EXPECT_LT(foreseen, 1.3 * taken);
+  const double predicted = expected_bytes(read_results(here).input);
+  EXPECT_GT(predicted, 0.8 * taken);
+  EXPECT_LT(predicted, 1.3 * taken);
 }
 
 TEST(Compare, ThatIsToldToEndPrintsTheMethodsThatHadEnded) {

@@ -280,7 +280,7 @@ TEST(ComparisonReport, ListsTheKeysThatDifferAndMatchesSubImpacts) {
   const std::vector<FinishedRun> runs = {small_run(),
                                          small_run({"solver.method=central-difference"})};
   const std::string page = comparison_report(runs, {"a<b", "second"}, "/nowhere");
-  expect_in(page, "a&lt;b", "<tr><td>solver.method</td>", "Sub-impacts of B beside those",
+  expect_in(page, "a&lt;b", "<tr><td>solver.method</td>", "Sub-impacts of B compared with those",
             "correspond one to one", "Beam &lt;A&gt;", "libjs-dygraphs");
   expect_not_in(page, "<td>striker.mass");
   const std::string same = comparison_report({runs[0], runs[0]}, {"one", "two"}, "/nowhere");

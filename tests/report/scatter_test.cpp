@@ -10,6 +10,7 @@
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "subimpact/io/read_results.h"
+#include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
 #include "subimpact/report/text.h"
 #include "temporary_directory.h"

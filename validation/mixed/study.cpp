@@ -1,4 +1,4 @@
-// Mixed cells beside cells, by central differences, on five strikes that yield and an elastic one:
+// Mixed cells and cells, by central differences, on five strikes that yield and an elastic one:
 // error over unknowns and over time. Writes convergence.csv and the figure beside this file.
 
 #include <fmt/format.h>

@@ -150,7 +150,7 @@ def words_on_map(runs):
     done = runs[runs.outcome == "completed"]
     return (f"The map: {len(runs)} of {len(plan)} cases, {len(done)} completed, with {done.n_sub_impacts.min()} to "
             f"{done.n_sub_impacts.max()} sub-impacts. In {(done.all_certain == 1).sum()} cases all of them are certain, in "
-            f"{(done.wish_met == 1).sum()} every event is within the wish, in {(done.n_certain > 0).sum()} the first "
+            f"{(done.wish_met == 1).sum()} every event is within the tolerance, in {(done.n_certain > 0).sum()} the first "
             f"separation is certain, with an error of {1e6 * done.first_separation_error_s.median():.2g} us in the median.")
 
 

@@ -32,7 +32,7 @@ Sample draw(const Sensitivity& study, const Population& population, double rtol,
 }
 
 // The sub-impacts of the base run, moved by what the derivatives foresee.
-std::vector<SubImpact> foreseen(const Sensitivity& study, const std::vector<double>& shifts) {
+std::vector<SubImpact> predicted(const Sensitivity& study, const std::vector<double>& shifts) {
   std::vector<SubImpact> moved = study.base.sub_impacts;
   for (const SensitivityRow& row : study.rows) {
     double change = 0.0;
@@ -92,7 +92,7 @@ Ensemble ensemble(const Sensitivity& study, const Scatter& scatter,
       ++result.n_failed;
       continue;
     }
-    const Counterparts found = counterparts(foreseen(study, shifts[k]), runs[k]->sub_impacts);
+    const Counterparts found = counterparts(predicted(study, shifts[k]), runs[k]->sub_impacts);
     bool has_changed = false;
     for (std::size_t i = 0; i < n; ++i) {
       const SubImpact* there = found.of[i];

@@ -112,7 +112,7 @@ std::string counts(const std::vector<Record>& records, Purpose purpose) {
   if (n == 0) return "";
   std::string text = fmt::format(
       "{} scenes for counts{}; {} compared, {} wrong counts, {} of them flagged; {} right counts "
-      "doubted.\n",
+      "marked.\n",
       n, purpose == Purpose::scene_keys ? " with two or more of the keys of scenes" : "", compared,
       wrong, flagged, flagged_right);
   for (const auto& [why, count] : why_not)

@@ -124,7 +124,7 @@ bool report(const fs::path& scene, const fs::path& results, int repetitions) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program("What a run takes beside its integrations");
+  CLI::App program("What a run costs besides its integrations");
   int repetitions = 5;
   std::vector<std::string> scenes;
   program.add_option("--repeat", repetitions)->check(CLI::PositiveNumber);

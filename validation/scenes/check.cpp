@@ -67,7 +67,7 @@ void add_stop(Outcome& outcome) {
     return -1e3 * row->indentation;
   };
   for (int ms = 1; ms <= 12; ++ms) {
-    outcome.rows.push_back({fmt::format("SDNL32 by a stop: tip at {} ms, mm, beside its heavy "
+    outcome.rows.push_back({fmt::format("SDNL32 by a stop: tip at {} ms, mm, against its heavy "
                                         "striker",
                                         ms),
                             tip(striker, 1e-3 * ms), tip(stop, 1e-3 * ms), Bound::absolute,

@@ -1,5 +1,5 @@
-// The advice of plan() on random scenes and on the paper's beam: whether it meets the wish up to
-// its horizon, and what it costs beside the cheapest setting.
+// The advice of plan() on random scenes and on the paper's beam: whether it meets the tolerance up
+// to its horizon, and what it costs compared with the cheapest setting.
 
 #include <fmt/format.h>
 
@@ -63,7 +63,7 @@ void judge(Request& request) {
   }
   const Plan& plan = request.plan;
   if (!plan.cheapest) {
-    request.refusal = "no mesh is within the wish together with all finer ones";
+    request.refusal = "no mesh is within the tolerance together with all finer ones";
     return;
   }
   const Reference truth = reference_of(plan.reference.input, 2.0);
@@ -125,7 +125,8 @@ int study_advice(const WishStudy& study) {
     fmt::print(stderr, "request {} done\n", i);
   });
   fmt::print(
-      "| scene | wish, us | advice | horizon, us | judged | largest error, us | work over cheapest "
+      "| scene | tolerance, us | advice | horizon, us | judged | largest error, us | work over "
+      "cheapest "
       "| work of the plan over the advised run's | of its reference |\n"
       "|---|---|---|---|---|---|---|---|---|\n");
   std::size_t n_advised = 0, n_met = 0, n_near = 0, n_events = 0;
@@ -141,7 +142,8 @@ int study_advice(const WishStudy& study) {
     of_reference.push_back(request.of_reference);
   }
   fmt::print(
-      "\n{} requests, {} with advice; of these {} meet the wish ({} event times judged), {} within "
+      "\n{} requests, {} with advice; of these {} meet the tolerance ({} event times judged), {} "
+      "within "
       "{} times the cheapest; work of the plan over that of the advised run, median: {:.1f}, and "
       "{:.1f} of the last run of the reference\n",
       requests.size(), n_advised, n_met, n_events, n_near, near_cheapest, median(of_plan),

@@ -13,7 +13,7 @@
 namespace subimpact::wishes {
 namespace {
 
-// Errors of the reference itself, over the wish, up to which it can judge.
+// Errors of the reference itself, over the tolerance, up to which it can judge.
 constexpr double reference_share = 0.3;
 constexpr int coarsest = 24;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What both studies of wishes share: scenes, the truth, and the cheapest setting.
+/// What both studies of tolerances share: scenes, the truth, and the cheapest setting.
 
 #include <cstdint>
 #include <optional>
@@ -17,14 +17,14 @@ Case open_scene(std::uint64_t seed, int number, const strikes::Budget& budget, d
 /// Event times in the limit of fine meshes, and how far each is known.
 struct Reference {
   std::vector<SubImpact> sub_impacts;
-  std::vector<double> uncertainty;  ///< s, of those that are decided
+  std::vector<double> uncertainty;  ///< s, of the certain ones
 };
 
-/// From a mesh so many times as fine, extrapolated with its companion, half as fine. Nothing is
+/// From a mesh so many times as fine, extrapolated with one half as fine. Nothing is
 /// known where no such mesh is allowed.
 Reference reference_of(const Case& finest, double factor);
 
-/// Leading sub-impacts that the reference knows well enough to judge a wish.
+/// Leading sub-impacts that the reference gives well enough to judge a tolerance.
 std::size_t n_judged(const Reference& reference, double wish);
 
 /// Largest error of the leading `n` sub-impacts; infinite if one is missing.
@@ -40,13 +40,13 @@ struct SequenceRun {
 /// the accuracy in time that goes with each mesh (Refinement).
 std::vector<SequenceRun> sequence_of(const Case& finest, double end_time);
 
-/// Work of the coarsest run that meets the wish together with all finer ones; 0 if none does.
+/// Work of the coarsest run that meets the tolerance together with all finer ones; 0 if none does.
 double cheapest_work(const std::vector<SequenceRun>& runs, const Reference& reference,
                      std::size_t n, double wish);
 
 double median(std::vector<double> values);
 
-/// Wishes for event times: every time before the horizon within the wish?
+/// Tolerances on event times: is every time before the horizon within the tolerance?
 struct WishStudy {
   std::uint64_t seed = 2026;
   int n_scenes = 20;

@@ -1,4 +1,4 @@
-// Wishes for event times on random scenes, by run --within or by plan.
+// Tolerances on event times, on random scenes, by run --within or by plan.
 //
 //   subimpact_within [--plan] [--seed S] [--scenes N] [--budget seconds] [--work-limit W]
 //                    [--jobs J] [--trace]
@@ -9,7 +9,7 @@
 
 int main(int argc, char** argv) {
   using namespace subimpact::wishes;
-  CLI::App program("Wishes for event times on random scenes");
+  CLI::App program("Tolerances on event times, on random scenes");
   WishStudy study;
   study.budget.seconds = 1.0;
   bool of_plan = false;

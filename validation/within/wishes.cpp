@@ -1,6 +1,6 @@
-// Wishes for event times on random scenes: whether every time before the stated horizon is within
-// the wish, how far the horizon reaches, and what all runs together cost beside the cheapest
-// setting that would have done.
+// Tolerances on event times, on random scenes: whether every time before the stated horizon is
+// within it, how far the horizon reaches, and what all runs together cost compared with the
+// cheapest setting that would have sufficed.
 
 #include <fmt/format.h>
 
@@ -105,7 +105,7 @@ int study_wishes(const WishStudy& study) {
     fmt::print(stderr, "scene {} done\n", i);
   });
   fmt::print(
-      "| scene | beam | wish, us | chosen | sub-impacts | before horizon | judged | largest "
+      "| scene | beam | tolerance, us | chosen | sub-impacts | before horizon | judged | largest "
       "error, us | work over cheapest | why not all "
       "|\n|---|---|---|---|---|---|---|---|---|---|\n");
   std::size_t events = 0, misses = 0, wrong = 0, far = 0, requests = 0, met = 0;
@@ -130,7 +130,8 @@ int study_wishes(const WishStudy& study) {
   }
   fmt::print(
       "\n{} requests on {} scenes, {} met to the end; {} event times judged: {} requests with an "
-      "error above the wish, {} with a wrong count; horizon as far as the reference decides, or "
+      "error above the tolerance, {} with a wrong count; horizon as far as the reference decides, "
+      "or "
       "the reason named: {}; work of all runs over the cheapest setting, median: {:.2f}, of those "
       "met to the end: {:.2f}\n",
       requests, scenes.size(), met, events, misses, wrong, far, median(ratios),

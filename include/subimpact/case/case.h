@@ -31,17 +31,17 @@ enum class MeshKind {
   rigid      ///< the beam as a rigid body
 };
 
-/// Length of N equal cells of a beam of length l, and what they have at free ends.
+/// Length of N equal cells of a beam of length l, and their rotary inertia at free ends.
 enum class CellSpacing {
   cells,  ///< l/N: the cells fill the beam
   whole,  ///< l/N, with the rotary inertia of the outer half cells, which `cells` leaves out
-  points  ///< l/(N - 1): their centres do, from end to end
+  points  ///< l/(N - 1): their centres span the beam, from end to end
 };
 
 /// Whether a scene that is symmetric about mid-span is modelled by one half.
 enum class SymmetryUse { automatic, off };
 
-/// Whether a Hermite mesh has hinges where a beam that yields bends most.
+/// Whether a Hermite mesh has hinges at the points where a yielding beam bends most.
 enum class HingeUse {
   automatic,  ///< at the strike and at clamped ends, where the beam may yield
   off
@@ -61,7 +61,7 @@ struct ModelOptions {
   SymmetryUse symmetry = SymmetryUse::automatic;
 };
 
-/// User-defined parts in place of those that keys of the case name. No case file can contain them.
+/// User-defined parts that replace those named by keys of the case. No case file can contain them.
 struct CaseParts {
   /// Null: the mesh of model.mesh. Otherwise the keys of meshes and supports have no effect.
   std::shared_ptr<const BeamMesh> mesh;
@@ -78,8 +78,8 @@ struct Case : Options {
   std::string title;
   Scene scene;
   ModelOptions model;
-  /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They leave
-  /// the run as it is; see study/predictability.h.
+  /// Relative standard deviations of numbers of the scene, by key: "striker.velocity". They do not
+  /// change the run; see study/predictability.h.
   std::map<std::string, double> scatter;
   std::optional<bool> at_rest;  ///< Problem::at_rest
   int strikes = 1;              ///< that the beam receives (study/repeated_strikes.h)

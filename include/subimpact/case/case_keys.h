@@ -1,7 +1,7 @@
 #pragma once
 
-/// The keys of a case, as one table. Whatever reads, checks, echoes or documents a case goes
-/// through it, so that a new key is a new row and nothing else.
+/// The keys of a case, as one table. All code that reads, checks, echoes or documents a case uses
+/// this table, so that a new key is a new row and nothing else.
 
 #include <cstdint>
 #include <functional>
@@ -18,8 +18,8 @@
 
 namespace subimpact {
 
-/// Things at points of the beam, each with a position and a number or a table of pairs (t, F) under
-/// the name `quantity`: [{ position = 0.5, stiffness = 100 }].
+/// Loads or springs at points, each with a position and, under the name `quantity`, a number or a
+/// table of pairs (t, F): [{ position = 0.5, stiffness = 100 }].
 struct PlacedValues {
   std::string quantity;  ///< "stiffness", "force"
   struct Entry {
@@ -43,7 +43,7 @@ enum class KeyType {
   choice,   ///< one of the key's choices
   pair,     ///< two of the key's choices
   numbers,  ///< a list of finite numbers
-  placed    ///< a list of things at points of the beam (PlacedValues)
+  placed    ///< a list of loads or springs at points (PlacedValues)
 };
 
 /// A name a key accepts, with a line on what it stands for.
@@ -71,7 +71,7 @@ struct CaseKey {
   Limits limits;                ///< the same, to check and to write schemas with
   std::vector<Choice> choices;  ///< for choice and pair
   bool required;                ///< has no default
-  /// Whether a required key is not needed beside others of the case; empty: always needed.
+  /// Whether other keys of the case make a required key needless; empty: always needed.
   std::function<bool(const Case&)> is_needless;
   std::string default_text;  ///< in words or as it would be written; empty if required
   std::string meaning;       ///< a noun phrase
@@ -103,8 +103,9 @@ std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& valu
 /// Checks and stores a value. Throws InvalidCase.
 void assign(Case& target, const CaseKey& key, const KeyValue& value);
 
-/// Checks every key of a case, and those that must go together. Throws InvalidCase for the first
-/// one that is not allowed. What depends on the mesh is checked by resolve() and simulate().
+/// Checks every key of a case, and rules that involve several keys. Throws InvalidCase for the
+/// first key that is not allowed. Rules that depend on the mesh are checked by resolve() and
+/// simulate().
 void check(const Case& input);
 
 /// The keys that a user gave, in the file and on the command line.
@@ -116,7 +117,7 @@ struct GivenKeys {
   }
 };
 
-/// What a case leaves to the program.
+/// The choices that a case leaves to the program.
 struct OpenChoices {
   bool mesh = true;       ///< model.mesh
   bool size = true;       ///< model.segments or model.elements
@@ -126,12 +127,13 @@ struct OpenChoices {
   bool all() const { return mesh && size && method && tolerance; }
 };
 
-/// What the keys that a user gave leave open. Keys of one mesh or method fix that mesh or method.
+/// The choices that the user's keys leave open. Keys of one mesh or method fix that mesh or method.
 OpenChoices open_choices(const GivenKeys& given);
 
-/// Keys that were given but have no effect beside another key: one sentence per key, such as
-/// 'model.layers = 40 has no effect with model.section = "exact"'. None for a key of the file that
-/// has no effect because of a setting on the command line: files are often run with other choices.
+/// Keys that were given but have no effect because of another key: one sentence per key, such as
+/// 'model.layers = 40 has no effect with model.section = "exact"'. There is none for a key of the
+/// file that has no effect because of a setting on the command line: files are often run with other
+/// choices.
 std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given);
 
 /// A value as a case file writes it.

@@ -13,9 +13,9 @@ namespace subimpact {
 /// write if that unit was meant. Empty for every plausible scene; a doubtful one can still be run.
 std::vector<std::string> doubtful_units(const Case& input);
 
-/// What a run shows to lie beyond the model (docs/model.md), one sentence each with its number and
-/// what to do; empty if there is nothing. Rotations are those seen at separations and at the end of
-/// the run.
+/// Results of a run that exceed the validity of the model (docs/model.md), one sentence each with
+/// the number and what to do; empty if there are none. Rotations are sampled at separations and at
+/// the end of the run.
 std::vector<std::string> beyond_the_model(const Case& input, const Result& result);
 
 }  // namespace subimpact

@@ -13,14 +13,14 @@
 
 namespace subimpact {
 
-/// One setting from outside the file, which goes before the file's own.
+/// One setting from outside the file, which overrides the file's own.
 struct Override {
   std::string key;     ///< "beam.length"
   std::string value;   ///< as in TOML; quotes around a text may be left out
   std::string origin;  ///< how it was given, for messages: "--set beam.length=1"
 };
 
-/// Takes "table.key=value" apart. Throws CaseFileError.
+/// Splits "table.key=value". Throws CaseFileError.
 Override parse_override(const std::string& setting);
 
 /// A case and where each of its values came from.
@@ -48,7 +48,7 @@ class LoadedCase {
 LoadedCase read_case_file(const std::filesystem::path& path,
                           const std::vector<Override>& overrides = {});
 
-/// The same for a text; `name` stands for the file in messages.
+/// read_case_file() for a text; messages name `name` as the file.
 LoadedCase read_case_text(const std::string& text, const std::string& name,
                           const std::vector<Override>& overrides = {});
 
@@ -57,14 +57,15 @@ LoadedCase read_case_text(const std::string& text, const std::string& name,
 std::string case_file_text(const Case& input);
 
 /// Identifies the results of a case: a hash, 32 hexadecimal digits, of the program's version, the
-/// values of all keys but the title, what the case leaves to the program (open_choices), and `how`
-/// it is run, in words of the caller. Cases that give other results have other identities.
+/// values of all keys except the title, the choices left to the program (open_choices), and `how`,
+/// the caller's words for the way it is run. Cases with different results have different
+/// identities.
 std::string case_identity(const Case& input, const GivenKeys& given, const std::string& how = {});
 
 /// The JSON schema (draft 2020-12) of a case file, made from case_keys(): for editors that complete
 /// and check TOML, and for programs that write case files. It expresses what each key accepts by
-/// itself; checks across keys stay with check(). A key that may be infinite also accepts null,
-/// since JSON has no infinity and editors hand TOML's inf to the schema as null.
+/// itself; rules that involve several keys are checked by check(). A key that may be infinite also
+/// accepts null, since JSON has no infinity and editors hand TOML's inf to the schema as null.
 std::string case_schema();
 
 }  // namespace subimpact

@@ -1,14 +1,12 @@
 #pragma once
 
-/// A directory whose files belong together: those of one run, one comparison, one study.
-///
-/// New files are written into a hidden directory beside the present ones. commit() puts them in
-/// place as one: it replaces manifest.json, which lists every file with its checksum, in a single
+/// A directory whose files belong together: those of one run, one comparison, one study. New files
+/// are written into a hidden directory next to the present files. commit() puts them in place
+/// together: it replaces manifest.json, which lists every file with its checksum, in a single
 /// rename, and then moves the files. A process that is killed before the rename leaves the older
 /// files, one that is killed after it the newer ones; readers find each file under one of two names
-/// by its checksum (ResultFiles). So there is no instant at which a reader takes a mixture.
-///
-/// A lock (flock) keeps other writers out, of other hosts too if the file system can lock for them.
+/// by its checksum (ResultFiles). So a reader never gets a mixture of old and new files. A lock
+/// (flock) keeps other writers out, including those on other hosts if the file system supports it.
 
 #include <filesystem>
 #include <memory>
@@ -27,9 +25,9 @@ struct Manifest;
 
 class OutputDirectory {
  public:
-  /// Makes the directory if missing, locks it and makes sure that files can be written. Finishes
-  /// what a killed writer has left undone. `kind` names what the directory holds: "run", "compare"
-  /// ...; `identity` the one it is of, a new one if empty (results of an older version have none).
+  /// Makes the directory if missing, locks it and makes sure that files can be written. Completes
+  /// the commit of a killed writer. `kind` names what the directory holds: "run", "compare" ...;
+  /// `identity` is that of the run, a new one if empty (results of an older version have none).
   /// Throws DirectoryInUse, and OutputError also if the directory holds files of another kind
   /// ("figures" go with the run or sweep of that identity).
   OutputDirectory(const std::filesystem::path& directory, std::string kind,
@@ -45,7 +43,7 @@ class OutputDirectory {
   /// Puts all files of staging() in place; more may follow and be committed in turn. Files of
   /// another identity that commit() has put there before are removed. A file that no commit() has
   /// put there, or that was changed since, is kept: under its own name, or as "name.kept" where a
-  /// new file takes its name. Throws OutputError; the older files are in place then.
+  /// new file takes its name. Throws OutputError and leaves the older files in place.
   void commit();
 
   /// After an error of writing: goes on in a new directory below the system's directory for
@@ -53,7 +51,7 @@ class OutputDirectory {
   void relocate(const std::string& cause);
   bool is_relocated() const { return !relocation_.empty(); }
 
-  /// What a user has to be told: files that were kept, another directory.
+  /// Messages for the user: files that were kept, another directory.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

@@ -15,16 +15,16 @@ namespace subimpact {
 
 struct FinishedRun {
   Case input;
-  /// Of more than some 400,000 history rows, `history` and `section_history` hold those that show
-  /// the run's course and extremes; `n_history_rows` is the number in the file.
+  /// If the file has more than about 400,000 history rows, `history` and `section_history` hold
+  /// only rows that show the run's course and extremes; `n_history_rows` is the number in the file.
   Result result;
   std::string identity;  ///< from manifest.json; empty for files of an older version
   std::string program_version;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version
 };
 
-/// The inverse of write_results(). All files are of one run, as it wrote them: each is compared
-/// with the checksum in manifest.json. Throws ResultsError.
+/// The inverse of write_results(). Each file is compared with its checksum in manifest.json, so
+/// that all are of one run and unchanged. Throws ResultsError.
 FinishedRun read_results(const std::filesystem::path& directory);
 
 /// Reads a measured force from a CSV file: a heading with the units of time and force at the ends
@@ -33,16 +33,16 @@ FinishedRun read_results(const std::filesystem::path& directory);
 Signal read_signal(const std::filesystem::path& file);
 class LoadedCase;
 
-/// Makes a case go on from the end of the finished run in a directory, which it returns with
-/// Result::end_state: sets CaseParts::start, and takes over the keys of model and of solver where
-/// the case gives none of the table. Throws ResultsError for files that hold no state,
-/// CaseFileError with all keys that differ but must not.
+/// Makes a case continue the finished run in a directory, and returns that run with
+/// Result::end_state: sets CaseParts::start, and takes over the keys of [model] or [solver] if the
+/// case gives no key of that table. Throws ResultsError for files without a state, CaseFileError
+/// with all keys that differ but must not.
 FinishedRun continue_from(const std::filesystem::path& directory, LoadedCase& loaded);
 
 /// The tables of a population of runs, as `subimpact-sweep` writes them.
 struct SweptRuns {
-  /// A column of runs.csv with one value per run: numbers, NaN where a cell is empty; or words,
-  /// where some cell is no number.
+  /// A column of runs.csv with one value per run: numbers, NaN where a cell is empty; or words, if
+  /// some cell is not a number.
   struct Column {
     std::string name;
     bool is_key = false;  ///< of the case, with different values
@@ -61,8 +61,9 @@ struct SweptRuns {
 /// Whether a directory holds the tables of a sweep, and not the files of one run.
 bool holds_sweep(const std::filesystem::path& directory);
 
-/// Reads runs.csv and sub_impacts.csv, which must be those that manifest.json lists, if there is
-/// one. Throws ResultsError with file, line, what was found and what to do; also without any run.
+/// Reads runs.csv and sub_impacts.csv; if there is a manifest.json, the files must be those that it
+/// lists. Throws ResultsError with file, line, what was found and what to do; also if there is no
+/// run.
 SweptRuns read_sweep(const std::filesystem::path& directory);
 
 }  // namespace subimpact

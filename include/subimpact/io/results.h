@@ -20,17 +20,17 @@ constexpr int summary_layout = 5;
 /// double back; the columns are the same for every result. Files: events.csv, transitions.csv,
 /// history.csv and summary.json; shapes.csv and envelope.csv unless output.shapes is 0;
 /// sections.csv and points.csv if output.sections and output.points are not empty. All files appear
-/// as one, with a manifest.json, or none does (see OutputDirectory). Throws OutputError.
+/// together, with a manifest.json, or none does (see OutputDirectory). Throws OutputError.
 void write_results(const std::filesystem::path& directory, const Case& input, const Result& result);
 
-/// Bytes that the files of a run take, roughly: those of its rows, with `n_shape_points` points in
-/// a shape (ResolvedSettings), or as many as output.shape_points allows.
+/// Rough size (bytes) of the files of a run: its rows, with `n_shape_points` points in a shape
+/// (ResolvedSettings), or as many as output.shape_points allows.
 double expected_bytes(const Case& input, std::optional<std::size_t> n_shape_points = {});
-/// Shapes of a run, without those of events.
+/// Expected number of shapes of a run, without those of events.
 double expected_shapes(const Case& input);
 
-/// The same for a run that is still to come: the directory is locked and known to be writable
-/// before the run, and rows go to their files as they are made.
+/// write_results() for a run that has not begun: the directory is locked and checked to be writable
+/// before the run, and rows are written to their files as they are made.
 ///
 ///     ResultWriter files(directory, input);
 ///     const Result result = simulate(input, {}, nullptr, &files);
@@ -68,7 +68,7 @@ class ResultWriter final : public RowSink {
   void for_each_file(Use use);
 
   std::unique_ptr<RowFile> history_, sections_, points_, shapes_;  // none: no such rows
-  std::string lost_;  // why rows could be written nowhere
+  std::string lost_;  // why rows could not be written anywhere
 };
 
 /// JSON has no infinity and no NaN: an infinite setting is written as the text "inf", a result that
@@ -80,7 +80,7 @@ std::string column_listing();
 
 std::string project_version();
 
-/// Name and version of every library the program is made of.
+/// Name and version of every library that the program uses.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace subimpact

@@ -29,7 +29,7 @@ struct SparseFunctional {
     for (const Term& term : terms) sum += term.coefficient * unknowns[term.unknown];
     return sum;
   }
-  /// Adds `factor` times another functional of few terms; terms that cancel go.
+  /// Adds `factor` times another functional of few terms; terms that cancel are removed.
   void add(double factor, const SparseFunctional& other);
   /// forces += amount * coefficients: the generalised force of a point load `amount`.
   void add_to(std::span<double> forces, double amount) const {
@@ -62,22 +62,21 @@ struct NaturalModes {
 /// Scales shapes so that phi^T Mass phi = 1.
 void normalise(NaturalModes& modes, const BandedMatrix& mass);
 
-/// By dense decomposition, for any mesh, and corrections that remove what its rounding mixes of low
-/// modes; where sections shear, frequencies grow too slowly for that to matter. Frequencies are
-/// Rayleigh quotients of B phi and the shear energy, which keeps the lowest of them accurate in
-/// spite of the highest; those below 1e-7 of the highest count as rigid.
+/// Natural modes by dense decomposition, for any mesh, with corrections that remove the mixing of
+/// low modes by rounding; where sections shear, frequencies grow too slowly for that to matter.
+/// Frequencies are Rayleigh quotients of B phi and the shear energy, which keeps the lowest
+/// accurate in spite of the highest; those below 1e-7 of the highest count as rigid.
 NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness);
 
-/// A beam cut into finitely many unknowns.
+/// A beam discretised into finitely many unknowns.
 ///
 /// With unknowns q (displacements, and slopes where a mesh has them), curvatures kappa = B q at the
 /// sections (stress points) and their integration weights W (m), the beam obeys
 ///
 ///     Mass q'' = -B^T W M(kappa) - K_s q + S F,
-///
-/// with the bending moments M, of the sign of the curvature, the functional S of the struck point
-/// and the elastic stiffness K_s of shear and of springs to the ground, where the mesh has any.
-/// Bending work is sum W M dkappa and contact work F d(S q), so the discretisation in space neither
+/// with the bending moments M (sign convention of kappa), the functional S of the struck point and
+/// the elastic stiffness K_s of shear and of springs to the ground, where the mesh has any. Bending
+/// work is sum W M dkappa and contact work F d(S q), so the discretisation in space neither
 /// produces nor loses energy. Where symmetry halves the unknowns, the mirrored half is folded into
 /// Mass and W, so all forces, energies and momenta are those of the whole beam.
 ///
@@ -87,10 +86,9 @@ NaturalModes dense_natural_modes(const BeamMesh& mesh, double bending_stiffness)
 /// bending_forces() and section_stencil() are one and the same B; the highest frequency is not
 /// below that of the mesh (time steps follow from it). The functions are pure: runs in several
 /// threads may share a mesh. A run whose mesh breaks these rules gains or loses energy and ends as
-/// `inaccurate`.
-///
-/// Fixed today: one generalised strain per section that may yield, the curvature, and one elastic
-/// bending stiffness for all sections (the argument `bending_stiffness`).
+/// `inaccurate`. Fixed at present: one generalised strain per section that may yield, the
+/// curvature, and one elastic bending stiffness for all sections (the argument
+/// `bending_stiffness`).
 class BeamMesh {
  public:
   /// Which part of the beam a mesh models.
@@ -129,9 +127,9 @@ class BeamMesh {
 
   /// kappa = B q, 1/m.
   virtual void curvatures(std::span<const double> unknowns, std::span<double> kappa) const = 0;
-  /// forces = -B^T W moments, N; `moments` = M, N m, of the sign of the curvature.
+  /// forces = -B^T W moments, N; `moments` = M, N m, with the sign convention of kappa.
   virtual void bending_forces(std::span<const double> moments, std::span<double> forces) const = 0;
-  /// One row of B: coefficients (1/m2) of consecutive unknowns, which `first` is the first of.
+  /// One row of B: coefficients (1/m2) of consecutive unknowns, beginning with `first`.
   struct SectionStencil {
     std::size_t first;
     std::span<const double> coefficients;
@@ -148,12 +146,12 @@ class BeamMesh {
 
   /// Curvature of one section, 1/m.
   virtual double curvature(std::size_t section, std::span<const double> unknowns) const;
-  /// The same as coefficients on the unknowns.
+  /// Curvature of one section as coefficients on the unknowns.
   virtual SparseFunctional curvature_functional(std::size_t section) const;
   /// Displacement w of the axis at x (m, from 0 to the end of the part modelled) and rotation of
   /// the section there (rad; the slope w' where sections do not shear), as coefficients on the
-  /// unknowns; where the rotation jumps, the mean of both sides, and at an end that within the
-  /// beam. Nothing on a mesh that does not give them: a run then has no shapes.
+  /// unknowns; where the rotation jumps, the mean of both sides, or at an end the inner one.
+  /// Nothing on a mesh without these functions: a run then has no shapes.
   virtual std::optional<SparseFunctional> displacement_at(double /*x*/) const { return {}; }
   virtual std::optional<SparseFunctional> rotation_at(double /*x*/) const { return {}; }
   /// Half bandwidth of B^T B and K_s.
@@ -167,21 +165,21 @@ class BeamMesh {
   virtual NaturalModes natural_modes(double bending_stiffness) const {
     return dense_natural_modes(*this, bending_stiffness);
   }
-  /// Whether natural_modes() decomposes no matrix, so that it takes n^2 operations and numbers, not
-  /// n^3 and six times as many.
+  /// Whether natural_modes() needs no matrix decomposition: it then takes n^2 operations and
+  /// numbers, in place of n^3 operations and six times as many numbers.
   virtual bool has_closed_modes() const { return false; }
 
   /// Coefficients of the moments M in the work -g^T B^T W M of displacements g, m.
   virtual void moment_weights(std::span<const double> unknowns, std::span<double> weights) const;
-  /// The solver of the mass matrix on meshes where mass() holds only a part of it; else null.
+  /// The solver of the mass matrix, if mass() holds only a part of it; otherwise null.
   virtual std::unique_ptr<MassSolver> make_mass_solver() const;
-  /// The step (s) of central differences that the mesh is made for; else none.
+  /// The step (s) of central differences for which the mesh is made; otherwise none.
   virtual std::optional<double> natural_step() const { return {}; }
 
-  /// Whether the modes are cheap enough, and the band wide enough, for an elastic beam to be
-  /// integrated in modes by any explicit method: the motion is the same.
+  /// Whether explicit methods should integrate an elastic beam in its modes, because the modes are
+  /// cheap and the band is wide; the motion is the same.
   virtual bool prefers_modes() const { return false; }
-  /// Where the unknowns are natural modes: their stiffnesses, N/m. Empty otherwise.
+  /// Stiffnesses (N/m) of the unknowns if these are natural modes; otherwise empty.
   virtual std::span<const double> modal_stiffness() const { return {}; }
   /// "501 cells, one half by symmetry", for people.
   virtual std::string description() const = 0;
@@ -192,7 +190,7 @@ class BeamMesh {
 
   /// 2 where the mirrored half is folded in.
   double copies() const { return symmetric_ ? 2.0 : 1.0; }
-  /// Stores the row of B of the next section, from the first one on.
+  /// Stores the row of B of the next section; to be called section by section.
   void add_stencil(std::size_t first, std::span<const double> coefficients);
 
   BandedMatrix mass_;

@@ -17,28 +17,27 @@ enum class ContactBranch {
   plastic     ///< virgin loading: the indentation grows beyond all earlier ones
 };
 
-/// The power law K lambda^n of a contact that closes for the first time, at least in magnitude.
-/// Scales of time and tolerances of the run come from it, so it need not be exact.
+/// The power law K lambda^n of a contact that closes for the first time. It need not be exact: only
+/// time scales and tolerances of the run follow from it.
 struct ContactScales {
   double stiffness;  ///< K, N/m^n
   double exponent;   ///< n, at least 1
 };
 
 /// Force F (N) between the striker's nose and the beam's surface as a function of the indentation
-/// lambda (m), the striker's displacement less that of the struck point.
+/// lambda (m), the striker's displacement minus that of the struck point.
 ///
 /// A user-defined law derives from this class and is assigned to `Case::parts.contact_law`; the
-/// built-in laws use the same interface. It consists of `force`, the curve of unloading and
-/// reloading that a history leaves; where it yields or leaves a dent, of the two ends of that
-/// curve too. With the largest indentation so far lambda_m (the history), the residual indentation
+/// built-in laws use the same interface. It must define `force`, the curve of unloading and
+/// reloading for a given history; a law that yields or leaves a dent also defines the two ends of
+/// that curve. With the largest indentation so far lambda_m (the history), the residual indentation
 /// lambda_r and the yield threshold lambda_y,
 ///
 ///     separated  lambda <= lambda_r               F = 0
 ///     elastic    lambda_r < lambda <= lambda_y    F = force(history, lambda)
 ///     plastic    lambda > lambda_y, growing       F = force({lambda}, lambda)
-///
-/// Slopes are then differences of the forces, and energies their integrals; a law may give closed
-/// forms instead. One that yields from the first touch on has the threshold lambda_m.
+/// By default slopes are difference quotients of the force, and energies its integrals; a law may
+/// give closed forms instead. A law that yields from the first touch has the threshold lambda_m.
 ///
 /// **Requirements.** Steps end at the events at which one branch follows another, and the balances
 /// of energy and impulse of the run contain the energies of the law, so a law that breaks one of
@@ -54,8 +53,7 @@ struct ContactScales {
 ///   - where given, the energies are the work of the force: d(recoverable)/d lambda = F on the
 ///     elastic branch; along the plastic branch recoverable + dissipated grow by F d lambda.
 ///     Dissipated never falls.
-///
-/// Forces are also evaluated a little beyond the range of their branch, in steps that are then cut
+/// Forces are also evaluated slightly beyond the range of their branch, in steps that are then cut
 /// at the end of the branch: there they should continue smoothly, with either sign. One evaluation
 /// of the equations of motion evaluates one force.
 ///
@@ -67,9 +65,9 @@ class ContactLaw {
 
   /// For summaries: "Walton and Braun, k1 = 1e7 N/m".
   virtual std::string name() const = 0;
-  /// N, of unloading and reloading: at lambda_r < lambda <= lambda_y.
+  /// Force (N) of unloading and reloading, at lambda_r < lambda <= lambda_y.
   virtual double force(ContactHistory history, double indentation) const = 0;
-  /// lambda_r, m: where the force ends on unloading, and begins on reloading. By default 0.
+  /// lambda_r, m: where the force ends on unloading and begins on reloading. By default 0.
   virtual double residual_indentation(ContactHistory history) const;
   /// lambda_y, m: the indentation above which the contact yields (further). By default infinite.
   virtual double yield_threshold(ContactHistory history) const;
@@ -85,13 +83,13 @@ class ContactLaw {
   virtual double plastic_slope(double indentation) const;  ///< N/m
 
   /// Work (J) that the contact returns on unloading from this indentation. On the plastic branch
-  /// `history` is that of the indentation itself.
+  /// `history` is {indentation}.
   virtual double recoverable_energy(ContactHistory history, double indentation) const;
   /// Work (J) that plastic indentation has consumed so far.
   virtual double dissipated_energy(ContactHistory history) const;
 
-  /// The largest slope dF/dlambda (N/m) that any history has up to an indentation: the step limit
-  /// of central differences follows from it. By default that of unloading from there.
+  /// The largest slope dF/dlambda (N/m) of any history up to an indentation: the step limit of
+  /// central differences follows from it. By default the slope of unloading from that indentation.
   virtual double largest_slope(double indentation) const {
     return slope({indentation}, indentation);
   }
@@ -100,11 +98,11 @@ class ContactLaw {
   ContactBranch branch(ContactHistory history, double indentation) const;
   double branch_force(ContactBranch branch, ContactHistory history, double indentation) const;
   double branch_slope(ContactBranch branch, ContactHistory history, double indentation) const;
-  /// N, of the branch that holds at this indentation.
+  /// Force (N) of the branch that holds at this indentation.
   double contact_force(ContactHistory history, double indentation) const {
     return branch_force(branch(history, indentation), history, indentation);
   }
-  /// The branch on which a contact begins that closes with this history.
+  /// The branch on which a contact with this history begins when it closes.
   ContactBranch first_branch(ContactHistory history) const;
 
   static ContactHistory commit(ContactHistory history, double indentation) {
@@ -125,9 +123,9 @@ class ContactLaw {
 };
 
 /// Samples a contact law up to an indentation (m) and returns, in one sentence, the first rule of
-/// ContactLaw that it breaks; nothing if it keeps to all of them. Forces and energies may be off by
-/// 1e-3 of their largest values: this finds mistakes, not rounding. simulate(Case) calls it for a
-/// law of the caller's own.
+/// ContactLaw that it breaks; nothing if it keeps all rules. Forces and energies may be off by 1e-3
+/// of their largest values: the test finds mistakes, not rounding. simulate(Case) calls it for a
+/// user-defined law.
 std::optional<std::string> broken_rule(const ContactLaw& law, double largest_indentation);
 
 }  // namespace subimpact

@@ -7,11 +7,12 @@
 
 namespace subimpact {
 
-/// A strip of a section, the same above and below the neutral axis, of one width and material.
-/// Distances are fractions of half the beam's thickness, the rest of the beam's own values.
+/// A strip of a section, of one width and material, the same above and below the neutral axis.
+/// Distances are fractions of half the beam's thickness, other members fractions of the beam's
+/// values.
 struct FibreStrip {
   double from = 0.0;     ///< distance from the neutral axis, 0 to 1
-  double to = 1.0;       ///< likewise, above `from`
+  double to = 1.0;       ///< distance, above `from`
   double width = 1.0;    ///< over Beam::width
   double modulus = 1.0;  ///< over Beam::youngs_modulus
   double yield = 1.0;    ///< yield stress over Beam::yield_stress
@@ -30,9 +31,8 @@ struct FibreStrip {
 /// axis, of modulus E_z and yield stress Y_z, yields at x = 1/zeta with
 ///
 ///     zeta = (2 z/h) (E_z/E) (Y/Y_z),   weight  w dzeta = (h^2 dA/(6 I)) (E/E_z) (Y_z/Y)^2,
-///
-/// dA the area on one side of the axis (zeta = 2 z/h and w = 1 for the rectangle). All that the law
-/// needs of the distribution are its cumulative moments S_i(zeta) = integral of w zeta^i from 0 to
+/// dA the area on one side of the axis (zeta = 2 z/h and w = 1 for the rectangle). The law needs
+/// only the cumulative moments of the distribution, S_i(zeta) = integral of w zeta^i from 0 to
 /// zeta. The virgin curve is
 ///
 ///     m(x) = 3 [x S_2(z_e) + S_1 - S_1(z_e)],  z_e = 1/x
@@ -41,20 +41,19 @@ struct FibreStrip {
 /// follow from the virgin curve by Masing's rules, which are exact for such fibres. The rectangle
 /// has m = x up to 1 and 1.5 - 0.5/x^2 above. Layers give the slope 1 - 1/(2p)^2 and a first yield
 /// at x = 2p/(2p - 1): properties of that law, not errors of this code. Linear kinematic hardening
-/// with h = E_t/E is each fibre beside an elastic one, m = (1 - h) f(x) + h x: a fibre at zeta = 0
-/// with h S_2, which never yields, beside the others with weights times 1 - h; Masing's rules hold.
-/// Its elastic energy is what unloading or reversed flow can return, that of the elastic fibre
-/// included.
-///
-/// Mass and rotary inertia remain those of Beam: choose its density so that the mass per length is
-/// that of the section. Shear deformation is left out: a core that is soft in shear is not covered.
+/// with h = E_t/E puts an elastic fibre in parallel with each fibre, m = (1 - h) f(x) + h x: one
+/// fibre at zeta = 0 with h S_2, which never yields, and the others with weights times 1 - h;
+/// Masing's rules hold. The elastic energy is then the energy that unloading or reversed flow can
+/// return, including that of the elastic fibre. Mass and rotary inertia remain those of Beam:
+/// choose its density so that the mass per length is that of the section. Shear deformation is left
+/// out, so a core that is soft in shear is not covered.
 class Fibres {
  public:
   struct Moments {
     double s0, s1, s2;
   };
 
-  /// Of a beam's section; by default of a rectangle.
+  /// The fibres of a beam's section; by default of a rectangle.
   static Fibres continuous(const Beam& beam = {});
   /// `layers` over the whole thickness: even, at least 2; throws std::invalid_argument otherwise.
   static Fibres layered(int layers, const Beam& beam = {});
@@ -76,7 +75,7 @@ class Fibres {
   /// Largest |m| without hardening, the shape factor: 3/2 for the rectangle.
   double shape_factor() const { return 3.0 * whole_.s1 / (1.0 - hardening_); }
   double hardening() const { return hardening_; }  ///< h
-  /// That of the section which the fibres stand for: layers stand for the exact one.
+  /// slope() of the section that the fibres approximate: layers approximate the exact one.
   double represented_slope() const { return half_layers_ > 0.0 ? 1.0 : slope_; }
   double first_yield() const { return first_yield_; }  ///< x at which the first fibre yields
   double outermost() const { return outermost_; }      ///< zeta of the fibre farthest from the axis

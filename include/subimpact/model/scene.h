@@ -63,8 +63,8 @@ enum class SectionShape {
 };
 
 /// A cross-section by its dimensions (m): heights lie in the direction of the strike. Each shape is
-/// one solid or the difference of two, outer less inner (the two gaps beside the web of an I count
-/// as one): sums over them are exact.
+/// one solid or the difference of two, outer minus inner (the two gaps next to the web of an I
+/// count as one): sums over them are exact.
 struct CrossSection {
   SectionShape shape = SectionShape::rectangle;
   std::optional<double> height = {}, width = {}, diameter = {}, wall = {}, flange = {}, web = {};
@@ -118,13 +118,13 @@ struct Beam {
   bool moves_at_start() const { return velocity != 0.0 || angular_velocity != 0.0; }
   bool has_loads() const { return load != 0.0 || !forces.empty(); }
   bool is_sprung() const { return foundation > 0.0 || !springs.empty(); }
-  /// At t = 0, of a point (a fraction of the length), m/s.
+  /// Velocity (m/s) at t = 0 of a point (a fraction of the length).
   double velocity_at(double position) const {
     return velocity + angular_velocity * length * (position - used_pivot());
   }
   CrossSection::Solid outer_solid() const;  ///< the section without its gaps
   CrossSection::Solid gap() const;          ///< taken out of the outer solid
-  /// Of the section in the direction of the strike, m.
+  /// Height (m) of the section in the direction of the strike.
   double height() const { return outer_solid().height; }
   bool is_round() const { return outer_solid().is_round; }
 
@@ -143,15 +143,16 @@ struct Beam {
   double radius_of_gyration() const { return std::sqrt(second_moment() / area()); }  ///< r, m
   /// Whether both ends are free.
   bool is_free() const { return ends[0] == EndSupport::free && ends[1] == EndSupport::free; }
-  /// Whether nothing but striker and loads acts on the beam.
+  /// Whether only striker and loads act on the beam.
   bool is_unsupported() const { return is_free() && !fixed && !is_sprung(); }
   /// J = rho I (kg m), or zero in Euler-Bernoulli theory.
   double rotary_inertia() const {
     return theory == BeamTheory::euler_bernoulli ? 0.0 : density * second_moment();
   }
   bool shears() const { return theory == BeamTheory::timoshenko; }
-  /// k, where nu is given: that of the shape unless set (scene.cpp has the formulas). Source: G. R.
-  /// Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966).
+  /// k, if nu is given: shear_coefficient, or by default that of the shape (formulas: scene.cpp).
+  /// Source: G. R. Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33
+  /// (1966).
   double used_shear_coefficient() const;
   /// k G A (N), where nu is given.
   double shear_stiffness() const {
@@ -165,15 +166,15 @@ enum class NoseShape {
   cylinder  ///< its axis lies across the beam
 };
 
-/// Rigid mass with a round nose, moving freely but for the contact force and gravity; or a rigid
-/// stop at rest.
+/// Rigid mass with a round nose, on which only the contact force and gravity act; or a rigid stop
+/// at rest.
 struct Striker {
   double mass = 0.0;                  ///< m, kg
   std::optional<double> nose_radius;  ///< R, m
   double velocity = 0.0;              ///< v0, m/s, towards the beam
   double position = 0.5;              ///< struck point as a fraction of the length
   double gap = 0.0;                   ///< m, between nose and beam at t = 0
-  /// By default that which the contact law is for: a cylinder for `foundation`, else a sphere.
+  /// By default the shape for which the contact law is meant: cylinder (`foundation`) or sphere.
   std::optional<NoseShape> nose = {};
   std::optional<double> drop_height = {};  ///< m: v0 is that of a fall from rest (Bodies)
   bool fixed = false;                      ///< a stop: without mass and velocity
@@ -185,29 +186,29 @@ struct Striker {
 
 constexpr double standard_gravity = 9.80665;  ///< m/s2
 
-/// What a strike is made of but for its discretisation and its contact law.
+/// The bodies of a strike, without its discretisation and its contact law.
 struct Bodies {
   const Beam& beam;
   const Striker& striker;
   double gravity;  ///< g, m/s2, along the strike
 
-  /// Whether striker or beam move otherwise than uniformly before the first touch.
+  /// Whether the motion before the first touch must be integrated.
   bool has_approach_to_compute() const {
     const bool forced = gravity != 0.0 || beam.has_loads();
     return striker.gap > 0.0 && (forced || beam.moves_at_start() || striker.fixed);
   }
-  /// v0, m/s: given, or of a fall by the size of gravity, or of its standard value.
+  /// v0, m/s: given, or that of a fall under |gravity|, or under its standard value if that is 0.
   double striker_velocity() const {
     if (!striker.drop_height) return striker.velocity;
     const double g = gravity != 0.0 ? std::abs(gravity) : standard_gravity;
     return std::sqrt(2.0 * g * *striker.drop_height);
   }
-  /// Of the body that moves towards the other: the striker, or a beam on a stop, kg.
+  /// Mass (kg) of the body that moves towards the other: the striker, or a beam on a stop.
   double moving_mass() const { return striker.fixed ? beam.mass() : striker.mass; }
   /// Velocity at which striker and struck point approach at t = 0, m/s.
   double approach() const { return striker_velocity() - beam.velocity_at(striker.position); }
-  /// A typical velocity of the strike, m/s: that of the first touch, but for the deformation of the
-  /// beam before it and the direction of the forces.
+  /// A typical velocity of the strike, m/s: that of the first touch, neglecting the deformation of
+  /// the beam before it and the direction of the forces.
   double velocity_scale() const;
 };
 
@@ -218,11 +219,11 @@ enum class ContactKind {
   sphere,      ///< Hertz up to the yield pressure, Thornton's plastic contact beyond
 };
 
-/// The contact's own constants; `foundation` has none, its follow from beam and nose radius.
+/// The contact's own constants; those of `foundation` follow from beam and nose radius.
 struct Contact {
   ContactKind kind = ContactKind::foundation;
   std::optional<double> stiffness;  ///< K: N/m^1.5 (hertz), N/m (linear)
-  // Of the nose's body against the beam's surface (sphere; hertz in place of a stiffness):
+  // Constants of the bodies in contact (sphere; hertz in place of a stiffness):
   std::optional<double> striker_modulus;  ///< E_s, Pa; infinite: rigid
   std::optional<double> striker_poisson;  ///< nu_s
   std::optional<double> beam_poisson;     ///< nu

@@ -2,7 +2,7 @@
 
 namespace subimpact {
 
-/// What an integration costs.
+/// The cost of an integration.
 struct WorkCounts {
   long steps = 0;  ///< accepted steps
   long rejected_steps = 0;

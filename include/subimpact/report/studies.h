@@ -1,6 +1,6 @@
 #pragma once
 
-/// Studies as text, CSV files and figures. What writes files throws OutputError.
+/// Studies as text, CSV files and figures. Functions that write files throw OutputError.
 
 #include <filesystem>
 #include <optional>
@@ -22,15 +22,15 @@ void write_comparison(const std::filesystem::path& directory, const Comparison& 
 std::string comparison_csv(const Comparison& comparison);
 std::string matches_csv(const Comparison& comparison);
 
-/// sensitivity.csv: one row per number of a sub-impact, and for each key of the study its
-/// derivative by the logarithm of the key (d_<key>) and the error of that (error_<key>).
+/// sensitivity.csv: one row per number of a sub-impact, with, for each key of the study, its
+/// derivative by the logarithm of the key (d_<key>) and the error of the derivative (error_<key>).
 std::string sensitivity_csv(const Sensitivity& study);
 void write_sensitivity(const std::filesystem::path& directory, const Sensitivity& study);
 
 /// The reference's event times with their errors.
 std::string plan_reference_table(const Plan& plan);
 
-/// What was tried, the cheapest that is admitted with the options that select it, and the horizon.
+/// The runs made, the cheapest admitted one with the options that select it, and the horizon.
 std::string plan_table(const Plan& plan);
 
 /// Writes reference.csv, plan.csv and, from the latter, plan.svg and .png: error on x, counted work
@@ -53,15 +53,15 @@ void draw_work_precision(const std::filesystem::path& directory,
 /// its points and a repeated study continues from there.
 class PointLog {
  public:
-  /// Reads the file of an earlier study of the same cases, and goes on from its points. `cases` are
-  /// the ids of the cases of this study. Throws OutputError if the file cannot be written, or holds
-  /// points of other cases, and ResultsError if it was changed since.
+  /// Reads the file of an earlier study of the same cases, and continues from its points. `cases`
+  /// are the ids of the cases of this study. Throws OutputError if the file cannot be written, or
+  /// holds points of other cases, and ResultsError if it was changed since.
   PointLog(OutputDirectory& directory, const std::vector<std::string>& cases);
 
   /// A point of an earlier study.
   std::optional<Trial> known(const std::string& case_id, const Setting& setting) const;
   std::size_t n_known() const { return known_.size(); }
-  /// Commits the file with a row more. Throws OutputError.
+  /// Commits the file with one more row. Throws OutputError.
   void append(const std::string& case_id, const std::string& label, const Trial& point);
 
  private:
@@ -70,11 +70,11 @@ class PointLog {
   std::vector<std::pair<std::string, Trial>> known_;  // by the id of the case
 };
 
-/// Identifies a case: a fingerprint of the program's version and of all keys of the case but those
-/// a study sets itself (method, table, tolerance, step), the title and the outputs.
+/// Identifies a case: a fingerprint of the program's version and of all keys except the title, the
+/// outputs and those that a study sets (method, table, tolerance, step).
 std::string case_id(const Case& input);
 
-/// A part of a study of stability: what is printed, and CSV files with the figure drawn from them.
+/// A part of a stability study: its printed text, and CSV files with the figure drawn from them.
 struct StabilityPart {
   std::string text;  ///< empty: there is nothing to show
   std::string name;  ///< of the figure and of the first file

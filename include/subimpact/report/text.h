@@ -20,38 +20,38 @@ namespace subimpact {
 /// the results passed every check, in one line; empty for a run that completed.
 std::string outcome_caveat(const Result& result);
 
-/// How certain, in one line: the error of the certain times, and why the first of the other
-/// sub-impacts is not certain.
+/// How certain a run is, in one line: the error of the certain times, and why the first uncertain
+/// sub-impact is not certain.
 std::string error_words(const Result& result);
 
 /// ", 9 certain", ", all certain": continues a number of sub-impacts. Empty without error estimate.
 std::string certain_words(const Result& result);
 
-/// What became of a tolerance on event times, in one line: horizon, error, reason, key to free.
+/// Whether a tolerance on event times was met, in one line: horizon, error, reason, key to free.
 std::string tolerance_words(const ToleranceOutcome& tolerance, const Result& result);
 
-/// The strikes of a beam that was struck several times, one line each. `all`: if not, of more than
-/// twenty only those of a sequence that thins out.
+/// The strikes of a beam that was struck several times, one line each; unless `all`, of more than
+/// twenty only a selection that gets sparser.
 std::string strike_table(const Result& result, bool all = true);
 
 /// One line per sub-impact, under a heading with units; zones and sub-zones are separated. Begins
-/// with outcome_caveat(), if there is one. With an error estimate, times have their errors beside
-/// them and no number has a digit below what the errors allow; sub-impacts that are not certain
-/// have question marks. `fold`: three and more of these in succession are one line with their sums.
+/// with outcome_caveat(), if there is one. With an error estimate, times are followed by their
+/// errors and no number has more digits than the errors allow; sub-impacts that are not certain
+/// have question marks. `fold`: three or more of these in succession are one line with their sums.
 std::string sub_impact_table(const Result& result, bool fold = true);
 
-/// Of a case with scatter, in one line: how far it can be predicted, how well, why no further.
+/// For a case with scatter, in one line: how far it can be predicted, how well, why no further.
 std::string predictability_words(const Result& result);
 
-/// One line per sub-impact and one per zone: starts and ends with their standard deviations, where
-/// numbers of the case scatter; a line gives the reason where sub-impacts cannot be predicted.
+/// One line per sub-impact and one per zone, if numbers of the case scatter: starts and ends with
+/// their standard deviations; a line gives the reason where sub-impacts cannot be predicted.
 std::string scatter_table(const Result& result);
 
 /// Why contact is over, or how close striker and beam come after the last sub-impact.
 std::string contact_over_words(const Result& result);
 
-/// What finer meshes change of a run on the mesh that its case fixes: for a result whose error
-/// estimate has finer_meshes.
+/// What finer meshes change in a run whose case fixes the mesh, for a result whose error estimate
+/// has finer_meshes.
 std::string finer_meshes_words(const Result& result);
 
 /// The error of each source by itself, with the runs that show it: "mesh error" and its words.
@@ -61,7 +61,7 @@ std::vector<std::pair<std::string, std::string>> error_part_words(const Result& 
 /// spring"; empty for a beam at rest without loads and springs.
 std::string others_in_scene(const Scene& scene);
 
-/// What is asked of a strike first: a line of the summary, a tile of the page.
+/// One main result of a strike: a line of the summary, a tile of the page.
 struct Answer {
   std::string name;   ///< "largest force"
   std::string value;  ///< "8925 +- 4 N"
@@ -71,13 +71,13 @@ struct Answer {
 /// zone, dent, permanent set, energies that add up to the initial one, whether contact is over.
 std::vector<Answer> answers(const Case& input, const Result& result);
 
-/// How far a measured force and the computed one differ: shift, filter, peak and impulse.
+/// How much a measured force and the computed one differ: shift, filter, peak and impulse.
 std::vector<Answer> answers(const Overlay& overlay);
-/// Why the overlay may mean nothing; empty: no reason is seen.
+/// Why the overlay may mean nothing; empty if no reason was found.
 std::string overlay_doubt(const Overlay& overlay);
 
-/// The title, the answers and reasons to doubt them, one line each, wrapped at 100 columns.
-/// `verbose`: then mesh, method, errors by source, conservation and work.
+/// The title, the answers and the warnings, one line each, wrapped at 100 columns. `verbose` adds
+/// mesh, method, errors by source, conservation and work.
 std::string run_summary(const Case& input, const Result& result, bool verbose = false);
 
 /// For a run that did not complete: one line with time, mode, method, last event, cause, the times
@@ -85,20 +85,19 @@ std::string run_summary(const Case& input, const Result& result, bool verbose = 
 /// values with doubtful units.
 std::string failure_message(const Case& input, const Result& result);
 
-/// One line per method beside the reference, and the differences in words.
+/// One line per method, with its differences from the reference, also in words.
 std::string comparison_table(const Comparison& comparison);
 
-/// Force, contacts and the striker's velocity at the end by several models; starts and ends of
-/// every sub-impact, with their errors and how much later they come than by the first model; then
-/// each model beside the first in a sentence.
+/// Force, contacts and final velocity of the striker by several models; starts and ends of every
+/// sub-impact, with their errors and how much later they come than by the first model; then a
+/// sentence that compares each model with the first.
 std::string model_table(const std::vector<ModelRun>& runs);
 
 /// Starts and ends of all sub-impacts, and how much later they come per 1 % more of each key, with
 /// the digits that the errors allow.
 std::string sensitivity_table(const Sensitivity& study);
 
-/// What a case will be modelled as by its first run, why, and what that will cost. Throws
-/// InvalidCase.
+/// How the first run of a case will model it, why, and at what cost. Throws InvalidCase.
 std::string explanation(const Case& input, const GivenKeys& given);
 
 /// All keys of a case file, with units, what they accept and their defaults.

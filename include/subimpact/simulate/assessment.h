@@ -12,14 +12,14 @@ namespace subimpact {
 
 /// Whether a sub-impact is certain, and the errors of its numbers.
 struct SubImpactAssessment {
-  std::optional<bool> certain;                  ///< it exists, alone, in this place
-  std::optional<double> probability;            ///< of that; 1 where certain
+  std::optional<bool> certain;                  ///< exists, alone, in this place
+  std::optional<double> probability;            ///< that it exists so; 1 where certain
   std::string doubt;                            ///< why it is not certain
   std::optional<double> start_error;            ///< s, error estimate of start: sum of its parts
   std::optional<double> end_error;              ///< s, error estimate of end
-  std::optional<double> error_time;             ///< s, their part from the integration in time
-  std::optional<double> error_mesh;             ///< s, from the mesh
-  std::optional<double> error_layers;           ///< s, from layers in place of the exact section
+  std::optional<double> error_time;             ///< s, part due to the integration in time
+  std::optional<double> error_mesh;             ///< s, part due to the mesh
+  std::optional<double> error_layers;           ///< s, part due to layers in the section
   std::optional<double> peak_force_error;       ///< N
   std::optional<double> impulse_error;          ///< N s
   std::optional<double> max_indentation_error;  ///< m
@@ -49,13 +49,13 @@ struct ZoneTotals {
   Total sub_impacts;  ///< their number
 };
 
-/// What the runs beside a run show: which sub-impacts are certain, and errors.
+/// The judgement of a run by the runs beside it: which sub-impacts are certain, and errors.
 struct ErrorEstimate {
-  std::string refined_run;  ///< the runs it was compared with, in words
+  std::string refined_run;  ///< the runs compared with, in words
   /// The first sub-impact (from 0) that is not certain, or that follows a flight which may hold
   /// another one; none if all are certain and no others are possible.
   std::optional<std::size_t> first_unresolved;
-  std::string reason;          ///< why it is not
+  std::string reason;          ///< why it is not certain
   double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
 
   /// One source of error.
@@ -68,20 +68,20 @@ struct ErrorEstimate {
   };
   std::vector<Part> parts;
 
-  /// A time between two sub-impacts, or after the last, that may hold another one.
+  /// A flight between two sub-impacts, or after the last, that may hold another sub-impact.
   struct UncertainFlight {
     std::size_t after = 0;  ///< sub-impact, from 0
     std::string reason;
   };
   std::vector<UncertainFlight> uncertain_flights;
-  /// On a mesh that the case fixes: errors of sub-impacts are then those in time, and this is what
-  /// finer meshes would change.
+  /// On a mesh that the case fixes, errors of sub-impacts are those of the integration in time;
+  /// this member states what finer meshes would change.
   struct FinerMeshes {
-    std::string mesh;                           ///< that shows it, in words
+    std::string mesh;                           ///< the finer mesh, in words
     std::size_t n_there = 0;                    ///< sub-impacts on that mesh
     std::size_t n_same = 0;                     ///< sub-impacts that it confirms
     std::optional<double> change_of_first_end;  ///< s, of the end of the first sub-impact
-    std::string doubt;  ///< why the mesh shows nothing of the beam, if it does not
+    std::string doubt;                          ///< why the mesh is too coarse; empty: it is not
   };
   std::optional<FinerMeshes> finer_meshes;
   std::vector<NamedTotal> totals;
@@ -91,21 +91,21 @@ struct ErrorEstimate {
 /// Ends of the first contact on one coarse mesh, without and with shear.
 struct NeglectedShear {
   double without = 0.0;        ///< s
-  std::optional<double> with;  ///< s; none: not within three times the other
+  std::optional<double> with;  ///< s; none: above three times `without`
 };
 
-/// What became of a tolerance on the event times (starts and ends of sub-impacts).
+/// The outcome of a tolerance on the event times (starts and ends of sub-impacts).
 struct ToleranceOutcome {
-  double asked = 0.0;    ///< s, error of event times that was asked for
+  double asked = 0.0;    ///< s, tolerance on the error of event times
   bool met = false;      ///< whether every event time of the run is certain and within it
   double reached = 0.0;  ///< s, largest error of the event times before the horizon; inf: not known
   double horizon = 0.0;  ///< s, up to which event times are certain and within it
   std::string reason;    ///< why the horizon comes before the end; else empty
-  std::string key;       ///< key of the case that stands in the way and could be freed; or empty
+  std::string key;       ///< key of the case that prevents it and could be freed; or empty
 };
 
-/// How far a strike can be predicted of which numbers scatter: standard deviations by first
-/// derivatives, and where these end to describe what happens.
+/// How far a strike with scattering numbers can be predicted: standard deviations by first
+/// derivatives, and up to which time first derivatives are valid.
 struct Predictability {
   /// The first sub-impact (from 0) that cannot be predicted; none if all can.
   std::optional<std::size_t> first_unpredictable;
@@ -113,7 +113,7 @@ struct Predictability {
   double horizon = 0.0;          ///< s: the end of the last one before it
   double largest_scatter = 0.0;  ///< s, of the starts and ends up to there
 
-  /// Standard deviations of what a zone is as a whole; none where they are not known.
+  /// Standard deviations of a zone as a whole; none where they are not known.
   struct Zone {
     std::optional<double> start_scatter, end_scatter;  ///< s
     std::optional<double> impulse_scatter;             ///< N s
@@ -122,15 +122,15 @@ struct Predictability {
   std::optional<double> striker_velocity_scatter;  ///< m/s, after the last sub-impact
 };
 
-/// Of a run as a whole.
+/// The assessment of a whole run.
 struct Assessment {
-  /// Whether it is proven for the run and for those compared with it that no contact follows.
+  /// Whether it is proven, for the run and for those beside it, that no contact follows.
   bool contact_over = false;
   std::optional<ErrorEstimate> error_estimate;    ///< with error bars
   std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
-  std::optional<ToleranceOutcome> tolerance;      ///< of runs that were asked for an accuracy
+  std::optional<ToleranceOutcome> tolerance;      ///< of runs with a tolerance on event times
   std::optional<Predictability> predictability;   ///< of a case with scatter
-  /// Why mesh and method are what they are, where the program chose them; else empty.
+  /// Why mesh and method were chosen, if the program chose them; otherwise empty.
   std::string choice;
 
   /// Whether it is certain that there are these sub-impacts and no others.

@@ -6,7 +6,7 @@
 
 namespace subimpact {
 
-/// What an error is about; each kind has its type below.
+/// The kinds of errors; each has its type below.
 enum class ErrorKind {
   invalid_case,
   case_file,
@@ -17,7 +17,7 @@ enum class ErrorKind {
   gnuplot_missing
 };
 
-/// An error that a user can mend. `what()` says what is wrong, what is allowed and what to do.
+/// An error that a user can correct. `what()` states what is wrong, what is allowed and what to do.
 class Error : public std::runtime_error {
  public:
   Error(const std::string& message, ErrorKind kind) : std::runtime_error(message), kind(kind) {}
@@ -39,7 +39,7 @@ class InvalidCase : public Error {
   std::string key;
 };
 
-/// A case that cannot be read. `what()` is one line a problem, each with place, key, what is wrong,
+/// A case that cannot be read. `what()` has one line per problem, with place, key, what is wrong,
 /// what is allowed and what to do.
 using CaseFileError = ErrorOf<ErrorKind::case_file>;
 

@@ -39,7 +39,7 @@ class RunView {
   /// Curvature, 1/m, of the section nearest to x (m, within the part modelled). The strain of the
   /// outer fibre behind is -curvature h/2.
   double curvature(double x) const;
-  /// Displacement of the axis at x, m; nothing on a mesh that does not give it.
+  /// Displacement of the axis at x, m; nothing on a mesh without displacement_at().
   std::optional<double> displacement(double x) const;
   /// U_m to D_c, J. Costs about as much as one evaluation of the equations of motion.
   Energies energies() const;
@@ -50,8 +50,8 @@ class RunView {
   const StruckBeam& beam_;
 };
 
-/// Watches a run: derive from this class, override what is of interest, and hand the object to
-/// simulate().
+/// Watches a run: derive from this class, override the functions of interest, and pass the object
+/// to simulate().
 ///
 ///     struct LargestForce final : subimpact::Observer {
 ///       void on_step(const subimpact::RunView& now) override {
@@ -59,29 +59,29 @@ class RunView {
 ///       }
 ///       double largest = 0.0;
 ///     };
-///
-/// The calls come in the order of time, in the thread that runs simulate(). States are those that
-/// the run has accepted; nothing that is shown is taken back, unless the run ends as `inaccurate`
-/// or `unstable`, when the states are valid up to Outcome::first_failure. A run without an observer
-/// costs nothing for this interface. An exception that leaves an observer ends the run and leaves
-/// simulate(); to end a run with results, let goes_on() or the progress function return false.
+/// The calls come in the order of time, in the thread that runs simulate(), with states that the
+/// run has accepted. If the run ends as `inaccurate` or `unstable`, states are valid up to
+/// Outcome::first_failure; otherwise all are valid. A run without an observer has no overhead from
+/// this interface. An exception that leaves an observer ends the run and leaves simulate(); to end
+/// a run with results, let goes_on() or the progress function return false.
 class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// The end of every accepted step. Steps end at events too: this comes after after_event then,
-  /// with the same state.
+  /// Called at the end of every accepted step. Steps also end at events: on_step is then called
+  /// after after_event, with the same state.
   virtual void on_step(const RunView& /*end*/) {}
 
-  /// An event of the contact, once with the equations of motion before it and once with those after
-  /// it; the state is the same. The first touch is one; nothing is shown before it. With
-  /// interpolated events (solver.events) both calls come before the end of the step with the event.
+  /// Called at an event of the contact, once with the equations of motion before it and once with
+  /// those after it; the state is the same. The first touch is such an event; no call precedes it.
+  /// With interpolated events (solver.events) both calls come before the end of the step with the
+  /// event.
   virtual void before_event(const Transition& /*event*/, const RunView& /*at*/) {}
   virtual void after_event(const Transition& /*event*/, const RunView& /*at*/) {}
 
-  /// A section that flowed reversed within the step that ends next.
+  /// Called for a flowing section that reversed within the step that ends next.
   virtual void on_reversal(const Transition& /*reversal*/) {}
-  /// Asked after every step; false ends the run with the outcome `stopped`.
+  /// Called after every step; false ends the run with the outcome `stopped`.
   virtual bool goes_on() const { return true; }
 };
 

@@ -16,7 +16,7 @@ namespace subimpact {
 /// Treatment of an event inside a step.
 enum class EventHandling {
   located,       ///< the step is retaken to end at the event, found on the trajectory itself
-  interpolated,  ///< the step stands; the event's time is interpolated within it (the paper's
+  interpolated,  ///< the step is kept; the event's time is interpolated within it (the paper's
                  ///< scheme)
   library        ///< contact events by the root-finding of SUNDIALS on its own dense output;
                  ///< sections as with `located`
@@ -43,13 +43,13 @@ struct SolverOptions {
 
 struct AccuracyOptions {
   /// s: bound on the error of every event time, for simulate_within() (see study/within.h);
-  /// simulate() takes no notice of it.
+  /// simulate() ignores it.
   std::optional<double> event_times;
-  /// Bound on the work of all runs that such a bound may cost together, in evaluations of the
-  /// right-hand side times unknowns of the beam: some 5 ns each.
+  /// Bound on the total work of all runs made to meet `event_times`, in evaluations of the
+  /// right-hand side times unknowns of the beam: about 5 ns each.
   double work_limit = 2e10;
   /// Largest error of the energy, relative to the initial energy, of a run that counts as
-  /// completed; empty: follows from method and rtol, 1e-3 at most.
+  /// completed; empty: derived from method and rtol, 1e-3 at most.
   std::optional<double> energy;
 };
 
@@ -66,8 +66,8 @@ struct OutputOptions {
   double subzone_gap = 0.02;     ///< in first flexural periods
   std::vector<double> sections;  ///< sections whose bending is kept, as fractions of the length
   std::vector<double> points;    ///< points whose motion is kept, as fractions of the length
-  /// s between shapes, the fields along the whole beam; 0: none, and no envelope; empty: such that
-  /// there are some 400, or none in a run without history rows.
+  /// s between shapes, the fields along the whole beam; 0: none, and no envelope; empty: about 400
+  /// shapes, or none in a run without history rows.
   std::optional<double> shapes;
   int shape_points = 101;  ///< most points of a shape, along the whole beam
 
@@ -75,21 +75,21 @@ struct OutputOptions {
   /// s between history rows of a run that ends at `end_time` (s); 0: none.
   double history_interval(double end_time) const { return interval.value_or(end_time / 2000.0); }
 
-  /// s between shapes of a run that ends at `end_time` (s); 0: none. Where it is left open, shapes
-  /// are of instants that have history rows, so that they cost no further states.
+  /// s between shapes of a run that ends at `end_time` (s); 0: none. If it is left open, shapes are
+  /// taken at instants of history rows, so that they need no further states.
   double shape_interval(double end_time) const {
     return shapes || !has_history() ? shapes.value_or(0.0) : extremes_interval(end_time);
   }
 
-  /// s between the regular instants at which a run and those beside it take the same extremes along
-  /// the beam: the default of shapes; without history rows those of shapes.
+  /// s between the regular instants at which a run and those beside it sample extremes along the
+  /// beam: the default of shapes; without history rows, that of shapes.
   double extremes_interval(double end_time) const {
     const double rows = history_interval(end_time);
     return rows > 0.0 ? rows * std::max(std::round(end_time / 400.0 / rows), 1.0)
                       : shapes.value_or(0.0);
   }
 
-  /// For refined runs, of which only the sub-impacts matter.
+  /// For runs of which only the sub-impacts are needed.
   void keep_no_rows() {
     interval = 0.0;
     sections.clear();
@@ -108,7 +108,7 @@ enum class StrikerUpdate {
   constant_force  ///< by the force at the step's start, constant over the step: first order
 };
 
-/// Switches for experiments with the program itself. No strike needs them.
+/// Switches for experiments with the program itself; no strike needs them.
 struct StudyOptions {
   VectorOperationsKind vector_operations = VectorOperationsKind::project;
   MassSolverKind mass_solver = MassSolverKind::banded;
@@ -129,13 +129,13 @@ struct Options {
 
 /// A table of coefficients that solver.table may name.
 struct MethodTable {
-  Method method;  ///< the one it belongs to
+  Method method;  ///< the method to which the table belongs
   std::string name;
   int order;
   int embedded_order;  ///< of the error estimate
   int evaluations;     ///< right-hand sides an accepted step costs; for an implicit method its
                        ///< stages, each of which is evaluated two or three times
-  std::string note;    ///< what it is for, and its source
+  std::string note;    ///< its purpose and source
 };
 
 /// All tables; the first of each method is its default.

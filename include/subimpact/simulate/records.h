@@ -1,6 +1,6 @@
 #pragma once
 
-/// Sub-impacts, assembled from events, and what was nearly one.
+/// Sub-impacts, assembled from events, and near misses.
 
 #include <optional>
 #include <string>
@@ -12,7 +12,8 @@
 
 namespace subimpact {
 
-/// From the instant contact begins to the instant its force returns to zero.
+/// One contact, from the instant at which it begins to the instant at which its force is zero
+/// again.
 struct SubImpact : SubImpactAssessment {
   double start = 0.0;                 ///< s
   std::optional<double> end;          ///< s; none: still in contact when the simulation ended
@@ -29,7 +30,7 @@ struct SubImpact : SubImpactAssessment {
   int subzone = 0;                    ///< numbered from 1 within the zone
 };
 
-/// What nearly happened where the indentation came close to the residual one and turned back.
+/// The event that nearly happened when the indentation came close to the residual one.
 enum class NearMissKind {
   opening,  ///< within a contact: a local minimum of the indentation
   closing   ///< within a separation: a local minimum of the gap
@@ -37,16 +38,17 @@ enum class NearMissKind {
 
 std::string_view to_string(NearMissKind kind);
 
-/// A local minimum of the distance between the indentation and the residual one. A contact that
-/// nearly opens may be two sub-impacts in truth; a separation that nearly closes may hold another.
+/// A local minimum of the distance between the indentation and the residual one. In the exact
+/// solution, a contact that nearly opens may be two sub-impacts, and a separation that nearly
+/// closes may hold another.
 struct NearMiss {
   double time = 0.0;    ///< s
   double margin = 0.0;  ///< m, above 0: |indentation - residual indentation|
   NearMissKind kind = NearMissKind::opening;
 };
 
-/// Groups sub-impacts: one that begins sooner than `zone_gap` (s) after the end of the one before
-/// it belongs to the same zone, likewise `subzone_gap` and the same sub-zone. Fills both numbers.
+/// Sets the numbers of zone and sub-zone: a sub-impact that begins sooner than `zone_gap` (s) after
+/// the end of the last one belongs to the same zone; `subzone_gap` does the same for sub-zones.
 void assign_zones(std::vector<SubImpact>& sub_impacts, double zone_gap, double subzone_gap);
 
 /// A zone in numbers; its end is that of its last sub-impact.

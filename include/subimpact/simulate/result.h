@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "subimpact/ode/work_counts.h"
+#include "subimpact/simulate/assessment.h"
 #include "subimpact/simulate/options.h"
 #include "subimpact/simulate/records.h"
 #include "subimpact/simulate/run_state.h"
@@ -16,7 +17,7 @@
 
 namespace subimpact {
 
-/// One row of history.csv; members as its columns, SI units.
+/// One row of history.csv; the members are its columns, in SI units.
 struct HistoryRow {
   double time;
   double force;
@@ -35,8 +36,8 @@ struct HistoryRow {
   double contact_elastic;       ///< U_c
   double contact_plastic;       ///< D_c
   double energy_error;          ///< (sum of the seven - initial)/initial
-  /// (momentum - initial)/initial, with what the damping by mass has taken; none where supports
-  /// take momentum up.
+  /// (momentum - initial)/initial, including the momentum lost to damping by mass; none where
+  /// supports take momentum up.
   std::optional<double> momentum_error;
   double beam_damping = 0.0;  ///< D_b
   double work = 0.0;          ///< W
@@ -94,10 +95,10 @@ struct EnvelopeRow {
   double permanent_set = 0.0;  ///< m: displacement at rest against the chord
 };
 
-/// The largest magnitude of a quantity along the beam, as it is found at single instants.
+/// The largest magnitude of a quantity along the beam, sampled at single instants.
 struct SampledPeak {
-  double shared = 0.0;   ///< over regular instants, which runs beside one another share, and events
-  double largest = 0.0;  ///< over all instants at which fields are read
+  double shared = 0.0;   ///< over events and the regular instants that all runs of a case share
+  double largest = 0.0;  ///< over all instants at which fields are sampled
   double before = 0.0, after = 0.0;  ///< at the instants next to that of the largest
   double last = 0.0;                 ///< at the last instant
   bool is_last = false;              ///< the largest was found at the last instant
@@ -112,7 +113,7 @@ struct SampledPeak {
     }
     last = magnitude;
   }
-  /// By how much a parabola through the largest and its neighbours may rise above it, at most.
+  /// Bound on how far a parabola through the largest and its neighbours may rise above it.
   double sampling_error() const { return (2.0 * largest - before - after) / 8.0; }
 };
 
@@ -122,7 +123,7 @@ struct FieldPeaks {
   SampledPeak strain;        ///< of the outer fibre
 };
 
-/// One row of strikes.csv: one of the strikes that a beam received one after another, at its end.
+/// One row of strikes.csv: one of several strikes on a beam, at its end.
 struct StrikeRow {
   int strike = 0;                   ///< from 1
   std::size_t sub_impacts = 0;      ///< their number
@@ -131,24 +132,24 @@ struct StrikeRow {
   double peak_force = 0.0;          ///< N
   double impulse = 0.0;             ///< N s
   double dent = 0.0;                ///< m, residual, of all strikes so far
-  double permanent_set = 0.0;       ///< m, largest against the chord, likewise
-  double hinge_rotation = 0.0;      ///< rad, largest, likewise
+  double permanent_set = 0.0;       ///< m, largest against the chord, of all strikes so far
+  double hinge_rotation = 0.0;      ///< rad, largest, of all strikes so far
   double striker_energy = 0.0;      ///< J, left in the striker
-  double vibration = 0.0;           ///< J, of the beam, with what stays locked in bent sections
+  double vibration = 0.0;           ///< J, of the beam, with energy locked in bent sections
   double bending_dissipated = 0.0;  ///< J, by this strike
-  double contact_dissipated = 0.0;  ///< J, likewise
+  double contact_dissipated = 0.0;  ///< J, by this strike
   std::optional<double> restitution_error, peak_force_error, permanent_set_error;
 };
 
-/// Takes the rows of a run as they are made, so that they need not be held in memory. Called in the
-/// order of the files, in the thread of the run.
+/// Receives the rows of a run as they are made, so that they need not be held in memory. Called in
+/// the order of the files, in the thread of the run.
 class RowSink {
  public:
   virtual ~RowSink() = default;
   virtual void add(const HistoryRow& row) = 0;
-  /// The sections of output.sections, at the time of the history row before.
+  /// The sections of output.sections, at the time of the previous history row.
   virtual void add(const SectionRow& row) = 0;
-  /// The points of output.points, at the time of the history row before.
+  /// The points of output.points, at the time of the previous history row.
   virtual void add(const PointRow& /*row*/) {}
   /// The points of a shape, one after another in ascending order of x.
   virtual void add(const ShapeRow& /*row*/) {}
@@ -157,12 +158,12 @@ class RowSink {
 };
 
 enum class OutcomeKind {
-  completed,      ///< the end was reached, and energy, momentum and events were right all the way
+  completed,      ///< the end was reached, and all checks of energy, momentum and events passed
   stopped,        ///< the caller's progress function returned false
   inaccurate,     ///< energy, momentum, an impulse or an event was off by more than the tolerance
   unstable,       ///< the energy grows without bound, or a value is not finite
-  chattering,     ///< the contact opened and closed over and over while time stood still
-  solver_failed,  ///< the integrator could not go on
+  chattering,     ///< the contact opened and closed many times while time hardly advanced
+  solver_failed,  ///< the integrator could not continue
   left_validity,  ///< the indentation reached the beam's thickness
 };
 
@@ -179,13 +180,13 @@ struct Outcome {
   OutcomeKind kind = OutcomeKind::completed;
   double time = 0.0;    ///< s, reached
   std::string message;  ///< one line: for failures, cause and what to do
-  /// Where results stop being right, for `inaccurate` and `unstable`: those up to `from` passed
-  /// every check.
+  /// For `inaccurate` and `unstable`: where results stop being right; up to `from` every check
+  /// passed.
   std::optional<Interval> first_failure;
   bool completed() const { return kind == OutcomeKind::completed; }
 };
 
-/// What was used where the case left a choice open, or leaves it to be derived.
+/// The settings of a run: choices that the case left open, and derived quantities.
 struct ResolvedSettings {
   bool half_model = false;
   std::size_t n_unknowns = 0;  ///< of the beam
@@ -198,8 +199,8 @@ struct ResolvedSettings {
   /// rad/s, of beam and striker joined by a spring of that slope; at least highest_frequency.
   double joined_frequency = 0.0;
   double contact_time = 0.0;        ///< s, scale of the shortest contacts
-  double contact_mass_share = 0.0;  ///< of the striker in what such contacts move at once
-  /// s: the step that the mesh is made for, which no other replaces; empty for most meshes.
+  double contact_mass_share = 0.0;  ///< of the striker in the mass that such contacts move at once
+  /// s: the step for which the mesh is made, and the only one allowed; empty for most meshes.
   std::optional<double> natural_step = {};
   double critical_step = 0.0;        ///< s, of central differences: 2/joined_frequency
   std::optional<double> step;        ///< s, of fixed-step methods
@@ -219,7 +220,7 @@ struct ResolvedSettings {
   double shape_interval = 0.0;      ///< s between shapes; 0: none
   std::size_t n_shape_points = 0;   ///< points of a shape, along the whole beam
   double memory = 0.0;              ///< bytes that a run takes, roughly
-  /// Cost of the natural modes, in entries of right-hand sides that take as long; 0: none needed.
+  /// Cost of the natural modes, in entries of right-hand sides of the same duration; 0: not needed.
   double decomposition = 0.0;
 };
 
@@ -232,7 +233,7 @@ struct Work : WorkCounts {
   double all_seconds = 0.0;   ///< with the runs beside and before it; 0: there were none
 };
 
-/// Where the gap between the bodies is smallest before it grows for good, or until the run ends.
+/// Smallest gap between the bodies before it grows for good, or until the run ends.
 struct ClosestApproach {
   double time = 0.0;            ///< s
   double gap = 0.0;             ///< m
@@ -246,9 +247,9 @@ struct Result : Assessment {
   ResolvedSettings used;  ///< the same after resolve()
   std::vector<SubImpact> sub_impacts;
   std::vector<Transition> transitions;
-  /// In their order in time: of every contact and separation the nearest few whose margin is below
-  /// half of the largest distance there. Of a free flight that the exponential method passes
-  /// in one step, the nearest.
+  /// In order of time: for every contact and separation the nearest few whose margin is below half
+  /// of the largest distance there; for a free flight that the exponential method passes in one
+  /// step, the nearest.
   std::vector<NearMiss> near_misses;
   std::vector<HistoryRow> history;          ///< empty if a RowSink took the rows
   std::vector<SectionRow> section_history;  ///< of output.sections, in that order at each time
@@ -258,22 +259,22 @@ struct Result : Assessment {
   std::size_t n_shape_rows = 0;             ///< wherever they went
   std::vector<EnvelopeRow> envelope;        ///< in ascending order of x; with shapes
   FieldPeaks peaks;                         ///< with shapes
-  /// Of a beam that was struck several times: of all strikes, the last of which the rest describes.
+  /// All strikes of a beam that was struck several times; other members describe the last strike.
   std::vector<StrikeRow> strikes;
   /// The plastic hinges of the whole beam at the end, in ascending order of x; with shapes.
   std::vector<PlasticZone> plastic_zones;
   std::optional<double> first_section_yield;  ///< s, interpolated within a step
   std::optional<double> first_contact_yield;  ///< s
-  /// s: a time from which it is proven that no contact follows: the end of the run, or sooner with
+  /// s: a time after which it is proven that no contact follows: the end of the run, or sooner with
   /// time.stop = "no-more-contact".
   std::optional<double> no_more_contact;
-  /// Of the flight after the last sub-impact; none if the gap does nothing but grow.
+  /// In the flight after the last sub-impact; none if the gap only grows.
   std::optional<ClosestApproach> closest_approach;
   std::size_t n_yielded_sections = 0;  ///< of the sections modelled
   double max_force = 0.0;              ///< N
   double max_indentation = 0.0;        ///< m
-  double largest_rotation = 0.0;       ///< rad, of sections, as seen at separations and at the end
-  double largest_displacement = 0.0;   ///< m, of the struck point, as seen there and at rows
+  double largest_rotation = 0.0;       ///< rad, of sections, at separations and at the end
+  double largest_displacement = 0.0;   ///< m, of the struck point, at these and at rows
   double striker_velocity = 0.0;       ///< m/s, at the end
   double beam_mean_velocity = 0.0;     ///< m/s, at the end: beam momentum over beam mass
   /// Velocities (m/s) of the striker and of the beam, its mean, at a time (s).
@@ -282,10 +283,9 @@ struct Result : Assessment {
   };
   Velocities first_touch;  ///< as they first met
   Velocities parting;      ///< at the last separation, or at the end where there was none
-  /// Coefficient of restitution, of these: of a beam that nothing holds (beam - striker) after over
-  /// (striker - beam) before; of a held one - striker after over striker before; of a beam on a
-  /// stop
-  /// - beam after over beam before. None of bodies that never touched.
+  /// Coefficient of restitution. Beam without supports: (beam - striker) at parting over (striker -
+  /// beam) at first touch; held beam: - striker over striker; beam on a stop: - beam over beam.
+  /// None if the bodies never touched.
   std::optional<double> restitution;
   /// s: the start of a contact in which gravity holds the striker on the beam to the end of the run
   /// and beyond.
@@ -297,16 +297,16 @@ struct Result : Assessment {
   double beam_damping_loss = 0.0;            ///< J, by that of the beam
   /// Largest difference between the impulse and the integrated force of a sub-impact, over m v0.
   double max_impulse_error = 0.0;
-  /// Where the run stands at its end, for runs that go on from there; null for one that failed.
+  /// State of the run at its end, for runs that continue it; null for a failed run.
   std::shared_ptr<const RunState> end_state;
-  /// Reasons to doubt results that passed all checks, one sentence each.
+  /// Warnings about results that passed all checks, one sentence each.
   std::vector<std::string> warnings;
   Work work;
 
   /// Whether the whole result passed every check. If not, the part up to
   /// outcome.first_failure->from did.
   bool is_usable() const { return outcome.completed() || outcome.kind == OutcomeKind::stopped; }
-  /// The end of a sub-impact, s: that of the run for one that was still open.
+  /// The end of a sub-impact, s; the end of the run if it was still open.
   double end_of(const SubImpact& s) const { return s.end.value_or(outcome.time); }
   /// Of all sub-impacts, N s.
   double impulse() const;

@@ -13,21 +13,20 @@
 
 namespace subimpact {
 
-/// A strike assembled from parts. simulate(Case) assembles one from the keys of a case; a caller
-/// with a mesh and laws but without a case fills in the members.
-///
-/// Several runs may share the parts, at the same time too: nothing in a run changes them.
+/// A strike assembled from parts. simulate(Case) assembles it from the keys of a case; a caller
+/// with a mesh and laws but without a case sets the members. Several runs may share the parts, even
+/// at the same time: no run changes them.
 struct Problem {
   /// Dimensions, material and damping: E I, the yield stress and E h/2 of the sections, the first
   /// period, the validity of the contact law (an indentation up to the thickness); loads, start and
   /// motion at the start. Mass, ends, theory and springs are in the mesh.
   Beam beam;
-  /// Mass, velocity and gap. Where the striker hits is in the mesh, its nose in the contact law.
+  /// Mass, velocity and gap. The mesh holds the struck point, the contact law the nose.
   Striker striker;
   double gravity = 0.0;  ///< g, m/s2, along the strike, on striker and beam
   std::shared_ptr<const BeamMesh> mesh;
   std::shared_ptr<const ContactLaw> contact_law;
-  /// chi, s/m: of a contact with the force F (1 + chi lambda'), F that of a law that never yields.
+  /// chi, s/m: the contact force is F (1 + chi lambda'), with F of a law that never yields.
   double contact_damping = 0.0;
   std::optional<Fibres> section;  ///< empty: the solid rectangle
   bool may_yield = true;          ///< whether sections yield, at the yield stress of the beam
@@ -35,10 +34,10 @@ struct Problem {
   /// The end of an earlier run of the same beam, mesh and laws. Null: the beam is straight, at rest
   /// and has never yielded.
   std::shared_ptr<const RunState> start;
-  /// What happens from `start` on. Empty: the same strike goes on if the striker is the same, its
-  /// results being those of the whole strike; otherwise a new strike begins, at t = 0, on the beam
-  /// as it moves. false: a new strike begins, whatever the striker. true: the same, and the beam
-  /// has come to rest in its residual shape before. A new striker's nose lies on the dent, its
+  /// How the run continues from `start`. Empty: with the same striker the strike continues, and the
+  /// results are those of the whole strike; with another striker a new strike begins, at t = 0, on
+  /// the moving beam. false: a new strike begins with any striker. true: a new strike begins, after
+  /// the beam has come to rest in its residual shape. A new striker's nose lies on the dent; its
   /// velocity must exceed that of the struck point.
   std::optional<bool> at_rest;
 
@@ -47,8 +46,8 @@ struct Problem {
 
 struct RunParts;
 
-/// A problem and its options resolved: every setting that was left open has its value, the model is
-/// built, nothing has run. For one run.
+/// A problem and its options, resolved for one run: every open setting has its value and the model
+/// is built, but nothing has run.
 class ResolvedRun {
  public:
   explicit ResolvedRun(std::unique_ptr<RunParts> parts);
@@ -63,26 +62,24 @@ class ResolvedRun {
   std::unique_ptr<RunParts> parts_;
 };
 
-/// Throws InvalidCase for settings that do not go together, a step beyond the stability limit and
-/// parts that are missing.
+/// Throws InvalidCase for settings that contradict each other, a step beyond the stability limit
+/// and missing parts.
 ResolvedRun resolve(const Problem& problem, const Options& options);
 
 /// Throws InvalidCase if a run with these settings takes more memory than the machine has free.
 /// simulate() does so before it begins.
 void check_memory(const ResolvedSettings& settings);
 
-/// Runs what was resolved, from t = 0. Any failure is reported in the outcome,
-/// with all results up to it. `progress`, if any, can end the run; `observer`, if any, is shown
-/// every accepted step and event; `rows`, if any, takes the rows in place of the result.
-///
-/// Thread-safe: runs in several threads at once share nothing but the parts of their problems, and
-/// each gives the results, bit for bit, that it gives alone. Meshes and laws that several runs
-/// share are called from all of them, so their functions must be pure; observers and progress
-/// functions are called in the thread of their own run.
+/// Runs a resolved problem from t = 0. Any failure is reported in the outcome, with all results up
+/// to it. `progress`, if any, can end the run; `observer`, if any, is called at every accepted step
+/// and event; `rows`, if any, receives the rows in place of the result. Thread-safe: runs in
+/// several threads share only the parts of their problems, and each gives the same results, bit for
+/// bit, as alone. Shared meshes and laws are called from all these runs, so their functions must be
+/// pure; observers and progress functions are called in the thread of their own run.
 Result simulate(ResolvedRun run, const Progress& progress = {}, Observer* observer = nullptr,
                 RowSink* rows = nullptr);
 
-/// The same in one call. Throws what resolve() throws.
+/// resolve() and simulate() in one call. Throws what resolve() throws.
 Result simulate(const Problem& problem, const Options& options, const Progress& progress = {},
                 Observer* observer = nullptr, RowSink* rows = nullptr);
 

@@ -24,14 +24,13 @@ struct Reference {
   std::string description;             ///< the two runs, in words
 };
 
-/// Of the result of a reference the first `n` sub-impacts count, for a reason in words that matters
-/// where there are more: sets `sub_impacts`, and the horizon in the middle of the separation that
-/// follows.
+/// Limits a reference to its first `n` sub-impacts: sets `sub_impacts`, and the horizon in the
+/// middle of the separation that follows. `reason`, in words, is used where there are more.
 void set_horizon(Reference& reference, std::size_t n, const std::string& reason);
 
-/// Two runs by different methods, one beside the other on two cores: `exponential` and `nystrom` at
-/// rtol = 1e-12 where the beam is elastic, else `nystrom` and `erk`. The error stated for an event
-/// follows from the difference of the two (study/judgement.h).
+/// Two runs by different methods, in parallel on two cores: `exponential` and `nystrom` at rtol =
+/// 1e-12 if the beam is elastic, else `nystrom` and `erk`. The error stated for an event follows
+/// from the difference of the two (study/judgement.h).
 ///
 /// A sub-impact counts if it is certain and its stated error is at most `largest_error` (s):
 /// sub-impacts that graze amplify small differences until no computation can predict the next
@@ -55,12 +54,12 @@ struct EventErrors {
   double peak_force = 0.0;          ///< largest, relative
   double impulse = 0.0;             ///< largest, relative to the largest impulse
   double striker_velocity = 0.0;    ///< at the horizon, relative to the initial velocity
-  double beam_velocity = 0.0;       ///< its mean, likewise
+  double beam_velocity = 0.0;       ///< its mean, as for the striker
   std::optional<UnmatchedSubImpact> unmatched;  ///< the first sub-impact that does not correspond
 
   bool all_correspond() const { return !unmatched; }
-  /// One figure for charts: the largest error; where a sub-impact is lost or invented, at least the
-  /// duration of that sub-impact.
+  /// A single number for charts: the largest error; where a sub-impact is lost or invented, at
+  /// least the duration of that sub-impact.
   double overall() const {
     return unmatched && unmatched->duration > maximum ? unmatched->duration : maximum;
   }
@@ -69,7 +68,7 @@ struct EventErrors {
 /// For a run of the reference's scene up to its horizon.
 EventErrors event_errors(const Result& run, const Reference& reference);
 
-/// The same against any list of sub-impacts; velocities are left at 0.
+/// Errors against any list of sub-impacts; velocities are left at 0.
 EventErrors event_errors(const std::vector<SubImpact>& run,
                          const std::vector<SubImpact>& reference);
 
@@ -89,8 +88,8 @@ std::string_view to_string(Verdict verdict);
 /// The verdict on a run that was accepted.
 Verdict judge(const Result& run, const EventErrors& errors);
 
-/// A variant of a case, run and judged by a reference: what compare, work-precision, plan and
-/// stability list.
+/// A variant of a case, run and judged by a reference; compare, work-precision, plan and stability
+/// list such trials.
 struct Trial {
   Setting setting;
   Case input;
@@ -105,8 +104,8 @@ struct Trial {
   bool reaches(double error) const { return verdict == Verdict::right && errors.maximum <= error; }
 };
 
-/// Runs `trial.input`, whose end is the reference's horizon, and judges it. An InvalidCase is a
-/// verdict, and the result then empty.
+/// Runs `trial.input`, which ends at the reference's horizon, and judges it. An InvalidCase becomes
+/// a verdict, with an empty result.
 Result run_trial(Trial& trial, const Reference& reference, const Progress& progress = {});
 
 }  // namespace subimpact

@@ -35,7 +35,7 @@ std::optional<UnmatchedSubImpact> first_unmatched(const std::vector<MatchedPair>
                                                   const std::vector<SubImpact>& reference,
                                                   const std::vector<SubImpact>& run);
 
-/// A time beside which errors of a sub-impact must be small.
+/// A time compared with which errors of a sub-impact must be small.
 struct LengthBeside {
   enum class Kind { duration, separation_before, separation_after };
   Kind kind;
@@ -60,14 +60,14 @@ struct Counterparts {
 
 Counterparts counterparts(const std::vector<SubImpact>& base, const std::vector<SubImpact>& other);
 
-/// The sub-impact (from 0) from which on a run is in doubt if its near miss was none: the one that
-/// nearly opens, or the one after the separation that nearly closes.
+/// The sub-impact (from 0) from which on a run is uncertain if its near miss may have been an
+/// event: the one that nearly opens, or the one after the separation that nearly closes.
 std::size_t first_in_doubt(const Result& run, const NearMiss& near_miss);
 
-/// For each near miss of a run the one of another run that corresponds to it, as an index, or none:
-/// of the same kind, in the same contact or separation, each the nearest in time to the other. Only
-/// the contacts and separations up to that after the first `n_matched` sub-impacts are looked at.
-/// The list ends with the last near miss among these.
+/// For each near miss of a run the index of the corresponding near miss of another run, or none: of
+/// the same kind, in the same contact or separation, each the nearest in time to the other. Only
+/// contacts and separations up to the separation after the first `n_matched` sub-impacts are
+/// searched. The list ends with the last near miss among these.
 std::vector<std::optional<std::size_t>> match_near_misses(const Result& run, const Result& other,
                                                           std::size_t n_matched);
 

@@ -12,16 +12,16 @@ struct RefinedRun {
   std::string description;
 };
 
-/// The order at which event times of a case converge with its mesh: cells 2; Hermite elements 4,
-/// but where sections may yield 2, without hinges 1; nothing for a rigid beam.
+/// The order at which event times of a case converge with its mesh: 2 for cells; 4 for Hermite
+/// elements, or 2 if sections may yield (1 without hinges); nothing for a rigid beam.
 std::optional<int> mesh_order(const Case& input);
 
-/// The same case on a mesh with `factor` times as many cells or elements, as nearly as the mesh
-/// allows, of the same grading; nothing for a rigid beam or where too few would be left. A fixed
-/// step above the stability limit of the finer mesh is reduced to 0.9 of that limit.
+/// The case on a mesh with `factor` times as many cells or elements, as nearly as the mesh allows,
+/// with the same grading; nothing for a rigid beam or if too few would be left. A fixed step above
+/// the stability limit of the finer mesh is reduced to 0.9 of that limit.
 std::optional<RefinedRun> on_other_mesh(const Case& input, double factor);
 
-/// Its cells or elements over the whole length; 1 for a rigid beam.
+/// Number of cells or elements over the whole length; 1 for a rigid beam.
 int mesh_count(const Case& input);
 
 }  // namespace subimpact

@@ -1,6 +1,6 @@
 #pragma once
 
-/// How far a strike can be predicted of which numbers scatter.
+/// How far a strike with scattering numbers can be predicted.
 
 #include <map>
 #include <optional>
@@ -15,8 +15,8 @@ namespace subimpact {
 using Scatter = std::map<std::string, double>;
 
 /// The standard deviation of a number with these derivatives, one per key of the study: the root of
-/// the sum of (df/d ln p s_p)^2, each derivative enlarged by its error. None where a derivative by
-/// a key that scatters is not known.
+/// the sum of (df/d ln p s_p)^2, each derivative enlarged by its error. None if a derivative by a
+/// scattering key is not known.
 std::optional<double> deviation_of(const std::vector<std::optional<Derivative>>& by_key,
                                    const std::vector<std::string>& keys, const Scatter& scatter);
 
@@ -29,8 +29,8 @@ void set_predictability(Result& result, const Sensitivity& study, const Scatter&
 std::vector<std::string> scattering_keys(const Case& input);
 
 /// Makes the study that a case's scatter needs (sensitivity()) and sets the predictability of its
-/// result. Nothing without scatter that has an effect. A study that fails or is interrupted is
-/// named in the warnings of the result.
+/// result. Does nothing if no scatter has an effect. If the study fails or is interrupted, the
+/// result has a warning.
 void add_predictability(Result& result, const Case& input, SensitivityOptions options = {});
 
 }  // namespace subimpact

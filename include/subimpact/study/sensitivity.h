@@ -27,7 +27,8 @@ inline constexpr std::array event_quantities = {
 /// "striker_velocity_m_per_s".
 std::string_view to_string(EventQuantity quantity);
 
-/// The number, in the unit that to_string() names; before the sub-impact has ended its start alone.
+/// The number, in the unit that to_string() names. A sub-impact that has not ended has a start
+/// only.
 std::optional<double> value_of(const SubImpact& sub_impact, EventQuantity quantity);
 
 /// df/d ln p of a number f by a key p, and its estimated error, both in the unit of f.
@@ -42,14 +43,14 @@ struct SensitivityRow {
   double value = 0.0;          ///< of the base run
   /// One per key of the study; none where shifted runs lack the sub-impact.
   std::vector<std::optional<Derivative>> by_key;
-  /// Why the number has no derivative, or no reliable ones, in words; empty where it has.
+  /// Why the number has no derivative, or no reliable one, in words; otherwise empty.
   std::string flag;
 };
 
 /// The derivatives of the margin of one near miss of the base run.
 struct NearMissSensitivity {
   std::size_t near_miss = 0;   ///< index into Result::near_misses
-  std::size_t sub_impact = 0;  ///< from 0: the first one in doubt if the near miss was none
+  std::size_t sub_impact = 0;  ///< from 0: the first that the near miss makes uncertain
   std::vector<std::optional<Derivative>> by_key;  ///< m
 };
 
@@ -69,7 +70,7 @@ struct SensitivityOptions {
   /// Names of keys; empty: sensitivity_keys(). Each is a finite number of the case, not 0.
   std::vector<std::string> keys;
   Jobs jobs = 1;
-  /// Called after each run that ended, with their number so far and in all.
+  /// Called after each run, with the numbers of finished and of all runs.
   std::function<void(std::size_t n_done, std::size_t n_all)> finished;
   Progress progress;  ///< of every run, from several threads at once; false ends all
 };
@@ -88,13 +89,12 @@ Case sensitivity_case(const Case& input);
 /// Derivatives by the logarithms of keys, from central differences of whole runs: a base run, one
 /// with ten times its tolerance, and four runs per key, with the key times exp(+-h) for the two
 /// shifts h of sensitivity_shifts. All have mesh, method and symmetry of the base run. Of the
-/// slopes of both shifts, the one with the smaller error is stated, with three times that error
-/// (docs/theory.md, "Derivatives and predictability").
-///
-/// A sub-impact is flagged where a shifted run has it merged, split or lost, where one appears
-/// before it, where a near miss is within its change over the shifts, where the slopes to either
-/// side differ (a kink) or those over both shifts (about to merge, split or vanish), or where an
-/// error is a tenth of the largest derivative of the row.
+/// derivatives from the two shifts, the one with the smaller error is stated, with three times that
+/// error (docs/theory.md, "Derivatives and predictability"). A sub-impact is flagged if it is
+/// merged, split or lost in a shifted run, if another one appears before it, if a near miss lies
+/// within its change over the shifts, if the slopes on the two sides differ (a kink) or those of
+/// the two shifts (about to merge, split or vanish), or if an error is a tenth of the largest
+/// derivative of the row.
 ///
 /// Throws InvalidCase, also for a key that has no derivative. If the base run does not complete, no
 /// shifted run is made, and there are no keys and no rows.

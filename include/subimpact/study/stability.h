@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where methods fail, and how: measured on the beam of a case, beside the prediction of theory.
+/// Where and how methods fail, as measured on the beam of a case and as predicted by theory.
 /// Nothing is timed, so `jobs` runs go at a time (0: one for each processor).
 
 #include <functional>
@@ -32,9 +32,9 @@ struct CriticalStep {
 /// Nystroem tables by the spectral radius of a step. Throws InvalidCase for other methods.
 double stability_limit(const std::string& method);
 
-/// Narrow ranges of omega h below stability_limit() in which the solution grows nevertheless: where
-/// a step advances an oscillation by nearly half a period, the two eigenvalues of the step meet and
-/// separate again. Searched in increments of 1e-4.
+/// Narrow ranges of omega h below stability_limit() in which the solution still grows: where a step
+/// advances an oscillation by nearly half a period, the two eigenvalues of the step meet and
+/// separate again. The search has increments of 1e-4.
 struct Resonance {
   double from = 0.0, to = 0.0;  ///< omega h
   double growth = 0.0;          ///< largest, per step
@@ -60,7 +60,7 @@ struct StiffContact {
 };
 std::vector<StiffContact> stiff_contact(const Case& input, Jobs jobs = 0);
 
-/// What an implicit table leaves of an oscillation in one step.
+/// The share of an oscillation's amplitude that remains after one step of an implicit table.
 struct Damping {
   std::string method;      ///< "dirk:esdirk547"
   double angle = 0.0;      ///< omega h
@@ -88,7 +88,7 @@ struct OutcomeMap {
   std::vector<OutcomePoint> points;
 };
 
-/// Methods against fixed steps, from far below to far beyond what is stable, and against
+/// Methods against fixed steps, from far below to far beyond the stable ones, and against
 /// tolerances; backward differentiation order by order; implicit methods with steps at which high
 /// modes are damped away. A run that takes more than `run_seconds` is left out. `progress` is
 /// called with the numbers of finished and of all runs.
@@ -108,7 +108,7 @@ struct MissedPairs {
 };
 std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs = 0, const Count& progress = {});
 
-/// Layers beside the exact law that they tend to, integrated as accurately as the reference.
+/// Layers compared with the exact law, their limit, integrated as accurately as the reference.
 struct LayerPoint {
   int layers = 0;
   EventErrors errors;  ///< against the exact law

@@ -8,7 +8,7 @@
 
 namespace subimpact {
 
-/// What "erk:dop853+library" names: a method, a table of coefficients after a colon, and a
+/// The parts of "erk:dop853+library": a method, a table of coefficients after a colon, and a
 /// treatment of events (solver.events) after a plus sign. The last two may be left out.
 struct MethodName {
   std::string method;
@@ -29,7 +29,7 @@ struct Setting {
 Case with_setting(const Case& input, const Setting& setting);
 
 /// From coarse to fine. Adaptive methods: rtol from 1e-2 to 1e-12 in decades. Central differences:
-/// steps from 0.9 of critical down to 1/256 of that, each half of the one before. Throws
+/// steps from 0.9 of critical down to 1/256 of that, each half of the previous one. Throws
 /// InvalidCase for an unknown method or table, and where the method cannot run the case.
 std::vector<Setting> settings_of(const Case& input, const std::string& method);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Event times within a wanted error: mesh, method and tolerance chosen by the program.
+/// Event times within a wanted error, with mesh, method and tolerance chosen by the program.
 
 #include <functional>
 #include <string>
@@ -15,34 +15,34 @@ struct WithinOptions {
   Jobs jobs = 1;
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
-  /// Called with every run that ended, those beside the judged ones too.
+  /// Called with every run that ended, including those beside the judged ones.
   std::function<void(const Case& input, const Result& run)> finished;
-  Progress progress;  ///< of the run in hand; returning false ends all with what there is
-  /// Called before each run whose rows are kept: where they go. Those of the run before are to be
-  /// discarded. Empty: rows stay in the result.
+  Progress progress;  ///< of the current run; false ends all, with the results so far
+  /// Called before each run whose rows are kept; returns their destination. Rows of the previous
+  /// run are to be discarded. Empty: rows stay in the result.
   std::function<RowSink*()> rows;
 };
 
-/// What a run cost: evaluations of the right-hand side times unknowns of the beam, and its modes
-/// and the steps in them in the same unit.
+/// The cost of a run: evaluations of the right-hand side times unknowns of the beam, with natural
+/// modes and the steps in them counted in the same unit.
 double counted_work(const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
-/// (ResolvedSettings::contact_time), and this is the limit of the work: some three seconds on two
+/// (ResolvedSettings::contact_time), and the work is limited to this: about three seconds on two
 /// cores.
 constexpr double default_work_limit = 3e9;
 
-/// Where a beam bends elastically: elements (Hermite, or spectral where it shears) in natural
-/// modes, by the exponential method (fourth order in the mesh, next to no error in time). Where
-/// sections yield: cells by central differences, the cheapest known at any error above 1e-3 us.
-/// What the case fixes stays.
+/// If a beam bends elastically: elements (Hermite, or spectral with shear) in natural modes, by the
+/// exponential method (fourth order in the mesh, almost no error in time). If sections yield: cells
+/// by central differences, the cheapest known at any error above 1e-3 us. Settings that the case
+/// fixes are kept.
 struct ChosenModel {
   Case input;
   std::string reason;  ///< in words
 };
 ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields);
 
-/// The mesh and method that a case's first run would have, and in words how it goes on from there.
+/// Mesh and method of a case's first run, and in words how the search continues from there.
 ChosenModel first_choice(const Case& input, const OpenChoices& open);
 
 /// A case with every choice made, and its run.
@@ -51,15 +51,14 @@ struct WithinRun {
   Result result;
 };
 
-/// Runs a case on finer and finer meshes, each beside the cases that judge it, until all
+/// Runs a case on finer and finer meshes, each together with the cases that judge it, until all
 /// sub-impacts are certain, no others are possible, and all event times are within
-/// accuracy.event_times. The next mesh follows from the stated errors and the order of the mesh;
-/// from the counted work of the runs so far follows whether it is affordable. Neither depends on
-/// measured time or on the number of jobs. Runs that are not expected to be the last keep no rows.
-///
-/// Result::tolerance states whether this is met; if not, why, and which key of the case stands in
-/// the way. Result::choice gives the reason of the choice. A search that is stopped returns the
-/// last mesh that was finished. Throws InvalidCase.
+/// accuracy.event_times. The next mesh follows from the stated errors and the order of the mesh,
+/// and the counted work so far decides whether it is affordable. Neither depends on measured time
+/// or on the number of jobs. Runs that are not expected to be the last keep no rows.
+/// Result::tolerance states whether this is met and, if not, why, and which key of the case
+/// prevents it. Result::choice gives the reason for the choice. A stopped search returns the run on
+/// the last finished mesh. Throws InvalidCase.
 WithinRun simulate_within(const Case& input, const OpenChoices& open,
                           const WithinOptions& options = {});
 

@@ -15,14 +15,14 @@ namespace subimpact {
 /// The cheapest setting for a wanted error.
 struct Recommendation {
   double wanted = 0.0;         ///< s
-  std::optional<Trial> point;  ///< nothing if no setting reaches it
-  /// Where a finer setting of the same method misses the error, so that the cheapest one reaches it
-  /// by chance: the cheapest setting of any method whose finer ones all reach it too.
+  std::optional<Trial> point;  ///< nothing if no setting meets it
+  /// Set if `point` meets the error only by chance, because a finer setting of its method misses
+  /// it: the cheapest setting of any method whose finer settings all meet it too.
   std::optional<Trial> steady;
 };
 
 struct WorkPrecision {
-  std::string label;  ///< of the chart: what sets this case apart from others beside it
+  std::string label;  ///< of the chart: how this case differs from others in it
   Reference reference;
   std::vector<Trial> points;
   bool interrupted = false;
@@ -36,27 +36,27 @@ struct WorkPrecisionOptions {
   double point_seconds = 10.0;       ///< a setting that would take longer is not run
   double timing_budget = 0.6;        ///< s, of the repeats of one setting
   int most_repeats = 7;
-  /// A point that is known already, from a study that was interrupted.
+  /// A point that is already known from an interrupted study.
   std::function<std::optional<Trial>(const Setting&)> known;
   /// Called with each point as soon as it is computed.
   std::function<void(const Trial&)> finished;
   /// Called before each run, with its description.
   std::function<void(const std::string& what)> announce;
-  Progress progress;  ///< of a single run; returning false ends the study with what it has
+  Progress progress;  ///< of a single run; false ends the study with the results so far
 };
 
-/// Sweeps every method from coarse to fine against a reference of its own. Timed runs run alone,
-/// one after the other; the shortest of several repeats counts. A method's sweep ends when the next
-/// setting would take longer than `point_seconds` (that one is reported as not run), or when its
-/// errors reach those of the reference. Throws InvalidCase, for methods before anything is run.
+/// Sweeps every method from coarse to fine against a reference of its own. Timed runs are made one
+/// at a time; the shortest of several repeats counts. A method's sweep ends when the next setting
+/// would take longer than `point_seconds` (this setting is reported as not run), or when its errors
+/// fall to those of the reference. Throws InvalidCase, for methods before anything is run.
 WorkPrecision work_precision(const Case& input, const WorkPrecisionOptions& options = {});
 
 /// The cheapest setting for each of recommended_errors: all sub-impacts correspond, and no event
 /// time is off by more.
 std::vector<Recommendation> recommendations_from(const std::vector<Trial>& points);
 
-/// By how much errors grow over the scene: the median, over the points that are right, of the last
-/// event's error over that of the first. Nothing without such points.
+/// By which factor errors grow over the scene: the median, over the points that are right, of the
+/// last event's error divided by that of the first. Nothing without such points.
 std::optional<double> error_growth(const std::vector<Trial>& points);
 
 }  // namespace subimpact

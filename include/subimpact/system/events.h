@@ -18,8 +18,8 @@ enum class EventKind {
 /// The name used in transitions.csv.
 std::string_view to_string(EventKind kind);
 
-/// One located event. `value` is the indentation (m) for contact events, the curvature (1/m) for a
-/// section's; `section` is the section's index from the first end, or none.
+/// One located event. `value` is the indentation (m) for events of the contact, the curvature (1/m)
+/// for those of a section; `section` is its index from the first end, or none.
 struct Transition {
   double time = 0.0;  ///< s
   EventKind kind = EventKind::contact_begins;

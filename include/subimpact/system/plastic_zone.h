@@ -4,7 +4,7 @@ namespace subimpact {
 
 /// Neighbouring sections whose plastic curvature has one sign: a plastic hinge of some extent.
 struct PlasticZone {
-  double from, to;  ///< m, of the stretch for which the sections stand
+  double from, to;  ///< m, ends of the stretch that the sections represent
   double rotation;  ///< rad: the integral of the plastic curvature
 };
 

@@ -38,7 +38,7 @@ class Sweep:
         self.directory = directory  #: of sweep.sqlite, runs.csv and sub_impacts.csv
         self.outcomes = dict(outcomes)  #: how many cases have each outcome
         self.n_missing = len(plan) - sum(outcomes.values())  #: cases that have no row yet
-        self.notes = notes  #: what the user has to be told
+        self.notes = notes  #: messages for the user
 
     @cached_property
     def runs(self) -> Any:

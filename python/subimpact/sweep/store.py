@@ -52,7 +52,7 @@ def _checked(values: tuple[str, str, str, bytes, int]) -> Row | None:
 class Store:
     """The rows of a sweep by identity, in a directory of their own, which no other process writes
     into meanwhile. The tables of the sweep are written into `staging` and put in place, as one, by
-    `commit`; the store itself is not among the files that manifest.json seals."""
+    `commit`; the store itself is not among the files that manifest.json lists."""
 
     def __init__(self, directory: str | os.PathLike[str]) -> None:
         """Opens or makes the store. Raises StoreError if another process has it, if the file is no
@@ -70,7 +70,7 @@ class Store:
 
     @property
     def notes(self) -> list[str]:
-        """What the user has to be told: what was damaged, which files were kept."""
+        """Messages for the user: what was damaged, which files were kept."""
         return [*self._found, *self._output.notes]
 
     @property

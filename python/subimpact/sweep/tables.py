@@ -70,7 +70,7 @@ def _write_rows(
 
 def write_hdf5(directory: Path, notes: list[str]) -> Path:
     """Writes sweep.h5 beside the two tables: a group each, with one data set per column. Empty cells
-    of numbers are NaN. Needs h5py. `notes` takes what the user has to be told. Raises StoreError if
+    of numbers are NaN. Needs h5py. `notes` takes messages for the user. Raises StoreError if
     the tables are not as the sweep wrote them, and OutputError."""
     import h5py
 
@@ -116,7 +116,7 @@ def _manifest(directory: Path) -> dict[str, Any]:
     raise StoreError(f"{path}: is no list of the tables of a sweep; {_AGAIN}")
 
 
-_AGAIN = "run the sweep again, which takes what it has from its store"
+_AGAIN = "run the sweep again; it keeps the runs in its store"
 
 
 def _check_tables(directory: Path, identity: str) -> None:

@@ -150,7 +150,7 @@ bool ends_with_next_first(const ARKodeButcherTableMem& table) {
   return true;
 }
 
-// Of these entries, or of the pairs among them, the named one; the first for an empty name.
+// The named one of these entries, or of the pairs among them; the first for an empty name.
 const Entry& find(std::span<const Entry> entries, bool pair, const std::string& name,
                   const char* what) {
   for (const Entry& entry : entries) {

@@ -15,7 +15,7 @@ namespace subimpact {
 
 using ContextPointer = std::shared_ptr<std::remove_pointer_t<SUNContext>>;
 
-/// What a handle of the library points to, freed by its function.
+/// Owns the object behind a handle of the library; frees it by the library's function.
 template <auto free>
 struct FreeBy {
   void operator()(auto* object) const { free(object); }

@@ -76,7 +76,7 @@ void SolverFrame::reset(double t, const State& y) {
 }
 
 int SolverFrame::evolve(double& reached) {
-  // Of the output time only the sign relative to the present time matters.
+  // Only the sign of the output time relative to the present time matters.
   return calls_.evolve(memory(), time_ + std::max(1.0, 2.0 * time_), vector(), &reached,
                        calls_.one_step);
 }

@@ -47,7 +47,7 @@ struct LibraryCalls {
 #else
 #define SUBIMPACT_MESSAGE_HANDLER(prefix)
 #endif
-/// Those of one prefix; `family`: that of the library's constants.
+/// The calls with one prefix; `family` is that of the library's constants.
 #define SUBIMPACT_LIBRARY_CALLS(prefix, family, restart, evolve, get_nonlinear_stats)      \
   {                                                                                        \
     prefix##restart, prefix##evolve, #prefix, #restart, #evolve, family##_ONE_STEP,        \

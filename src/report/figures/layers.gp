@@ -1,4 +1,4 @@
-# Event times with layers beside those with the exact section law. Reads layers.csv.
+# Event times with layers compared with those of the exact section law. Reads layers.csv.
 table = 'layers.csv'
 stats table using (n = column('layers'), error = us*column('max_difference_s'), 0) nooutput
 # A column of the rows in which all sub-impacts correspond, or of those in which some do not.
