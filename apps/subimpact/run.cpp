@@ -239,7 +239,8 @@ void add_run(CLI::App& program, int& status) {
   command
       .add_flag("--error-bars{all}", options.error_bars,
                 "By default all errors are estimated from runs on three coarser meshes, which take "
-                "about as long as the run itself. --error-bars=off: no estimate. --error-bars: "
+                "one and a half times as long as the run itself. --error-bars=off: no estimate. "
+                "--error-bars: "
                 "from other runs for each of time, mesh and layers; takes about 4 times as long. "
                 "--error-bars=time: of the integration in time only, about twice as long")
       ->check(CLI::IsMember({"all", "time", "off"}));

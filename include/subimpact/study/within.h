@@ -28,8 +28,7 @@ struct WithinOptions {
 double counted_work(const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
-/// (ResolvedSettings::contact_time), and the work is limited to this: about three seconds on two
-/// cores.
+/// (ResolvedSettings::contact_time), and the work is limited to this: about 15 s on one core.
 constexpr double default_work_limit = 3e9;
 
 /// If a beam bends elastically: elements (Hermite, or spectral with shear) in natural modes, by the
