@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <regex>
 #include <thread>
 
 #include "fake_gnuplot.h"
@@ -11,16 +14,6 @@ void make_run(const TemporaryDirectory& directory) {
                           {"--out", "here"}));
 }
 
-/// Runs with a search path on which there is no gnuplot.
-class WithoutGnuplot {
- public:
-  WithoutGnuplot() : path_(std::getenv("PATH")) { ::setenv("PATH", "/nowhere", 1); }
-  ~WithoutGnuplot() { ::setenv("PATH", path_.c_str(), 1); }
-
- private:
-  std::string path_;
-};
-
 TEST(Plot, DrawsTheFiguresOfARunIntoAFolderOfTheirOwn) {
   const TemporaryDirectory directory;
   make_run(directory);
@@ -29,8 +22,8 @@ TEST(Plot, DrawsTheFiguresOfARunIntoAFolderOfTheirOwn) {
   for (const std::string name : {"response", "first-sub-impact", "indentation", "energies",
                                  "timeline", "bending", "shapes", "envelope"}) {
     expect_in(finished.output, name + ".svg, " + name + ".png");
-    EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures" / (name + ".svg")));
-    EXPECT_TRUE(std::filesystem::exists(directory.path / "here/figures" / (name + ".png")));
+    EXPECT_TRUE(directory.has("here/figures/" + name + ".svg")) << name;
+    EXPECT_TRUE(directory.has("here/figures/" + name + ".png")) << name;
   }
 }
 
@@ -110,7 +103,7 @@ TEST(Plot, DrawsWithScriptsOfAUserAndHandsOutThoseThatAreMissing) {
 TEST(Plot, WithoutGnuplotEndsWithStatus2AndSaysHowToGetIt) {
   const TemporaryDirectory directory;
   make_run(directory);
-  const WithoutGnuplot hidden;
+  const Environment without_gnuplot("PATH", "/nowhere");
   expect_in(run_in(directory, {"plot", "here"}, 2).errors, "gnuplot is not installed",
             "apt-get install gnuplot-nox");
 }
@@ -122,9 +115,8 @@ TEST(Plot, DrawsNoScriptThatHoldsTheDataOfAnotherRun) {
   std::filesystem::create_directory(directory.path / "mine");
   std::filesystem::copy_file(directory.path / "drawn" / "timeline.gp",
                              directory.path / "mine" / "timeline.gp");
-  const Finished finished =
-      run_in(directory, {"plot", "here", "--scripts", "mine", "--out", "there"}, 2);
-  expect_in(finished.errors, "mine/timeline.gp: is the finished script of a drawn figure");
+  expect_in(run_in(directory, {"plot", "here", "--scripts", "mine", "--out", "there"}, 2).errors,
+            "mine/timeline.gp", "finished script");
   EXPECT_FALSE(directory.has("there"));
   EXPECT_FALSE(directory.has("mine/style.gp"));
 }
@@ -179,6 +171,84 @@ TEST(Plot, TakesGnuplotWithItWhenASignalEndsIt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   EXPECT_FALSE(is_running(number));
+}
+
+// A run in the folder "here", and its force as a recorder would have it: 0.25 us apart, 1 % too
+// large, its clock 1234.5 us behind; in kN and us.
+void make_run_and_measurement(const TemporaryDirectory& directory) {
+  run_in(directory, paper("run", {"time.end=4e-4", "model.segments=51"}, {"--out", "here"}));
+  std::ifstream history(directory.path / "here/history.csv");
+  std::string line, text = "time [us];force [kN]\r\n";
+  std::getline(history, line);
+  ASSERT_TRUE(line.starts_with("time_s,force_N,")) << line;
+  double t0 = 0.0, f0 = 0.0, t1 = 0.0, f1 = 0.0, t = -5e-5;
+  while (std::getline(history, line)) {
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf", &t1, &f1), 2);
+    for (; t <= t1; t += 2.5e-7) {
+      const double force = t < 0.0 || t1 == t0 ? 0.0 : std::lerp(f0, f1, (t - t0) / (t1 - t0));
+      text += fmt::format("{:.4f};{:.6f}\r\n", 1e6 * t + 1234.5, 1.01e-3 * force);
+    }
+    t0 = t1;
+    f0 = f1;
+  }
+  directory.write("force.csv", text);
+}
+
+TEST(ReportWithMeasurement, StatesShiftAndDifferencesAndShowsBothForces) {
+  const TemporaryDirectory directory;
+  make_run_and_measurement(directory);
+  const Finished finished = run_in(directory, {"report", "here", "--measured", "force.csv"});
+  expect_not_in(finished.errors, "warning");
+  const auto number = [&](const std::string& pattern) {
+    std::smatch found;
+    return std::regex_search(finished.output, found, std::regex(pattern)) ? std::stod(found[1])
+                                                                          : std::nan("");
+  };
+  EXPECT_NEAR(number("shift +([0-9.]+)"), 1234.5, 0.025);
+  EXPECT_NEAR(number("largest force .* measured: ([-+0-9.]+) %"), -0.99, 0.06);
+  EXPECT_NEAR(number("impulse .* measured: ([-+0-9.]+) %"), -0.99, 0.06);
+  EXPECT_TRUE(directory.has("here/figures/measured.svg"));
+  const std::string page = directory.read("here/report.html");
+  expect_in(page, "Beside the measurement", "figure-measured", "\"overlay\":[{");
+  run_in(directory, {"report", "here"});
+  expect_not_in(directory.read("here/report.html"), "Beside the measurement");
+}
+
+TEST(ReportWithMeasurement, TakesAGivenShiftAndCutoff) {
+  const TemporaryDirectory directory;
+  make_run_and_measurement(directory);
+  expect_in(run_in(directory, {"report", "here", "--measured", "force.csv", "--shift", "1.2345ms",
+                               "--low-pass", "20kHz"})
+                .output,
+            "1234.5 us", "20 kHz", "as given");
+}
+
+TEST(ReportWithMeasurement, RefusesWithWhatIsAllowed) {
+  const TemporaryDirectory directory;
+  make_run_and_measurement(directory);
+  const auto refusal = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"report", "here"});
+    const Finished finished = run_in(directory, options, 2);
+    return finished.errors;
+  };
+  directory.write("without.csv", "time,force\n0,1\n");
+  expect_in(refusal({"--measured", "none.csv"}), "none.csv: cannot be read (No such");
+  expect_in(refusal({"--measured", "without.csv"}), "unit of time (s, ms, us, ns)");
+  expect_in(refusal({"--shift", "1us"}), "--measured");
+  expect_in(refusal({"--measured", "force.csv", "--shift", "3"}), "a time with its unit");
+  expect_in(refusal({"--measured", "force.csv", "--shift", "10 s"}), "no time in common");
+  expect_in(refusal({"--measured", "force.csv", "--low-pass", "-2kHz"}), "a frequency above 0");
+  expect_in(refusal({"here", "--measured", "force.csv", "--out", "both"}), "one run");
+}
+
+TEST(ReportWithMeasurement, WarnsOfAForceThatIsNotThatOfTheCase) {
+  const TemporaryDirectory directory;
+  make_run_and_measurement(directory);
+  std::string hum = "time_ms,force_N\n";
+  for (int i = 0; i < 1000; ++i) hum += fmt::format("{},{}\n", 1e-3 * i, std::sin(0.1 * i));
+  directory.write("hum.csv", hum);
+  expect_in(run_in(directory, {"report", "here", "--measured", "hum.csv"}).errors, "warning",
+            "correlation");
 }
 
 }  // namespace

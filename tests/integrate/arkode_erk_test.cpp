@@ -9,12 +9,10 @@ namespace {
 
 State run(SpringChain& chain, const std::string& table, VectorOperations operations,
           std::optional<double> fixed_step, long* steps = nullptr) {
-  IntegratorOptions options;
-  options.table = table;
-  options.relative_tolerance = 1e-7;
-  options.fixed_step = fixed_step;
-  options.vector_operations = operations;
-  const auto integrator = make_arkode_erk(chain, options);
+  const auto integrator = make_arkode_erk(chain, {.relative_tolerance = 1e-7,
+                                                  .fixed_step = fixed_step,
+                                                  .table = table,
+                                                  .vector_operations = operations});
   integrator->restart(0.0, chain.initial());
   while (integrator->time() < 20.0) integrator->step();
   State end;
@@ -48,9 +46,7 @@ TEST(VectorOperations, OfTheProjectChooseTheStepsOfTheLibrary) {
 TEST(ArkodeErk, FailsByTheNamesOfTheLibrarysFunctionAndFlag) {
   AnyMotion motion(1, [](std::span<const double>, std::span<double> a) { a[0] = std::nan(""); });
   for (const CoefficientTable& table : explicit_tables()) {
-    IntegratorOptions options;
-    options.table = table.name;
-    const auto integrator = make_arkode_erk(motion, options);
+    const auto integrator = make_arkode_erk(motion, {.table = table.name});
     integrator->restart(0.0, {1.0, 2.0});
     try {
       integrator->step();
@@ -70,9 +66,7 @@ TEST(ArkodeErk, FailsByNameWhereTheMotionBecomesNoNumber) {
     a[0] = q[0] < 1e4 ? 6.0 * q[0] * q[0] : std::nan("");
   });
   for (const CoefficientTable& table : explicit_tables()) {
-    IntegratorOptions options;
-    options.table = table.name;
-    const auto integrator = make_arkode_erk(motion, options);
+    const auto integrator = make_arkode_erk(motion, {.table = table.name});
     integrator->restart(0.0, {1.0, 2.0});
     try {
       for (int i = 0; i < 200000; ++i) integrator->step();
@@ -91,9 +85,7 @@ TEST(ArkodeErk, FailsByNameWhereTheMotionBecomesNoNumber) {
 TEST(ArkodeErk, GoesOnFarFromZeroWhereRoundingIsAboveTheTolerance) {
   AnyMotion motion(1, [](std::span<const double>, std::span<double> a) { a[0] = 0.5; });
   for (const CoefficientTable& table : explicit_tables()) {
-    IntegratorOptions options;
-    options.table = table.name;
-    const auto integrator = make_arkode_erk(motion, options);
+    const auto integrator = make_arkode_erk(motion, {.table = table.name});
     integrator->restart(0.0, {1e12, 3.0});
     while (integrator->time() < 2.0) ASSERT_NO_THROW(integrator->step()) << table.name;
     State end;
@@ -122,13 +114,9 @@ TEST(ExplicitTables, AreFoundByNameAndNoOtherNameIs) {
   SpringChain chain(2);
   for (const CoefficientTable& table : explicit_tables()) {
     EXPECT_GT(table.order, table.embedded_order) << table.name;
-    IntegratorOptions options;
-    options.table = table.name;
-    EXPECT_NO_THROW(make_arkode_erk(chain, options));
+    EXPECT_NO_THROW(make_arkode_erk(chain, {.table = table.name}));
   }
-  IntegratorOptions unknown;
-  unknown.table = "no-such-table";
-  EXPECT_THROW(make_arkode_erk(chain, unknown), std::invalid_argument);
+  EXPECT_THROW(make_arkode_erk(chain, {.table = "no-such-table"}), std::invalid_argument);
 }
 
 TEST(ExplicitTables, TheFirstIsTakenWhereNoneIsNamed) {

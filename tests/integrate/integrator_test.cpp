@@ -212,11 +212,8 @@ TEST_P(EveryAdaptiveMethod, AnAccelerationThatIsNoLongerANumberEndsInAFailureTha
     }
     FAIL() << "went on to t = " << integrator->time();
   } catch (const IntegrationFailure& failure) {
-    const std::string message = failure.what();
-    EXPECT_FALSE(failure.function.empty());
-    EXPECT_FALSE(failure.flag.empty());
-    EXPECT_NE(message.find(failure.function), std::string::npos) << message;
-    EXPECT_NE(message.find(failure.flag), std::string::npos) << message;
+    EXPECT_FALSE(failure.function.empty() || failure.flag.empty());
+    expect_in(failure.what(), failure.function, failure.flag);
     EXPECT_GT(failure.time, 0.0);
     EXPECT_TRUE(std::isfinite(failure.time));
     // The state is still that of the last accepted step.
@@ -237,6 +234,34 @@ TEST_P(EveryAdaptiveMethod, StepsThatShrinkForEverEndInAFailure) {
   EXPECT_THROW(for (int i = 0; i < 20000; ++i) integrator->step(), IntegrationFailure);
   EXPECT_LT(integrator->state()[0], 1.0);
   EXPECT_TRUE(std::isfinite(integrator->state()[1]));
+}
+
+// Every method has the order its table claims, at whole steps and inside them, no less and no more.
+
+class Order : public testing::TestWithParam<ExplicitMethod> {
+ protected:
+  void expect_order(KnownMotion& motion, double end, double place) {
+    const double order = GetParam().order, band = GetParam().order_band;
+    expect_finest_order(order - band, order + band, {6, 39, 2e-4, 5e-12},
+                        [&](int n) { return error_in_steps(GetParam(), motion, end, n, place); });
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, Order, testing::ValuesIn(all_methods()), NamedAsPrinted{});
+
+TEST_P(Order, OnAChainOfSpringsIsTheMethodsOwn) {
+  SpringChain chain(5);
+  expect_order(chain, 20.0, 1.0);
+}
+
+TEST_P(Order, OnACurvedMotionIsTheMethodsOwn) {
+  CurvedMotion motion;
+  expect_order(motion, 4.0, 1.0);
+}
+
+TEST_P(Order, InsideStepsIsTheMethodsOwn) {
+  CurvedMotion motion;
+  expect_order(motion, 4.0, 0.37);
 }
 
 }  // namespace

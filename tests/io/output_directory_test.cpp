@@ -15,15 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> names_in(const fs::path& directory) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(directory)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 using Names = std::vector<std::string>;
 
 // A directory's files of a kind, made by one writer.
@@ -41,12 +32,7 @@ void commit(OutputDirectory& files, const std::string& name, const std::string& 
 
 std::string refusal_of(const fs::path& directory, const std::string& kind,
                        const std::string& identity = "1") {
-  try {
-    const OutputDirectory files(directory, kind, identity);
-  } catch (const OutputError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+  return answer_of<OutputError>([&] { OutputDirectory(directory, kind, identity); });
 }
 
 TEST(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
@@ -60,15 +46,11 @@ TEST(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
   }
 }
 
-TEST(AnOutputDirectory, IsRefusedWhereAFileHasItsName) {
+TEST(AnOutputDirectory, ThatCannotBeMadeIsRefusedWithTheCause) {
   const TemporaryDirectory directory;
   directory.write("file", "x");
   expect_in(refusal_of(directory.path / "file", "run"), "a file has that name");
   expect_in(refusal_of(directory.path / "file" / "below", "run"), "cannot be made");
-}
-
-TEST(AnOutputDirectory, ThatCannotBeMadeIsRefusedWithTheCause) {
-  const TemporaryDirectory directory;
   expect_in(refusal_of(directory.path / std::string(300, 'x'), "run"), "File name too long");
   fs::create_symlink("nothing", directory.path / "link");
   expect_in(refusal_of(directory.path / "link", "run"), "a symbolic link to nothing");

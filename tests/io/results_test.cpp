@@ -252,13 +252,9 @@ TEST(SummaryJson, KeepsAllDigits) {
 TEST(WriteResults, LeavesItsFilesAndNothingElse) {
   const TemporaryDirectory directory;
   write_results(directory.path / "new" / "deep", sample_case(), sample_result());
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(directory.path / "new" / "deep")) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"case.toml", "events.csv", "history.csv",
-                                             "manifest.json", "summary.json", "transitions.csv"}));
+  EXPECT_EQ(names_in(directory.path / "new" / "deep"),
+            (std::vector<std::string>{"case.toml", "events.csv", "history.csv", "manifest.json",
+                                      "summary.json", "transitions.csv"}));
 }
 
 TEST(WriteResults, ReplacesAnEarlierRun) {

@@ -76,12 +76,9 @@ TEST(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
   fs::create_directory(directory.path / "home");
   std::ofstream(directory.path / "home" / ".gnuplot")
       << "set logscale y\nset datafile separator ';'\nprint 'hello'\n";
-  const std::string home = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
-  ::setenv("HOME", (directory.path / "home").c_str(), 1);
-  for (const char* name : {"GNUTERM", "GNUPLOT_LIB", "GDFONTPATH"}) ::setenv(name, "dumb", 1);
+  const Environment home("HOME", directory.path / "home"), terminal("GNUTERM", "dumb"),
+      library("GNUPLOT_LIB", "dumb"), fonts("GDFONTPATH", "dumb");
   draw_figure(directory.path, "figure", script);
-  for (const char* name : {"GNUTERM", "GNUPLOT_LIB", "GDFONTPATH"}) ::unsetenv(name);
-  ::setenv("HOME", home.c_str(), 1);
   const std::string svg = read_file(directory.path / "figure.svg");
   expect_in(svg, "obeyed: 0");
   EXPECT_EQ(svg, read_file(directory.path / "plain.svg"));

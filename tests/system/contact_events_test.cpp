@@ -13,15 +13,12 @@ namespace {
 constexpr double unit = 1.56337e-5;  // yield indentation
 
 TEST(EventFunctions, RatesAreThoseOfTheirValuesAlongTheFlow) {
-  const struct {
-    EventKind kind;
-    ContactBranch branch;
-  } functions[] = {{EventKind::contact_begins, ContactBranch::separated},
-                   {EventKind::contact_ends, ContactBranch::elastic},
-                   {EventKind::contact_yields, ContactBranch::elastic},
-                   {EventKind::contact_unloads, ContactBranch::plastic}};
   for (const Model& model : models()) {
-    for (const auto& [kind, branch] : functions) {
+    for (const auto& [kind, branch] :
+         {std::pair(EventKind::contact_begins, ContactBranch::separated),
+          std::pair(EventKind::contact_ends, ContactBranch::elastic),
+          std::pair(EventKind::contact_yields, ContactBranch::elastic),
+          std::pair(EventKind::contact_unloads, ContactBranch::plastic)}) {
       for (const double sense : {1.0, -1.0}) {
         StruckBeam beam = make_beam(model);
         enter(beam, branch, 2.0 * unit);
