@@ -56,9 +56,10 @@ TEST(ContinuedRun, ThatWasToldToEndGoesOn) {
 TEST(ContinuedRun, RefusesWhatDoesNotGoTogether) {
   const TemporaryDirectory here;
   run_in(here, run_to("0.3 ms", "first", {"--error-bars=off"}));
-  const auto errors_of = [&](std::vector<std::string> more, const char* end = "1 ms") {
-    more.insert(more.end(), {"--continue", "first"});
-    return run_in(here, run_to(end, "next", more), 2).errors;
+  const auto errors_of = [&](const Words& more, const char* end = "1 ms") {
+    Words words = run_to(end, "next", {"--continue", "first"});
+    words.insert(words.end(), more.begin(), more.end());
+    return run_in(here, words, 2).errors;
   };
   expect_in(errors_of({"--set", "beam.width=0.02"}), "beam.width = 0.02, not 0.0163");
   expect_in(errors_of({"--set", "model.segments=301"}), "model.segments = 301, not 201");

@@ -1,8 +1,8 @@
 // The exponential method's parts against quadrature and closed forms.
 
 #include "integrate/exponential.h"
-#include "order_table.h"
 #include "integrate/oscillator_step.h"
+#include "order_table.h"
 #include "testing.h"
 
 namespace subimpact {

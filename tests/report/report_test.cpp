@@ -527,7 +527,7 @@ TEST(Explanation, FollowsTheCase) {
 }
 
 TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {
-  Case input = paper_case(501, Method::central_difference);
+  Case input = paper_case_with({"solver.method=central-difference"});
   input.solver.step = 1e-7;
   ResolvedRun run = resolve(input);
   const auto cost = estimate_cost(run);
