@@ -2,6 +2,7 @@
 
 #include "order_table.h"
 #include "paper_case.h"
+#include "settings.h"
 
 namespace subimpact {
 namespace {
@@ -229,31 +230,25 @@ TEST(HermiteElements, AgreeWithFineCellsOnEverySupport) {
 }
 
 TEST(HermiteElements, AreRefusedWhereTheyDoNotFit) {
-  Case input = hermite_case(SectionKind::elastic, 1e-4, 40);
-  EXPECT_EQ(refusal_of(input).key, "");
-  input.model.strike_refinement = 4.0;
-  EXPECT_EQ(refusal_of(input).key, "");
-  input.model.mesh = MeshKind::cells;
-  EXPECT_EQ(refusal_of(input).key, "model.strike_refinement");
-  input.model.mesh = MeshKind::hermite;
-  input.model.refined_length = 0.0;
-  EXPECT_EQ(refusal_of(input).key, "model.refined_length");
-  input.model.refined_length = 0.05;
-  input.model.strike_refinement = 0.5;
-  EXPECT_EQ(refusal_of(input).key, "model.strike_refinement");
-  input.model.strike_refinement = 1.0;
-  input.model.elements = 81;
-  EXPECT_EQ(refusal_of(input).key, "model.elements");
-  input.model.symmetry = SymmetryUse::off;
-  EXPECT_EQ(refusal_of(input).key, "");
-  input.scene.striker.position = 0.003;
-  EXPECT_EQ(refusal_of(input).key, "striker.position");
-  input.scene.striker.position = 0.0;
-  EXPECT_EQ(refusal_of(input).key, "");
-  input.scene.beam.ends[0] = pinned;
-  EXPECT_EQ(refusal_of(input).key, "striker.position");
-  input.model.sections_per_element = 5;
-  EXPECT_EQ(refusal_of(input).key, "model.sections_per_element");
+  const Case fits = hermite_case(SectionKind::elastic, 1e-4, 40);
+  const Settings graded{{"model.strike_refinement", 4.0}};
+  const Settings odd{{"model.elements", 81}}, whole = odd + Settings{{"model.symmetry", "off"}};
+  const Settings at_the_end = whole + Settings{{"striker.position", 0.0}};
+  const std::pair<const char*, Settings> cases[] = {
+      {"", {}},
+      {"", graded},
+      {"model.strike_refinement", graded + Settings{{"model.mesh", "cells"}}},
+      {"model.refined_length", graded + Settings{{"model.refined_length", 0.0}}},
+      {"model.strike_refinement", {{"model.strike_refinement", 0.5}}},
+      {"model.elements", odd},
+      {"", whole},
+      {"striker.position", whole + Settings{{"striker.position", 0.003}}},
+      {"", at_the_end},
+      {"striker.position", at_the_end + Settings{{"beam.ends", Names{"pinned", "free"}}}},
+      {"model.sections_per_element", {{"model.sections_per_element", 5}}}};
+  for (const auto& [key, settings] : cases) {
+    EXPECT_EQ(refusal_of(changed(fits, settings)).key, key);
+  }
 }
 
 }  // namespace

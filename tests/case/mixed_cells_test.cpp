@@ -2,6 +2,7 @@
 
 #include "paper_case.h"
 #include "same_results.h"
+#include "settings.h"
 
 namespace subimpact {
 namespace {
@@ -154,29 +155,25 @@ TEST(MixedCells, LeaveThePermanentSetOfCells) {
 }
 
 TEST(MixedCells, RefuseWhatTheyDoNotCarryAndSayWhatToDo) {
-  const std::pair<const char*, std::function<void(Case&)>> spoilt[] = {
-      {"beam.theory", [](Case& c) { c.scene.beam.theory = BeamTheory::euler_bernoulli; }},
-      {"model.mesh",
-       [](Case& c) {
-         c.scene.beam.theory = BeamTheory::timoshenko;
-         c.scene.beam.poisson = 0.3;
-       }},
-      {"model.section", [](Case& c) { c.model.section = SectionKind::layers; }},
-      {"model.section", [](Case& c) { c.parts.section = Fibres::layered(10); }},
-      {"beam.damping.mass", [](Case& c) { c.scene.beam.damping.mass = 1.0; }},
-      {"solver.method", [](Case& c) { c.solver.method = Method::nystrom; }},
-      {"solver.step", [](Case& c) { c.solver.step = 1e-7; }},
-      {"solver.events", [](Case& c) { c.solver.events = EventHandling::located; }},
-      {"time.stop", [](Case& c) { c.stop = StopRule::no_more_contact; }},
-      {"striker.position", [](Case& c) { c.scene.striker.position = 0.01; }},
-      {"model.segments", [](Case& c) { c.model.segments = 201; }},
-      {"model.segments", [](Case& c) {
-         c.scene.contact.kind = ContactKind::linear;
-         c.scene.contact.stiffness = 1e12;
-       }}};
-  for (const auto& [key, spoil] : spoilt) {
-    Case input = mixed_case(SectionKind::exact, 200);
-    spoil(input);
+  Case layered = mixed_case(SectionKind::exact, 200);
+  layered.parts.section = Fibres::layered(10);
+  std::vector<std::pair<const char*, Case>> refused{{"model.section", layered}};
+  const std::pair<const char*, Settings> spoilt[] = {
+      {"beam.theory", {{"beam.theory", "euler-bernoulli"}}},
+      {"model.mesh", {{"beam.theory", "timoshenko"}, {"beam.poisson", 0.3}}},
+      {"model.section", {{"model.section", "layers"}}},
+      {"beam.damping.mass", {{"beam.damping.mass", 1.0}}},
+      {"solver.method", {{"solver.method", "nystrom"}}},
+      {"solver.step", {{"solver.step", 1e-7}}},
+      {"solver.events", {{"solver.events", "located"}}},
+      {"time.stop", {{"time.stop", "no-more-contact"}}},
+      {"striker.position", {{"striker.position", 0.01}}},
+      {"model.segments", {{"model.segments", 201}}},
+      {"model.segments", {{"contact.law", "linear"}, {"contact.stiffness", 1e12}}}};
+  for (const auto& [key, settings] : spoilt) {
+    refused.emplace_back(key, changed(mixed_case(SectionKind::exact, 200), settings));
+  }
+  for (const auto& [key, input] : refused) {
     const Refusal refusal = refusal_of(input);
     EXPECT_EQ(refusal.key, key) << refusal.message;
     const bool has_remedy = std::ranges::any_of(

@@ -5,7 +5,6 @@
 #include "paper_run.h"
 #include "same_results.h"
 #include "subimpact/case/simulate.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

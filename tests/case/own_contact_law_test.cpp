@@ -7,7 +7,6 @@
 #include "same_results.h"
 #include "simulate/run_parts.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {

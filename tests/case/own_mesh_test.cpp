@@ -8,7 +8,6 @@
 #include "runs.h"
 #include "same_results.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {

@@ -3,7 +3,6 @@
 #include "paper_run.h"
 #include "runs.h"
 #include "same_results.h"
-#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {

@@ -3,7 +3,6 @@
 #include "rigid_case.h"
 #include "runs.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
 #include "subimpact/simulate/options.h"
 
 namespace subimpact {

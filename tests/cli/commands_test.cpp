@@ -6,10 +6,12 @@
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/study/run_as_asked.h"
-#include "temporary_directory.h"
 
 namespace subimpact {
 namespace {
+
+using ARun = InADirectory;
+using SensitivityCommand = InADirectory;
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
   for (const std::string command : {"run", "work-precision", "stability", "plan", "sensitivity",
@@ -130,8 +132,7 @@ Words of_paper(const std::string& command, Words more) {
   return paper(command, {"model.section=elastic", "time.end=3e-4"}, more);
 }
 
-TEST(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
-  const TemporaryDirectory directory;
+TEST_F(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
   expect_in(run_in(directory, of_paper("sensitivity",
                                        {"--by", "striker.velocity,beam.thickness", "--out", "s"}))
                 .output,
@@ -141,14 +142,12 @@ TEST(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
             "\nstart_s,1,0,0,0,0,0,\nend_s,1,0.00021894");
 }
 
-TEST(SensitivityCommand, WritesNothingWithoutADirectory) {
-  const TemporaryDirectory directory;
+TEST_F(SensitivityCommand, WritesNothingWithoutADirectory) {
   run_in(directory, of_paper("sensitivity", {"--by", "striker.mass"}));
   EXPECT_TRUE(std::filesystem::is_empty(directory.path));
 }
 
-TEST(SensitivityCommand, ChoosesTheMeshOfACaseThatLeavesItOpen) {
-  const TemporaryDirectory directory;
+TEST_F(SensitivityCommand, ChoosesTheMeshOfACaseThatLeavesItOpen) {
   directory.write("open.toml", open_case);
   expect_in(run_in(directory, {"sensitivity", "open.toml", "--set", "beam.yield_stress=inf", "--by",
                                "striker.velocity"})
@@ -156,7 +155,7 @@ TEST(SensitivityCommand, ChoosesTheMeshOfACaseThatLeavesItOpen) {
             "Hermite");
 }
 
-TEST(SensitivityCommand, RefusesKeysByName) {
+TEST_F(SensitivityCommand, RefusesKeysByName) {
   for (const auto& [key, words] :
        {std::pair("striker.velocty", "\"striker.velocity\"?"),
         std::pair("striker.gap", "logarithm"), std::pair("striker.position", "symmetric")}) {
@@ -164,8 +163,7 @@ TEST(SensitivityCommand, RefusesKeysByName) {
   }
 }
 
-TEST(Run, OfACaseWithScatterStatesHowFarItCanBePredicted) {
-  const TemporaryDirectory directory;
+TEST_F(ARun, OfACaseWithScatterStatesHowFarItCanBePredicted) {
   expect_in(
       run_in(directory, of_paper("run", {"--set", "scatter.striker.velocity=0.01", "--out", "r"}))
           .output,
@@ -177,8 +175,7 @@ TEST(Run, OfACaseWithScatterStatesHowFarItCanBePredicted) {
   expect_in(events.substr(0, events.find('\n')), ",start_scatter_s,end_scatter_s,");
 }
 
-TEST(Run, OfACaseWithoutScatterDoesNotSayHowFarItCanBePredicted) {
-  const TemporaryDirectory directory;
+TEST_F(ARun, OfACaseWithoutScatterDoesNotSayHowFarItCanBePredicted) {
   expect_not_in(run_program(of_paper("run", {"--out", "r"}), directory.path).output, "predictable");
   const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
   EXPECT_TRUE(summary.at("predictability").is_null());

@@ -1,4 +1,3 @@
-
 #include "fake_gnuplot.h"
 #include "process.h"
 #include "reseal.h"
@@ -7,6 +6,9 @@ namespace subimpact {
 namespace {
 
 namespace fs = std::filesystem;
+
+using ACaseFile = InADirectory;
+using AFigureThatFails = InADirectory;
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -38,8 +40,7 @@ TEST(Figures, AreDrawnInDirectoriesOfAnyName) {
   }
 }
 
-TEST(AFigureThatFails, IsNamedAndTheOthersAreDrawn) {
-  const TemporaryDirectory directory;
+TEST_F(AFigureThatFails, IsNamedAndTheOthersAreDrawn) {
   make_run(directory, "run");
   const FakeGnuplot gnuplot(directory.path / "bin", failing_on("energies"));
   for (const char* command : {"plot", "report"}) {
@@ -53,8 +54,7 @@ TEST(AFigureThatFails, IsNamedAndTheOthersAreDrawn) {
   expect_in(directory.read("run/report.html"), "energies.svg: gnuplot failed");
 }
 
-TEST(AFigureThatFails, LeavesTheOtherPartsOfAStudy) {
-  const TemporaryDirectory directory;
+TEST_F(AFigureThatFails, LeavesTheOtherPartsOfAStudy) {
   const FakeGnuplot gnuplot(directory.path / "bin", failing_on("critical_steps"));
   expect_in(run_in(directory,
                    paper("stability", {"model.segments=21"},
@@ -121,13 +121,12 @@ TEST(ATitle, IsOnlyTextOnThePageOfARun) {
 
 // --- sizes --------------------------------------------------------------------------------------
 
-TEST(ACaseFile, NestedTooDeeplyOrTooLargeIsRefused) {
+TEST_F(ACaseFile, NestedTooDeeplyOrTooLargeIsRefused) {
   std::string key = "a";
   for (int i = 0; i < 40000; ++i) key += ".a";
   const std::string many(100000, '[');
   std::string tables;
   for (int i = 0; i < 50000; ++i) tables += "{a=";
-  const TemporaryDirectory directory;
   for (const std::string& text : {key + " = 1\n", "\n[" + key + "]\n", "a = " + many,
                                   "a = " + tables, "\"\"\"\n\\\"\"\"\"\"." + key + "=1"}) {
     directory.write("deep.toml", text);
@@ -147,10 +146,9 @@ TEST(ASetting, NestedTooDeeplyIsRefused) {
             "beam.length is ");
 }
 
-TEST(ACaseFile, OfManyUnknownKeysIsRefusedAtOnce) {
+TEST_F(ACaseFile, OfManyUnknownKeysIsRefusedAtOnce) {
   std::string text;
   for (int i = 0; i < 100000; ++i) text.append("k").append(std::to_string(i)).append("=1\n");
-  const TemporaryDirectory directory;
   directory.write("keys.toml", text + std::string(100000, 'k') + "=1\n");
   const Finished finished = run_in(directory, {"explain", "keys.toml"}, 2);
   EXPECT_LT(finished.errors.size(), 100000u);

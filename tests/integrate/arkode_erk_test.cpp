@@ -2,7 +2,6 @@
 
 #include "integrate/sundials.h"
 #include "test_systems.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "banded_examples.h"
 #include "test_systems.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

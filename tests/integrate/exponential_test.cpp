@@ -3,7 +3,6 @@
 #include "integrate/exponential.h"
 #include "integrate/oscillator_step.h"
 #include "order_table.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

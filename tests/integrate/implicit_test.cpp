@@ -2,9 +2,7 @@
 
 #include "integrate/sundials.h"
 #include "mechanical_systems.h"
-#include "order_table.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

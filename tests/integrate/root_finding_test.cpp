@@ -3,7 +3,6 @@
 #include "integrate/sundials.h"
 #include "mechanical_systems.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -3,7 +3,6 @@
 #include "print.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

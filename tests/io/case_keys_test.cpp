@@ -6,8 +6,6 @@
 #include "refusal.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/case_file.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

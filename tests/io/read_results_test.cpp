@@ -5,17 +5,14 @@
 #include "io/row_thinning.h"
 #include "io/run_tables.h"
 #include "print.h"
-#include "read_file.h"
 #include "reseal.h"
 #include "sample_result.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/case_file.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "subimpact/simulate/error.h"
 #include "temporary_directory.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

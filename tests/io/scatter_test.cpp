@@ -13,7 +13,6 @@
 #include "subimpact/io/report.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

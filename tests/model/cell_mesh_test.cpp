@@ -1,11 +1,7 @@
 #include "model/cell_mesh.h"
-#include "dense.h"
 #include "mesh_contract.h"
 #include "numerics/mass_solver.h"
-#include "paper_scene.h"
-#include "random_walk.h"
 #include "subimpact/model/matrix_mesh.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -137,16 +133,10 @@ TEST(CellsAboutPoints, HaveTheEquationsOfABeamLongerByASpacing) {
     EXPECT_NEAR(points.mass().quadratic_form(w), cells.mass().quadratic_form(w), 1e-14);
     EXPECT_EQ(points.struck_point()(w), cells.struck_point()(w));
     EXPECT_NEAR(points.highest_frequency(1.0), cells.highest_frequency(1.0), 1e-9);
-    const std::vector<double> kappa = curvatures_of(points, w), expected = curvatures_of(cells, w);
-    for (std::size_t i = 0; i < kappa.size(); ++i) {
-      EXPECT_NEAR(kappa[i], expected[i], 1e-12 * std::abs(expected[i]));
-      EXPECT_NEAR(points.section_weights()[i], cells.section_weights()[i], 1e-16);
-    }
-    const std::vector<double> forces = bending_forces_of(points, expected);
-    const std::vector<double> expected_forces = bending_forces_of(cells, expected);
-    for (std::size_t i = 0; i < w.size(); ++i) {
-      EXPECT_NEAR(forces[i], expected_forces[i], 1e-12 * std::abs(expected_forces[i]));
-    }
+    const std::vector<double> kappa = curvatures_of(cells, w);
+    expect_near(curvatures_of(points, w), kappa, 0.0, 1e-12);
+    expect_near(points.section_weights(), cells.section_weights(), 1e-16);
+    expect_near(bending_forces_of(points, kappa), bending_forces_of(cells, kappa), 0.0, 1e-12);
   }
 }
 
@@ -234,12 +224,12 @@ TEST(CellMesh, OnSupportsKeepsTheShapesTheyAreMadeFor) {
   const CellMesh on_pins(beam, 0.5, n, Extent::whole);
   std::vector<double> w(on_pins.n_unknowns());
   const double wave = 3.0 * M_PI / beam.length;
+  std::vector<double> expected(w.size());
   for (std::size_t i = 0; i < w.size(); ++i) {
     w[i] = std::sin(wave * (static_cast<double>(i) + 0.5) * dx);
+    expected[i] = -4.0 * std::pow(std::sin(0.5 * wave * dx) / dx, 2) * w[i];
   }
-  const std::vector<double> curvatures = curvatures_of(on_pins, w);
-  const double factor = -4.0 * std::pow(std::sin(0.5 * wave * dx) / dx, 2);
-  for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(curvatures[i], factor * w[i], 1e-9);
+  expect_near(curvatures_of(on_pins, w), expected, 1e-9);
 
   beam.ends = {clamped, free_end};
   const CellMesh cantilever(beam, 0.5, n, Extent::whole);
@@ -311,22 +301,12 @@ TEST(AMeshOfTheMatricesOfCells, IsThatMesh) {
   const auto mesh = mesh_of(matrices_of(cells));
   EXPECT_EQ(mesh->struck_section(), cells.struck_section());
   EXPECT_NEAR(mesh->beam_mass(), cells.beam_mass(), 1e-12);
-  const std::size_t n = cells.n_unknowns(), n_sections = cells.n_sections();
-  std::vector<double> w(n), kappa(n_sections), same(n_sections), forces(n), same_forces(n);
-  for (std::size_t i = 0; i < n; ++i) w[i] = std::sin(0.7 * static_cast<double>(i * i));
-  cells.curvatures(w, kappa);
-  mesh->curvatures(w, same);
-  cells.bending_forces(kappa, forces);
-  mesh->bending_forces(kappa, same_forces);
-  for (std::size_t i = 0; i < n_sections; ++i) {
-    EXPECT_NEAR(same[i], kappa[i], 1e-9 * std::abs(kappa[i]) + 1e-6);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    EXPECT_NEAR(same_forces[i], forces[i], 1e-9 * std::abs(forces[i]) + 1.0);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    EXPECT_NEAR(mesh->momentum_functional()[i], cells.momentum_functional()[i], 1e-12);
-  }
+  std::vector<double> w(cells.n_unknowns());
+  for (std::size_t i = 0; i < w.size(); ++i) w[i] = std::sin(0.7 * static_cast<double>(i * i));
+  const std::vector<double> kappa = curvatures_of(cells, w);
+  expect_near(curvatures_of(*mesh, w), kappa, 1e-6, 1e-9);
+  expect_near(bending_forces_of(*mesh, kappa), bending_forces_of(cells, kappa), 1.0, 1e-9);
+  expect_near(mesh->momentum_functional(), cells.momentum_functional(), 1e-12);
 }
 
 TEST(AMeshOfMatrices, BoundsItsHighestFrequencyClosely) {

@@ -277,10 +277,9 @@ TEST(ContactLaw, BreaksNoRuleWhetherItYieldsOrNot) {
 
 TEST(ContactLaw, RefusesWhatIsNoContactLaw) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(PowerContact(0.0, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(PowerContact(-1.0, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(PowerContact(infinity, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(PowerContact(nan, 1.5, 1.0), std::invalid_argument);
+  for (const double stiffness : {0.0, -1.0, infinity, nan}) {
+    EXPECT_THROW(PowerContact(stiffness, 1.5, 1.0), std::invalid_argument) << stiffness;
+  }
   EXPECT_THROW(PowerContact(1.0, 0.9, 1.0), std::invalid_argument);
   EXPECT_THROW(PowerContact(1.0, nan, 1.0), std::invalid_argument);
   EXPECT_THROW(PowerContact(1.0, 1.5, 0.0), std::invalid_argument);

@@ -17,10 +17,8 @@ constexpr Ends pinned_free{pinned, free_end};
 void expect_wave_numbers(double slenderness, const std::vector<double>& expected,
                          const Ends& ends = free_ends) {
   const std::vector<double> found = flexural_wave_numbers(slenderness, ends, expected.size());
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    EXPECT_NEAR(found[i], expected[i], last_digit) << "r = " << slenderness << ", mode " << i + 1;
-  }
+  SCOPED_TRACE(slenderness);
+  expect_near(found, expected, last_digit);
 }
 
 TEST(FreeFreeBeam, HasTheWaveNumbersOfEulerAndBernoulli) {
@@ -74,9 +72,8 @@ TEST(SupportedBeam, HasTheWaveNumbersOfEulerAndBernoulli) {
 
 TEST(SupportedBeam, DoesNotDependOnTheSideItIsLookedAtFrom) {
   for (const Ends& ends : {clamped_pinned, clamped_free, pinned_free}) {
-    const std::vector<double> here = flexural_wave_numbers(0.03, ends, 8);
-    const std::vector<double> there = flexural_wave_numbers(0.03, {ends[1], ends[0]}, 8);
-    for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], last_digit);
+    expect_near(flexural_wave_numbers(0.03, ends, 8),
+                flexural_wave_numbers(0.03, {ends[1], ends[0]}, 8), last_digit);
   }
 }
 

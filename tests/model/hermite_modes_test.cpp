@@ -2,10 +2,7 @@
 
 #include "mesh_contract.h"
 #include "model/hermite_mesh.h"
-#include "model/modes.h"
-#include "paper_scene.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

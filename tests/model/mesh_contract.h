@@ -4,8 +4,6 @@
 #include "model/modes.h"
 #include "order_table.h"
 #include "paper_scene.h"
-#include "random_walk.h"
-#include "subimpact/model/beam_mesh.h"
 
 namespace subimpact {
 

@@ -1,7 +1,6 @@
 // Natural frequencies of cells (out of dense eigenvalues) and of Hermite elements, against the
 // bounds of the meshes and the continuum.
 
-#include "dense.h"
 #include "mesh_contract.h"
 #include "model/cell_mesh.h"
 #include "model/hermite_mesh.h"

@@ -3,10 +3,7 @@
 #include "mesh_contract.h"
 #include "model/mixed_mesh.h"
 #include "model/mixed_sections.h"
-#include "model/modes.h"
-#include "paper_scene.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

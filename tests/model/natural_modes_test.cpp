@@ -3,10 +3,7 @@
 #include "mesh_contract.h"
 #include "model/cell_mesh.h"
 #include "model/modal_mesh.h"
-#include "model/modes.h"
-#include "paper_scene.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -35,10 +32,8 @@ TEST_P(ModesOfCells, InClosedFormHaveTheDenseDecompositionsFrequencies) {
   const CellMesh chain = mesh();
   const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
   const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
-  ASSERT_EQ(closed.size(), chain.n_unknowns());
-  for (std::size_t k = 0; k < closed.size(); ++k) {
-    EXPECT_NEAR(closed.frequencies[k], dense.frequencies[k], 1e-12 * dense.frequencies[k]) << k;
-  }
+  EXPECT_EQ(closed.size(), chain.n_unknowns());
+  expect_near(closed.frequencies, dense.frequencies, 0.0, 1e-12);
 }
 
 TEST_P(ModesOfCells, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
@@ -73,26 +68,25 @@ class ModalCoordinates : public testing::Test {
     }
     return q;
   }();
+  std::vector<double> z_ = [this] {
+    std::vector<double> z(q_.size());
+    modal_.to_modal(q_, z);
+    return z;
+  }();
 };
 
 TEST_F(ModalCoordinates, AndBackIsTheSameField) {
-  std::vector<double> z(q_.size()), back(q_.size());
-  modal_.to_modal(q_, z);
-  modal_.to_physical(z, back);
-  for (std::size_t i = 0; i < q_.size(); ++i) EXPECT_NEAR(back[i], q_[i], 1e-15);
+  std::vector<double> back(q_.size());
+  modal_.to_physical(z_, back);
+  expect_near(back, q_, 1e-15);
 }
 
 TEST_F(ModalCoordinates, KeepEnergiesCurvaturesAndFunctionals) {
-  std::vector<double> z(q_.size());
-  modal_.to_modal(q_, z);
   const double kinetic = physical_.mass().quadratic_form(q_);
-  EXPECT_NEAR(modal_.mass().quadratic_form(z), kinetic, 1e-12 * kinetic);
-  EXPECT_NEAR(modal_.struck_point()(z), physical_.struck_point()(q_), 1e-15);
-  EXPECT_NEAR(modal_.first_end()(z), physical_.first_end()(q_), 1e-15);
-  std::vector<double> here(modal_.n_sections()), there(modal_.n_sections());
-  modal_.curvatures(z, here);
-  physical_.curvatures(q_, there);
-  for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], 1e-10);
+  EXPECT_NEAR(modal_.mass().quadratic_form(z_), kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(modal_.struck_point()(z_), physical_.struck_point()(q_), 1e-15);
+  EXPECT_NEAR(modal_.first_end()(z_), physical_.first_end()(q_), 1e-15);
+  expect_near(curvatures_of(modal_, z_), curvatures_of(physical_, q_), 1e-10);
 }
 
 TEST_F(ModalCoordinates, HaveTheBeamsRootMeanSquare) {
@@ -107,12 +101,10 @@ TEST_F(ModalCoordinates, HaveTheBeamsRootMeanSquare) {
 }
 
 TEST_F(ModalCoordinates, GiveTheCurvatureOfEachSectionAlone) {
-  std::vector<double> z(q_.size());
-  modal_.to_modal(q_, z);
   const std::vector<double> all = curvatures_of(physical_, q_);
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_NEAR(physical_.curvature(i, q_), all[i], 1e-13) << i;
-    EXPECT_NEAR(modal_.curvature(i, z), all[i], 1e-10) << i;
+    EXPECT_NEAR(modal_.curvature(i, z_), all[i], 1e-10) << i;
   }
 }
 
@@ -125,15 +117,12 @@ TEST_F(ModalCoordinates, HaveThemselvesAsModes) {
 }
 
 TEST_F(ModalCoordinates, MakeTheElasticForceDiagonal) {
-  std::vector<double> z(q_.size());
-  modal_.to_modal(q_, z);
-  std::vector<double> moments = curvatures_of(modal_, z);
+  std::vector<double> moments = curvatures_of(modal_, z_);
   for (double& m : moments) m *= beam_.bending_stiffness();
-  std::vector<double> force(q_.size());
-  modal_.bending_forces(moments, force);
-  for (std::size_t k = 0; k < z.size(); ++k) {
+  const std::vector<double> force = bending_forces_of(modal_, moments);
+  for (std::size_t k = 0; k < z_.size(); ++k) {
     const double w = modal_.frequencies()[k];
-    EXPECT_NEAR(force[k], -modal_.mass().at(k, k) * w * w * z[k], 1e-9 * largest_of(force)) << k;
+    EXPECT_NEAR(force[k], -modal_.mass().at(k, k) * w * w * z_[k], 1e-9 * largest_of(force)) << k;
   }
 }
 

@@ -3,8 +3,6 @@
 #include "mesh_contract.h"
 #include "model/cell_mesh.h"
 #include "numerics/mass_solver.h"
-#include "paper_scene.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

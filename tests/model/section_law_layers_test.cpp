@@ -1,14 +1,11 @@
 // The section law's closed forms against stacks of layers, fibre by fibre.
 
-#include <random>
-
 #include "layered_section.h"
 #include "model/moment_law.h"
 #include "model/section_law.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

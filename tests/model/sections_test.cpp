@@ -7,7 +7,6 @@
 #include "paper_scene.h"
 #include "print.h"
 #include "random_walk.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -15,6 +15,9 @@
 namespace subimpact {
 namespace {
 
+using Timeline = InADirectory;
+using Figures = InADirectory;
+
 Case short_case(const std::vector<std::string>& settings = {}) {
   return paper_case_with({"time.end=3e-4", "model.segments=51"}, settings);
 }
@@ -161,7 +164,7 @@ TEST(ThinForPanel, ThinsALineByWhatThePanelShowsAndNotByWhatLiesOutside) {
   }
 }
 
-TEST(Figures, DrawElasticContactAlongItsLaw) {
+TEST_F(Figures, DrawElasticContactAlongItsLaw) {
   const double K = 1e10;
   const Case input = short_case(
       {"contact.law=hertz", "contact.stiffness=1e10", "model.section=elastic", "time.end=2e-3"});
@@ -179,14 +182,14 @@ TEST(Figures, DrawElasticContactAlongItsLaw) {
   }
 }
 
-TEST(Figures, ShowTheBendingOfEverySectionAskedFor) {
+TEST_F(Figures, ShowTheBendingOfEverySectionAskedFor) {
   const Case input = short_case({"output.sections=0.5,0.45,0.4,0.3,0.2,0.1,0.05"});
   const std::string script = bending_figure(input, simulate(input)).text();
   EXPECT_EQ(rows_in(script, "$sections").size(), 1u + 7u);  // below the heading
   EXPECT_TRUE(figures_left_out(input, simulate(input)).empty());
 }
 
-TEST(Figures, SayWhichSectionsTheyHaveNoRoomFor) {
+TEST_F(Figures, SayWhichSectionsTheyHaveNoRoomFor) {
   std::string sections = "output.sections=0.5";
   for (int i = 1; i < 30; ++i) sections += ",0.25";
   const Case input = short_case({sections});
@@ -197,8 +200,7 @@ TEST(Figures, SayWhichSectionsTheyHaveNoRoomFor) {
   expect_in(left_out[0], "bending: sections 25 to 30 of output.sections (0.25, 0.25");
 }
 
-TEST(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
-  const TemporaryDirectory directory;
+TEST_F(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
   const Case input = short_case({"output.sections=0.5"});
   Result result = simulate(input);
   result.outcome.kind = OutcomeKind::inaccurate;
@@ -210,7 +212,7 @@ TEST(Figures, OfARunThatDidNotCompleteSaySoAboveTheirPanels) {
   }
 }
 
-TEST(Figures, SetUncertainSubImpactsApartAndSayHowManyThereAre) {
+TEST_F(Figures, SetUncertainSubImpactsApartAndSayHowManyThereAre) {
   const Case input = short_case();
   Result among_certain_ones = sample_result_with_errors(1);
   among_certain_ones.sub_impacts[2].certain = true;
@@ -231,14 +233,12 @@ TEST(Figures, SetUncertainSubImpactsApartAndSayHowManyThereAre) {
     EXPECT_EQ(certain_in(timeline_figure(input, result).text()), certain) << words;
     expect_in(response, fmt::format("n_uncertain = {}.0", std::ranges::count(certain, 0)));
   }
-  const TemporaryDirectory directory;
   draw_figure(directory.path, "response",
               response_figure(input, sample_result_with_errors(1)).text());
   expect_in(directory.read("response.svg"), "not certain");
 }
 
-TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
-  const TemporaryDirectory directory;
+TEST_F(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
   const Case input = short_case();
   Result result = sample_result_with_errors(3);
   const std::string without = timeline_figure(input, result).text();
@@ -256,7 +256,7 @@ TEST(Timeline, HasBarsOfErrorAndScatterAndMarksTheHorizonOfPrediction) {
   expect_not_in(directory.read("plain.svg"), "error of the start");
 }
 
-TEST(Figures, OfARunWithoutErrorBarsSetNoSubImpactApart) {
+TEST_F(Figures, OfARunWithoutErrorBarsSetNoSubImpactApart) {
   const Case input = short_case();
   for (const FigureScript& figure : figure_scripts(input, sample_result())) {
     expect_not_in(figure.text(), "are not certain\"");
@@ -276,8 +276,7 @@ TEST(SpacingOfTics, IsRoundAndCutsTheExtentIntoAboutAsManyParts) {
   expect_in(directory.read("tics.svg"), "[1 0.05 50 1 1]");
 }
 
-TEST(Figures, AreDrawnAgainFromTheirScriptsAlone) {
-  const TemporaryDirectory directory;
+TEST_F(Figures, AreDrawnAgainFromTheirScriptsAlone) {
   const Case input = short_case({"output.sections=0.5"});
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
   const TemporaryDirectory other;
@@ -287,8 +286,7 @@ TEST(Figures, AreDrawnAgainFromTheirScriptsAlone) {
   }
 }
 
-TEST(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
-  const TemporaryDirectory directory;
+TEST_F(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
   const Case input = short_case({"output.sections=0.5,0.4,0.3"});
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
   EXPECT_EQ(figures.drawn.size(), 8u);
@@ -306,8 +304,7 @@ TEST(Figures, OfARunAreEightEachAsSvgAndPngAndScript) {
   expect_in(directory.read("energies.svg"), "sub-zones");
 }
 
-TEST(Figures, AreDrawnWithAUsersScripts) {
-  const TemporaryDirectory directory;
+TEST_F(Figures, AreDrawnWithAUsersScripts) {
   const std::filesystem::path mine = directory.path / "my scripts";
   EXPECT_EQ(write_figure_scripts(mine).size(), 11u);
   std::ofstream(mine / "style.gp", std::ios::app) << "set linetype 1 lc rgb '#123456'\n";
@@ -392,8 +389,7 @@ TEST(DrawnFigures, ThatCannotBePutInPlaceAreReportedEach) {
   EXPECT_EQ(figures.failed.size(), 3u);  // the last is of the manifest alone
 }
 
-TEST(Timeline, HasTwoLabelledTicksAtLeastOnItsLogarithmicAxes) {
-  const TemporaryDirectory directory;
+TEST_F(Timeline, HasTwoLabelledTicksAtLeastOnItsLogarithmicAxes) {
   const Case input = short_case({"time.end=1e-4"});  // one sub-impact
   draw_figure(directory.path, "timeline", timeline_figure(input, simulate(input)).text());
   const std::string svg = directory.read("timeline.svg");
@@ -404,8 +400,7 @@ TEST(Timeline, HasTwoLabelledTicksAtLeastOnItsLogarithmicAxes) {
   EXPECT_GE(decades, 4u);  // of two panels
 }
 
-TEST(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {
-  const TemporaryDirectory directory;
+TEST_F(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {
   const Case input = short_case({"output.interval=0"});
   const DrawnFigures figures = draw_figures(directory.path, input, simulate(input));
   ASSERT_EQ(figures.drawn.size(), 1u);
@@ -416,7 +411,7 @@ TEST(Figures, ThatLackDataAreLeftOutAndTheReasonIsGiven) {
   expect_in(figures.left_out[2], "output.shapes above 0");
 }
 
-TEST(Figures, AreDrawnForElasticRigidAndOpenRunsToo) {
+TEST_F(Figures, AreDrawnForElasticRigidAndOpenRunsToo) {
   const std::vector<std::vector<std::string>> runs = {
       {"beam.yield_stress=inf", "output.sections=0.5"},
       {"model.mesh=rigid", "output.sections=0.5"},

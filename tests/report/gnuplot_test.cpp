@@ -14,8 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
-  const TemporaryDirectory directory;
+using AFigureGnuplotCannotDraw = InADirectory;
+using AFigure = InADirectory;
+
+TEST_F(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
   const fs::path place = directory.path / "it's a place";  // which a shell would trip over
   fs::create_directory(place);
   draw_figure(place, "parabola",
@@ -33,8 +35,7 @@ TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
   EXPECT_EQ(big_endian(20), 600);
 }
 
-TEST(AFigureGnuplotCannotDraw, IsReportedWithWhatGnuplotSaid) {
-  const TemporaryDirectory directory;
+TEST_F(AFigureGnuplotCannotDraw, IsReportedWithWhatGnuplotSaid) {
   expect_in(message_of<OutputError>(
                 [&] { draw_figure(directory.path, "nonsense", "plot of nothing at all\n"); }),
             "nonsense.svg", "line 1");
@@ -67,8 +68,7 @@ TEST(AFigureThatTakesTooLong, IsGivenUpWithTheCauseAndWhatDrawsItIsEnded) {
   }
 }
 
-TEST(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
-  const TemporaryDirectory directory;
+TEST_F(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
   const std::string script =
       "set title 'obeyed: '.system('env | grep -cE \"^(GNUTERM|GNUPLOT_|GDFONTPATH)\"')\n"
       "plot [1:10] x\n";
@@ -97,8 +97,7 @@ TEST(AFigureThatCannotBeWritten, LeavesNoneOfItsFiles) {
   EXPECT_TRUE(fs::is_empty(place));
 }
 
-TEST(AFigureGnuplotCannotDraw, IsReportedWithTheLastTwelveLinesGnuplotSaid) {
-  const TemporaryDirectory directory;
+TEST_F(AFigureGnuplotCannotDraw, IsReportedWithTheLastTwelveLinesGnuplotSaid) {
   const auto said = [&](const std::string& script) {
     const FakeGnuplot gnuplot(directory.path / "bin", script);
     return failure(directory.path, "plot x\n", most_drawing_time);

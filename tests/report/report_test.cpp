@@ -440,12 +440,6 @@ TEST(AFailedCheck, IsPlacedInTimeBySummaryFailureMessageAndTable) {
   EXPECT_TRUE(sub_impact_table(sample_result()).starts_with("  "));
 }
 
-TEST(Warnings, AreShownInTheSummary) {
-  Result result = sample_result();
-  result.warnings = {"beam.length is 711.2 m"};
-  expect_in(summary_of(paper_case(), result), "warning             beam.length is 711.2 m\n");
-}
-
 TEST(Wish, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
   const std::pair<ToleranceOutcome, std::string> all[] = {
       {{1e-7, true, 0.3e-7, 8e-3, "", ""}, "within 0.1 us: met to the end (0.03 us reached)"},

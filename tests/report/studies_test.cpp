@@ -5,10 +5,11 @@
 #include "subimpact/io/results.h"
 #include "subimpact/report/studies.h"
 #include "temporary_directory.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
+
+using ALogOfPoints = InADirectory;
 
 Trial point(const std::string& method, double rtol, double error, double seconds,
             Verdict verdict = Verdict::right) {
@@ -38,8 +39,7 @@ std::vector<WorkPrecision> studies() {
   return {study, study};
 }
 
-TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
-  const TemporaryDirectory directory;
+TEST_F(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
   const std::vector<WorkPrecision> all = studies();
   {
     OutputDirectory files(directory.path, "work-precision", "a-b");
@@ -64,24 +64,21 @@ TEST(ALogOfPoints, GivesBackWhatAnInterruptedStudyLeft) {
   EXPECT_FALSE(log.known("a", {"nystrom", true, 1e-3}).has_value());
 }
 
-TEST(ALogOfPoints, IsNotMixedWithThatOfAnotherCase) {
-  const TemporaryDirectory directory;
+TEST_F(ALogOfPoints, IsNotMixedWithThatOfAnotherCase) {
   OutputDirectory files(directory.path, "work-precision");
   PointLog(files, {"a"}).append("a", "elastic", studies().front().points.front());
   EXPECT_THROW(PointLog(files, {"b"}), OutputError);
   EXPECT_EQ(PointLog(files, {"a"}).n_known(), 1u);
 }
 
-TEST(ALogOfPoints, ThatWasChangedIsRefused) {
-  const TemporaryDirectory directory;
+TEST_F(ALogOfPoints, ThatWasChangedIsRefused) {
   OutputDirectory files(directory.path, "work-precision");
   PointLog(files, {"a"}).append("a", "elastic", studies().front().points.front());
   std::ofstream(directory.path / "work_precision.csv", std::ios::app) << "a,elastic,erk,rt";
   EXPECT_THROW(PointLog(files, {"a"}), ResultsError);
 }
 
-TEST(ALogOfPoints, HasSettingsThatWereNotRunTriedAgain) {
-  const TemporaryDirectory directory;
+TEST_F(ALogOfPoints, HasSettingsThatWereNotRunTriedAgain) {
   OutputDirectory files(directory.path, "work-precision");
   PointLog(files, {"a"}).append("a", "elastic", point("erk", 1e-9, 0.0, 0.0, Verdict::not_run));
   EXPECT_EQ(PointLog(files, {"a"}).n_known(), 0u);

@@ -3,7 +3,6 @@
 #include "lumped.h"
 #include "order_table.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

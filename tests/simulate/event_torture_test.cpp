@@ -4,7 +4,6 @@
 
 #include "lumped.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

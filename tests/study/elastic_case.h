@@ -1,7 +1,6 @@
 #pragma once
 
 #include "paper_run.h"
-#include "subimpact/case/case.h"
 
 namespace subimpact {
 

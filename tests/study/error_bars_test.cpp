@@ -5,9 +5,7 @@
 #include "paper_run.h"
 #include "study/mesh_resolution.h"
 #include "subimpact/study/judgement.h"
-#include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

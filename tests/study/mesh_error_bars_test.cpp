@@ -6,10 +6,8 @@
 #include "study/mesh_resolution.h"
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement.h"
-#include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"
 #include "subimpact/study/within.h"
-#include "testing.h"
 #include "yielding_limit.h"
 
 namespace subimpact {

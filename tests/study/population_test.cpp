@@ -119,16 +119,10 @@ TEST(Population, RefusesWhatIsNoPlanByItsKey) {
   }
 }
 
-Case small_strike(double end_time) {
-  Case input = elastic_case(end_time, 101, Method::exponential);
-  return input;
-}
+Case small_strike(double end_time) { return elastic_case(end_time, 101, Method::exponential); }
 
 Sensitivity study_of(const Case& input) {
-  SensitivityOptions options;
-  options.keys = {"striker.velocity", "beam.thickness"};
-  options.jobs = 2;
-  return sensitivity(input, options);
+  return sensitivity(input, {{"striker.velocity", "beam.thickness"}, 2, {}, {}});
 }
 
 Result predicted(const Sensitivity& study, const Scatter& scatter) {

@@ -4,6 +4,7 @@
 #include "paper_run.h"
 #include "print.h"
 #include "runs.h"
+#include "settings.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
@@ -11,7 +12,7 @@ namespace {
 
 struct RestingBeam {
   const char* name;
-  std::function<void(Case&)> set;
+  Settings settings = {};
 };
 void PrintTo(const RestingBeam& beam, std::ostream* out) { *out << beam.name; }
 
@@ -37,48 +38,26 @@ std::vector<ShapeRow> shape_at_rest(Case input, const Result& before) {
 class RestingBeams : public testing::TestWithParam<RestingBeam> {};
 
 const RestingBeam free_of_moments[] = {
-    {"exact_sections", [](Case&) {}},
-    {"layers", [](Case& c) { c.model.section = SectionKind::layers; }},
-    {"pinned",
-     [](Case& c) {
-       c.scene.beam.ends = Ends{pinned, pinned};
-     }},
-    {"cantilever",
-     [](Case& c) {
-       c.scene.beam.ends = {clamped, free_end};
-       c.scene.striker.position = 0.8;
-     }},
-    {"fine_cells", [](Case& c) { c.model.segments = 2001; }},
+    {"exact_sections"},
+    {"layers", {{"model.section", "layers"}}},
+    {"pinned", {{"beam.ends", Names{"pinned", "pinned"}}}},
+    {"cantilever", {{"beam.ends", Names{"clamped", "free"}}, {"striker.position", 0.8}}},
+    {"fine_cells", {{"model.segments", 2001}}},
     {"hermite_elements",
-     [](Case& c) {
-       c.model.mesh = MeshKind::hermite;
-       c.model.elements = 60;
-       c.solver.method = Method::erk;
-     }},
-    {"with_shear",
-     [](Case& c) {
-       c.scene.beam.theory = BeamTheory::timoshenko;
-       c.scene.beam.poisson = 0.33;
-     }},
-    {"mixed_cells",
-     [](Case& c) {
-       c.model.mesh = MeshKind::mixed;
-       c.model.segments = 400;
-     }},
+     {{"model.mesh", "hermite"}, {"model.elements", 60}, {"solver.method", "erk"}}},
+    {"with_shear", {{"beam.theory", "timoshenko"}, {"beam.poisson", 0.33}}},
+    {"mixed_cells", {{"model.mesh", "mixed"}, {"model.segments", 400}}},
     {"mixed_cells_pinned",
-     [](Case& c) {
-       c.model.mesh = MeshKind::mixed;
-       c.model.segments = 400;
-       c.scene.striker.position = 0.3;
-       c.scene.beam.ends = {pinned, pinned};
-     }},
+     {{"model.mesh", "mixed"},
+      {"model.segments", 400},
+      {"striker.position", 0.3},
+      {"beam.ends", Names{"pinned", "pinned"}}}},
 };
 
 INSTANTIATE_TEST_SUITE_P(, RestingBeams, testing::ValuesIn(free_of_moments), NamedAsPrinted{});
 
 TEST_P(RestingBeams, HaveNoMomentsAndTheirPermanentSetWhereSupportsAllowIt) {
-  Case input = paper_strike(4e-4);
-  GetParam().set(input);
+  const Case input = changed(paper_strike(4e-4), GetParam().settings);
   const Result first = simulate(input);
   ASSERT_GT(first.n_yielded_sections, 0U);
   const std::vector<ShapeRow> shape = shape_at_rest(input, first);
@@ -205,26 +184,16 @@ TEST(RepeatedStrikes, OnAMovingBeamMeetItWhereItIs) {
 }
 
 TEST(RepeatedStrikes, RefuseWhatTheBeamCannotTake) {
-  const auto key_of = [](const Case& refused) {
-    return refusal_of([&] { simulate(refused); }).key;
-  };
   Case input = paper_strike(4e-4);
   input.parts.start = simulate(input).end_state;
-  EXPECT_EQ(key_of(input), "time.end");
-  Case other = input;
-  other.at_rest = true;
-  other.model.segments = 201;
-  EXPECT_EQ(key_of(other), "model.mesh");
-  other = input;
-  other.at_rest = true;
-  other.model.section = SectionKind::layers;
-  EXPECT_EQ(key_of(other), "model.section");
-  other = input;
-  other.at_rest = false;
-  other.scene.striker.velocity = 0.1;
-  EXPECT_EQ(key_of(other), "striker.velocity");
-  other.scene.striker.gap = 1e-3;
-  EXPECT_EQ(key_of(other), "striker.gap");
+  expect_refused(input, "time.end");
+  input.at_rest = true;
+  expect_refused(changed(input, {{"model.segments", 201}}), "model.mesh");
+  expect_refused(changed(input, {{"model.section", "layers"}}), "model.section");
+  input.at_rest = false;
+  const Case slow = changed(input, {{"striker.velocity", 0.1}});
+  EXPECT_EQ(refusal_of([&] { simulate(slow); }).key, "striker.velocity");
+  expect_refused(changed(slow, {{"striker.gap", 1e-3}}), "striker.gap");
 }
 
 }  // namespace

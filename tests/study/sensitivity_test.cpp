@@ -23,11 +23,8 @@ double derivative(const Sensitivity& study, EventQuantity quantity, const std::s
   return std::nan("");
 }
 
-Sensitivity study_of(const Case& input, std::vector<std::string> keys = {}) {
-  SensitivityOptions options;
-  options.keys = std::move(keys);
-  options.jobs = 2;
-  return sensitivity(input, options);
+Sensitivity study_of(const Case& input, std::vector<std::string> keys = {}, Jobs jobs = 2) {
+  return sensitivity(input, {std::move(keys), jobs, {}, {}});
 }
 
 std::string flag_of(const Sensitivity& study, std::size_t sub_impact) {
@@ -239,11 +236,8 @@ TEST(Sensitivity, OfACaseByCentralDifferencesIsMadeByNystromAndRemarksThat) {
 
 TEST(Sensitivity, DoesNotDependOnTheNumberOfJobs) {
   Case input = elastic_case(5e-4, 51, Method::exponential);
-  SensitivityOptions options;
-  options.keys = {"striker.mass"};
-  const Sensitivity one = sensitivity(input, options);
-  options.jobs = 3;
-  const Sensitivity three = sensitivity(input, options);
+  const Sensitivity one = study_of(input, {"striker.mass"}, 1);
+  const Sensitivity three = study_of(input, {"striker.mass"}, 3);
   ASSERT_EQ(one.rows.size(), three.rows.size());
   for (std::size_t i = 0; i < one.rows.size(); ++i) {
     EXPECT_EQ(one.rows[i].by_key[0]->value, three.rows[i].by_key[0]->value);

@@ -5,7 +5,6 @@
 #include "paper_run.h"
 #include "print.h"
 #include "study/free_vibration.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

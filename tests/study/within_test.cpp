@@ -8,10 +8,16 @@
 #include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"
 #include "subimpact/study/plan.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
+
+Case wishing(double wish, SectionKind section, double end_time, int segments = 501,
+             Method method = Method::erk) {
+  Case input = paper_run(section, end_time, segments, method);
+  input.accuracy.event_times = wish;
+  return input;
+}
 
 GivenKeys given(std::set<std::string> keys) { return {std::move(keys), {}}; }
 
@@ -63,9 +69,7 @@ TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
   finest.solver.rtol = 1e-11;
   const Result limit = simulate(finest);
   for (const double wish : {1e-5, 1e-6, 1e-7}) {
-    Case input = paper_run(SectionKind::elastic, 2e-3);
-    input.accuracy.event_times = wish;
-    const WithinRun run = simulate_within(input, {});
+    const WithinRun run = simulate_within(wishing(wish, SectionKind::elastic, 2e-3), {});
     ASSERT_TRUE(run.result.tolerance);
     EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
     EXPECT_LE(run.result.tolerance->reached, wish);
@@ -78,9 +82,7 @@ TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
 // The first separation of the paper's beam that yields: 201.476 +- 0.006 us, from 1600 graded
 // elements and 8007 cells.
 TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
-  Case input = paper_run(SectionKind::exact, 0.3e-3);
-  input.accuracy.event_times = 0.3e-6;
-  const WithinRun run = simulate_within(input, {});
+  const WithinRun run = simulate_within(wishing(0.3e-6, SectionKind::exact, 0.3e-3), {});
   EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
   ASSERT_GE(run.result.sub_impacts.size(), 3u);
   EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 0.3e-6);
@@ -88,26 +90,22 @@ TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
 }
 
 TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
-  Case input = paper_run(SectionKind::elastic, 1e-3);
-  input.accuracy.event_times = 1e-6;
+  const Case input = wishing(1e-6, SectionKind::elastic, 1e-3);
+  const WithinRun alone = simulate_within(input, {});
   WithinOptions two;
   two.jobs = 2;
-  const WithinRun alone = simulate_within(input, {});
   const WithinRun beside = simulate_within(input, {}, two);
   EXPECT_EQ(mesh_count(alone.input), mesh_count(beside.input));
   expect_same(alone.result, beside.result);
 }
 
 TEST(AWish, LeavesACaseThatRepeatsTheRunBitForBit) {
-  Case input = paper_run(SectionKind::exact, 0.25e-3);
-  input.accuracy.event_times = 2e-6;
-  const WithinRun run = simulate_within(input, {});
+  const WithinRun run = simulate_within(wishing(2e-6, SectionKind::exact, 0.25e-3), {});
   expect_same(simulate(run.input), run.result);
 }
 
 TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
-  Case input = paper_run(SectionKind::elastic, 1e-3, 101);
-  input.accuracy.event_times = 1e-9;
+  const Case input = wishing(1e-9, SectionKind::elastic, 1e-3, 101);
   OpenChoices open;
   open.mesh = open.size = false;
   const WithinRun run = simulate_within(input, open);
@@ -119,9 +117,8 @@ TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
 }
 
 TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
-  Case input = paper_run(SectionKind::elastic, 0.4e-3, 501, Method::central_difference);
+  Case input = wishing(1e-9, SectionKind::elastic, 0.4e-3, 501, Method::central_difference);
   input.solver.step = 1e-7;
-  input.accuracy.event_times = 1e-9;
   OpenChoices open;
   open.method = open.tolerance = false;
   const WithinRun run = simulate_within(input, open);
@@ -131,8 +128,7 @@ TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
 }
 
 TEST(AWish, StopsAtTheLimitOfWork) {
-  Case input = paper_run(SectionKind::exact, 1e-3);
-  input.accuracy.event_times = 1e-10;
+  Case input = wishing(1e-10, SectionKind::exact, 1e-3);
   input.accuracy.work_limit = 3e6;
   double work = 0.0;
   WithinOptions options;
@@ -144,10 +140,9 @@ TEST(AWish, StopsAtTheLimitOfWork) {
 }
 
 TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
-  Case input = paper_run(SectionKind::elastic, 0.3e-3);
+  Case input = wishing(1e-5, SectionKind::elastic, 0.3e-3);  // met by the first level, without rows
   input.output.interval = 1e-6;
   input.output.shapes = 1e-5;
-  input.accuracy.event_times = 1e-5;           // which the first level meets, run without rows
   std::map<std::pair<int, double>, int> runs;  // by mesh and tolerance
   WithinOptions options;
   options.finished = [&](const Case& run, const Result&) {
@@ -168,9 +163,8 @@ TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
 }
 
 TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
-  Case input = paper_run(SectionKind::exact, 0.3e-3);
+  Case input = wishing(1e-6, SectionKind::exact, 0.3e-3);
   input.scene.beam.yield_stress = 3e9;
-  input.accuracy.event_times = 1e-6;
   const WithinRun run = simulate_within(input, {});
   EXPECT_EQ(run.result.n_yielded_sections, 0u);
   EXPECT_EQ(run.input.model.mesh, MeshKind::hermite);
@@ -202,8 +196,7 @@ TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {
 }
 
 TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {
-  Case input = paper_run(SectionKind::exact, 0.5e-3);
-  input.accuracy.event_times = 1e-9;
+  const Case input = wishing(1e-9, SectionKind::exact, 0.5e-3);
   WithinOptions options;
   int n_meshes = 0;
   options.announce = [&](const std::string&) { ++n_meshes; };

@@ -2,7 +2,6 @@
 #include "paper_run.h"
 #include "print.h"
 #include "subimpact/study/match.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -16,7 +16,6 @@
 #include "simulate/recorder.h"
 #include "struck_beam_of.h"
 #include "system/contact_events.h"
-#include "system/struck_beam.h"
 
 namespace subimpact {
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -44,6 +46,12 @@ class TemporaryDirectory {
   bool has(const std::string& name) const { return std::filesystem::exists(path / name); }
 
   std::filesystem::path path;
+};
+
+/// Tests with a directory each. Suites that are alike are other names of this one.
+class InADirectory : public testing::Test {
+ protected:
+  const TemporaryDirectory directory;
 };
 
 }  // namespace subimpact

@@ -60,6 +60,16 @@ inline std::size_t count_in(const std::string& text, const std::string& piece) {
   return n;
 }
 
+/// Numbers that agree one by one, within an absolute error and one relative to what is expected.
+template <class Found, class Expected>
+void expect_near(const Found& found, const Expected& expected, double absolute,
+                 double relative = 0.0) {
+  ASSERT_EQ(std::size(found), std::size(expected));
+  for (std::size_t i = 0; i < std::size(found); ++i) {
+    EXPECT_NEAR(found[i], expected[i], absolute + relative * std::abs(expected[i])) << i;
+  }
+}
+
 /// The message of the exception that a call throws; "(accepted)" if it throws none.
 template <class Error, class Call>
 std::string answer_of(const Call& call) {

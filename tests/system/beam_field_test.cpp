@@ -13,7 +13,6 @@
 #include "order_table.h"
 #include "paper_scene.h"
 #include "print.h"
-#include "random_walk.h"
 #include "struck_beam_of.h"
 #include "system/support_reactions.h"
 

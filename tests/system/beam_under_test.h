@@ -4,7 +4,6 @@
 #include "model/cell_mesh.h"
 #include "paper_scene.h"
 #include "print.h"
-#include "random_walk.h"
 #include "struck_beam_of.h"
 
 namespace subimpact {

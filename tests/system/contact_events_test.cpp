@@ -2,10 +2,7 @@
 
 #include "system/contact_events.h"
 #include "beam_under_test.h"
-#include "model/contact_laws.h"
-#include "print.h"
 #include "system/section_correction.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

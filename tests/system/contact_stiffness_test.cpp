@@ -3,9 +3,7 @@
 
 #include "beam_under_test.h"
 #include "dense.h"
-#include "model/contact_laws.h"
 #include "system/contact_resonance.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -3,7 +3,6 @@
 #include "system/free_flight.h"
 #include "beam_under_test.h"
 #include "system/accounts.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

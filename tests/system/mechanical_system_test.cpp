@@ -1,7 +1,6 @@
 // The struck beam as implicit methods see it: forces in parts, mass and tangent stiffness.
 
 #include "beam_under_test.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -55,7 +54,7 @@ TEST_P(MechanicalBeam, MassTimesAccelerationIsForce) {
   beam_.mass_entries(mass);
   const std::vector<double> product = multiply(beam_.pattern(), mass, a);
   const std::vector<double> all = force(y, Part::all);
-  for (std::size_t i = 0; i < n_; ++i) EXPECT_NEAR(product[i], all[i], 1e-12 * largest_of(all));
+  expect_near(product, all, 1e-12 * largest_of(all));
 }
 
 TEST_P(MechanicalBeam, StiffnessIsMinusTheDerivativeOfEveryPartOfTheForce) {

@@ -8,8 +8,6 @@
 #include "model/timoshenko_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
-#include "random_walk.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -230,10 +228,7 @@ TEST(SectionInfluence, AddsUpToTheAccelerationsOfAllMoments) {
     for (std::size_t i = 0; i < moments.size(); ++i) {
       influence.add_accelerations(i, moments[i], sum);
     }
-    const double largest = largest_of(expected);
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      EXPECT_NEAR(sum[i], expected[i], 1e-13 * largest) << "unknown " << i;
-    }
+    expect_near(sum, expected, 1e-13 * largest_of(expected));
   });
 }
 
