@@ -92,15 +92,16 @@ TEST(Fibres, MomentIsOddAndNeverAboveThePlasticMoment) {
   }
 }
 
+// Tangent and moment as the derivatives of moment and work, by differences over 2 h.
+void expect_derivatives(const Fibres& fibres, double x, double h) {
+  EXPECT_NEAR((fibres.moment(x + h) - fibres.moment(x - h)) / (2.0 * h), fibres.tangent(x), 1e-8);
+  EXPECT_NEAR((fibres.work(x + h) - fibres.work(x - h)) / (2.0 * h), fibres.moment(x), 1e-8);
+}
+
 TEST(Fibres, TangentAndMomentAreTheDerivativesOfMomentAndWork) {
   for (const Fibres& fibres : {Fibres::continuous(), Fibres::layered(40)}) {
-    const double h = 1e-6;
     // Steps that avoid the kinks of the layers, at x = 40/(2k - 1).
-    for (double x = -9.013; x < 9.0; x += 0.1171) {
-      EXPECT_NEAR((fibres.moment(x + h) - fibres.moment(x - h)) / (2.0 * h), fibres.tangent(x),
-                  1e-8);
-      EXPECT_NEAR((fibres.work(x + h) - fibres.work(x - h)) / (2.0 * h), fibres.moment(x), 1e-8);
-    }
+    for (double x = -9.013; x < 9.0; x += 0.1171) expect_derivatives(fibres, x, 1e-6);
     EXPECT_EQ(fibres.work(0.0), 0.0);
     EXPECT_DOUBLE_EQ(fibres.work(-3.0), fibres.work(3.0));
   }
@@ -201,11 +202,7 @@ TEST_P(Strip, LawIsTheSumOverItsFibresOnRandomHistories) {
 
 TEST_P(Strip, TangentAndMomentAreTheDerivativesOfMomentAndWork) {
   const Fibres fibres = Fibres::strips(GetParam(), "strips");
-  for (const double x : {0.05, 0.3, 0.8, 1.7, 4.0, 20.0}) {
-    const double h = 1e-6 * x;
-    EXPECT_NEAR((fibres.moment(x + h) - fibres.moment(x - h)) / (2.0 * h), fibres.tangent(x), 1e-8);
-    EXPECT_NEAR((fibres.work(x + h) - fibres.work(x - h)) / (2.0 * h), fibres.moment(x), 1e-8);
-  }
+  for (const double x : {0.05, 0.3, 0.8, 1.7, 4.0, 20.0}) expect_derivatives(fibres, x, 1e-6 * x);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Strip, testing::Values(sandwich, weak_core, side_by_side),
