@@ -72,42 +72,37 @@ TEST(SectionEvents, AreCorrectedToTheTolerance) {
   EXPECT_LT(tight, 0.1 * loose);
 }
 
+// The state at the end, and what the integrator did.
+std::pair<State, WorkCounts> followed(double end_time, double rtol, RunObserver& observer) {
+  Case input = paper_case(SectionKind::exact, end_time, 501, Method::nystrom);
+  input.solver.rtol = rtol;
+  ResolvedRun run = resolve(input);
+  StruckBeam& beam = run.parts().beam;
+  const auto integrator = run.parts().make_integrator();
+  Audit audit(beam, beam.initial_state());
+  EventLoop loop(beam, *integrator, observer, audit, loop_options(run.parts()));
+  loop.start();
+  while (!loop.finished()) loop.advance();
+  return {loop.state(), integrator->work()};
+}
+
 TEST(SectionEvents, HardlyEverCutAStep) {
-  Case input = paper_case(SectionKind::exact, 0.5e-3, 501, Method::nystrom);
-  input.solver.rtol = 1e-8;
   struct Counter : RunObserver {
     long reversals = 0;
     void on_reversal(const Transition&) override { ++reversals; }
   } counter;
-  ResolvedRun run = resolve(input);
-  StruckBeam& beam = run.parts().beam;
-  const auto integrator = run.parts().make_integrator();
-  Audit audit(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, counter, audit, loop_options(run.parts()));
-  loop.start();
-  while (!loop.finished()) loop.advance();
+  const WorkCounts work = followed(0.5e-3, 1e-8, counter).second;
   EXPECT_GT(counter.reversals, 500);
-  EXPECT_LT(integrator->work().partial_steps, counter.reversals / 5);
-}
-
-State state_late(double rtol) {
-  Case input = paper_case(SectionKind::exact, 0.9e-3, 501, Method::nystrom);
-  input.solver.rtol = rtol;
-  ResolvedRun run = resolve(input);
-  StruckBeam& beam = run.parts().beam;
-  RunObserver nobody;
-  const auto integrator = run.parts().make_integrator();
-  Audit audit(beam, beam.initial_state());
-  EventLoop loop(beam, *integrator, nobody, audit, loop_options(run.parts()));
-  loop.start();
-  while (!loop.finished()) loop.advance();
-  return loop.state();
+  EXPECT_LT(work.partial_steps, counter.reversals / 5);
 }
 
 // An event that moves the next one in its step, or undoes it: an error that would not shrink with
 // the tolerance.
 TEST(SectionEvents, OfOneStepAreCoupled) {
-  EXPECT_LT(largest_difference(state_late(1e-11), state_late(1e-12)), 1e-7);
+  RunObserver nobody;
+  EXPECT_LT(largest_difference(followed(0.9e-3, 1e-11, nobody).first,
+                               followed(0.9e-3, 1e-12, nobody).first),
+            1e-7);
 }
 
 // Without rotary inertia high frequencies couple the events of a step most. Where corrections are
