@@ -19,9 +19,7 @@ TEST(ASampledPeak, BoundsTheTopOfAParabolaBetweenItsInstants) {
 }
 
 TEST(ALargestMoment, LiesWithinItsErrorOfThatAtTenTimesAsManyInstants) {
-  Case input = paper_case(SectionKind::elastic, 2e-3);
-  input.model.segments = 101;
-  input.solver.method = Method::central_difference;
+  Case input = paper_case(SectionKind::elastic, 2e-3, 101, Method::central_difference);
   input.output.interval.reset();
   const Result coarse = simulate(input);
   input.output.interval = 1e-7;
@@ -32,12 +30,11 @@ TEST(ALargestMoment, LiesWithinItsErrorOfThatAtTenTimesAsManyInstants) {
 }
 
 Case case_in_modes() {
-  Case input = paper_case(SectionKind::elastic, 0.5e-3);
+  Case input = paper_case(SectionKind::elastic, 0.5e-3, 501, Method::exponential);
   input.scene.contact = {ContactKind::linear, 2e6, {}, {}, {}};
   input.scene.striker.position = 0.4;
   input.model.mesh = MeshKind::hermite;
   input.model.elements = 40;
-  input.solver.method = Method::exponential;
   input.output.interval = 1e-6;
   return input;
 }

@@ -2,21 +2,16 @@
 
 #include "subimpact/simulate/observer.h"
 
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "same_results.h"
 #include "subimpact/case/simulate.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 Case paper_case(Method method) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.segments = 101;
-  input.end_time = 1e-3;
+  Case input = paper_run(SectionKind::exact, 1e-3, 101, method);
   input.output.interval = 1e-5;
-  input.solver.method = method;
   return input;
 }
 

@@ -4,19 +4,16 @@
 #include <future>
 
 #include "model/cell_mesh.h"
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "runs.h"
 #include "same_results.h"
-#include "subimpact/case/simulate.h"
+#include "subimpact/case/case_keys.h"
 
 namespace subimpact {
 namespace {
 
 Case short_case() {
-  Case input;
-  input.scene = paper_scene();
-  input.model.segments = 51;
-  input.end_time = 3e-4;
+  Case input = paper_run(SectionKind::exact, 3e-4, 51);
   input.output.interval = 1e-5;
   return input;
 }
@@ -154,6 +151,43 @@ TEST(ResultsOfRuns, ReportInOneLineAndKeepWhatWasGiven) {
   EXPECT_EQ(result.brief_report().find('\n'), std::string::npos);
   EXPECT_EQ(result.used.events, EventHandling::interpolated);
   EXPECT_FALSE(result.given.solver.events.has_value());
+}
+
+// Several runs at once, each with the results that it has alone.
+
+std::vector<Case> different_cases() {
+  std::vector<Case> cases;
+  for (const Method method :
+       {Method::erk, Method::nystrom, Method::exponential, Method::central_difference,
+        Method::adams, Method::bdf, Method::dirk, Method::imex}) {
+    for (const MeshKind mesh : {MeshKind::cells, MeshKind::hermite}) {
+      Case input = paper_run(SectionKind::exact, 3e-4, 51, method);
+      input.model.mesh = mesh;
+      input.model.elements = 20;
+      if (method == Method::exponential) input.model.section = SectionKind::elastic;
+      input.output.interval = 1e-5;
+      input.solver.rtol = 1e-7;
+      cases.push_back(input);
+    }
+  }
+  return cases;
+}
+
+TEST(RunsInSeveralThreads, GiveTheBitsOfRunsOneAfterTheOther) {
+  const std::vector<Case> cases = different_cases();
+  // Twice over, so that every case also runs beside itself.
+  std::vector<std::future<Result>> at_once;
+  for (int round = 0; round < 2; ++round) {
+    for (const Case& input : cases) {
+      at_once.push_back(std::async(std::launch::async, [&input] { return simulate(input); }));
+    }
+  }
+  for (std::size_t i = 0; i < at_once.size(); ++i) {
+    const Case& input = cases[i % cases.size()];
+    SCOPED_TRACE(to_string(input.solver.method));
+    const Result alone = completed(input);
+    expect_same(at_once[i].get(), alone);
+  }
 }
 
 }  // namespace

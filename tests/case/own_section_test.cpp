@@ -1,18 +1,14 @@
 // Sections that a caller brings, through the public door.
 
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "runs.h"
 #include "same_results.h"
-#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 namespace {
 
 Case paper_case() {
-  Case input;
-  input.scene = paper_scene();
-  input.model.segments = 101;
-  input.end_time = 1e-3;
+  Case input = paper_run(SectionKind::exact, 1e-3, 101);
   input.output.interval = 2e-5;
   input.solver.rtol = 1e-9;
   return input;

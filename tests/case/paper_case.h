@@ -1,22 +1,17 @@
 #pragma once
 
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "print.h"
 #include "runs.h"
+#include "yielding_limit.h"
 
 namespace subimpact {
 
 /// The paper's example, erk at rtol = 1e-9, no history rows.
-inline Case paper_case(SectionKind section, double end_time) {
-  Case input;
-  input.title = "free-free beam struck at mid-span";
-  input.scene = paper_scene();
-  input.model.segments = 501;
-  input.model.section = section;
-  input.model.layers = 40;
-  input.end_time = end_time;
+inline Case paper_case(SectionKind section, double end_time, int segments = 501,
+                       Method method = Method::erk) {
+  Case input = paper_run(section, end_time, segments, method);
   input.solver.rtol = 1e-9;
-  input.output.interval = 0.0;
   return input;
 }
 
@@ -41,6 +36,28 @@ inline std::vector<ReferenceEvent> reference_table(const std::string& name) {
     table.push_back(row);
   }
   EXPECT_FALSE(table.empty()) << "no table " << name;
+  return table;
+}
+
+/// Errors of the first `n` starts and ends by turns, us; the first start is given.
+inline std::vector<double> errors_us(const Result& result,
+                                     const std::vector<ReferenceEvent>& reference, std::size_t n) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < n; ++i) {
+    const SubImpact& here = result.sub_impacts.at(i);
+    errors.push_back(std::abs(start_us(here) - reference.at(i).start_us));
+    errors.push_back(std::abs(end_us(here) - reference.at(i).end_us));
+  }
+  return errors;
+}
+
+inline double root_of_squares(const std::vector<double>& errors) {
+  return std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0));
+}
+
+inline std::vector<ReferenceEvent> yielding_limit() {
+  std::vector<ReferenceEvent> table;
+  for (const auto& [start, end] : yielding_limit_us) table.push_back({start, end, 0.0, 0.0});
   return table;
 }
 

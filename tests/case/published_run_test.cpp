@@ -7,9 +7,8 @@ namespace subimpact {
 namespace {
 
 Case published_run(double end_time) {
-  Case input = paper_case(SectionKind::layers, end_time);
+  Case input = paper_case(SectionKind::layers, end_time, 501, Method::central_difference);
   input.model.spacing = CellSpacing::points;
-  input.solver.method = Method::central_difference;
   input.solver.step = 1e-7;
   input.study.striker_update = StrikerUpdate::constant_force;
   return input;
@@ -69,9 +68,8 @@ TEST(ThePublishedRun, IsThatOfABeamLongerByASpacing) {
 }
 
 TEST(AnElasticBeamOnPoints, MovesTheSameInItsModesInClosedForm) {
-  Case input = paper_case(SectionKind::elastic, 0.6e-3);
+  Case input = paper_case(SectionKind::elastic, 0.6e-3, 501, Method::nystrom);
   input.model.spacing = CellSpacing::points;
-  input.solver.method = Method::nystrom;
   const Result on_mesh = simulate(input);
   input.solver.method = Method::exponential;
   const Result in_modes = simulate(input);

@@ -3,7 +3,6 @@
 #include "rigid_case.h"
 #include "runs.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/case/simulate.h"
 #include "subimpact/simulate/options.h"
 
 namespace subimpact {
@@ -42,8 +41,7 @@ TEST(RigidBodies, WithAnElastoPlasticSurfaceLoseWhatTheClosedFormSays) {
   for (const double v : {0.05, 0.5, 3.0, 15.9}) {
     const Case input = rigid_case(ContactKind::foundation, v);
     const Result result = simulate(input);
-    const double k = result.used.contact_stiffness;
-    const double unit = result.used.yield_indentation;
+    const double k = result.used.contact_stiffness, unit = result.used.yield_indentation;
     const double threshold = std::sqrt(0.8 * k * std::pow(unit, 2.5) / reduced_mass(input));
     const double e = (result.beam_mean_velocity - result.striker_velocity) / v;
     const double x = result.max_indentation / unit;

@@ -1,38 +1,21 @@
 // What a case may give of sections, noses and contact laws, and what is refused.
 
 #include "paper_case.h"
-#include "refusal.h"
-#include "subimpact/case/case_keys.h"
-#include "testing.h"
+#include "settings.h"
 
 namespace subimpact {
 namespace {
 
-using Settings = std::vector<std::pair<const char*, KeyValue>>;
-
 Case with(const Settings& settings, bool short_form = false) {
-  Case input = paper_case(SectionKind::exact, 1e-4);
-  input.model.segments = 101;
+  Case input = paper_case(SectionKind::exact, 1e-4, 101);
   if (!short_form) input.scene.beam.width = input.scene.beam.thickness = 0.0;
-  for (const auto& [key, value] : settings) assign(input, *find_case_key(key), value);
-  return input;
+  return changed(input, settings);
 }
 
 const Settings tube{
     {"beam.section.shape", "tube"}, {"beam.section.diameter", 0.03}, {"beam.section.wall", 0.002}};
 const Settings of_nose{
     {"contact.striker_modulus", 2.1e11}, {"contact.striker_poisson", 0.3}, {"beam.poisson", 0.33}};
-
-Settings operator+(Settings a, const Settings& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-void expect_refused(const Case& input, const char* key, const char* words) {
-  const Refusal refusal = refusal_of([&] { check(input); });
-  EXPECT_EQ(refusal.key, key);
-  expect_in(refusal.message, words);
-}
 
 TEST(SectionKeys, TakeEveryShapeByItsDimensions) {
   const Settings sphere = Settings{{"contact.law", "sphere"}} + of_nose;

@@ -8,9 +8,7 @@ namespace subimpact {
 namespace {
 
 Case coarse_strike(Method method, double rtol) {
-  Case input = paper_case(SectionKind::exact, 8e-3);
-  input.model.segments = 101;
-  input.solver.method = method;
+  Case input = paper_case(SectionKind::exact, 8e-3, 101, method);
   input.solver.rtol = rtol;
   return input;
 }
@@ -19,8 +17,6 @@ Case coarse_strike(Method method, double rtol) {
 void expect_caught(const Case& input) {
   const Result result = simulate(input);
   const Outcome& outcome = result.outcome;
-  printf("ends at %.2f us, %zu sub-impacts: %s\n", 1e6 * outcome.time, result.sub_impacts.size(),
-         outcome.message.c_str());
   EXPECT_TRUE(outcome.kind == OutcomeKind::inaccurate || outcome.kind == OutcomeKind::unstable ||
               outcome.kind == OutcomeKind::chattering);
   ASSERT_TRUE(outcome.first_failure);
@@ -36,11 +32,8 @@ void expect_caught(const Case& input) {
   }
 }
 
-TEST(ABlowUp, OfDirkAtTolerance01IsNotCompleted) {
+TEST(ABlowUp, OfDirkAtTolerance01AndOfImexAtTolerance001IsNotCompleted) {
   expect_caught(coarse_strike(Method::dirk, 0.1));
-}
-
-TEST(ABlowUp, OfImexAtTolerance001IsNotCompleted) {
   expect_caught(coarse_strike(Method::imex, 1e-2));
 }
 
@@ -122,7 +115,7 @@ Case clamped_beam_under_a_heavy_striker() {
                       .youngs_modulus = 68453904231.65192,
                       .yield_stress = 25902883.809341125,
                       .theory = BeamTheory::euler_bernoulli,
-                      .ends = {EndSupport::clamped, EndSupport::free}};
+                      .ends = {clamped, free_end}};
   input.scene.striker = {.mass = 37.39655796116565,
                          .nose_radius = 4.167075040660213,
                          .velocity = 2.083370984948108,
@@ -141,8 +134,7 @@ Case clamped_beam_under_a_heavy_striker() {
 // What sections do within a step moves its end; the event is located on the state so moved.
 TEST(ContactsBegin, AtTheSurfaceAlsoWhereSectionsFlowInTheStep) {
   const Result result = completed(clamped_beam_under_a_heavy_striker());
-  double residual = 0.0;
-  double largest = 0.0;
+  double residual = 0.0, largest = 0.0;
   for (const Transition& event : result.transitions) {
     if (event.kind == EventKind::contact_begins) {
       largest = std::max(largest, std::abs(event.value - residual));
@@ -150,7 +142,6 @@ TEST(ContactsBegin, AtTheSurfaceAlsoWhereSectionsFlowInTheStep) {
       residual = event.value;
     }
   }
-  printf("contact begins at most %.1e m off the surface\n", largest);
   EXPECT_LT(largest, 1e-16);
   for (const SubImpact& s : result.sub_impacts) {
     EXPECT_GT(s.end.value_or(1.0) - s.start, 1e-9);
@@ -166,9 +157,7 @@ TEST(ForcesInHistory, AreNeverNegativeAndZeroWhereContactBeginsAndEnds) {
     for (const HistoryRow& row : result.history) EXPECT_GE(row.force, 0.0) << row.time;
     for (const SubImpact& s : result.sub_impacts) {
       for (const HistoryRow& row : result.history) {
-        if (row.time == s.start || row.time == s.end) {
-          EXPECT_EQ(row.force, 0.0);
-        }
+        EXPECT_TRUE(row.force == 0.0 || (row.time != s.start && row.time != s.end)) << row.time;
       }
     }
   }
@@ -176,18 +165,16 @@ TEST(ForcesInHistory, AreNeverNegativeAndZeroWhereContactBeginsAndEnds) {
 
 TEST(Impulses, EqualTheIntegratedForceForEveryMethod) {
   for (const Choice& method : find_case_key("solver.method")->choices) {
-    Case input = paper_case(SectionKind::exact, 0.35e-3);
-    input.model.segments = 201;
+    Case input = paper_case(SectionKind::exact, 0.35e-3, 201);
     assign(input, *find_case_key("solver.method"), method.name);
-    const Result result = simulate(input);
-    ASSERT_TRUE(result.outcome.completed()) << method.name << ": " << result.outcome.message;
+    SCOPED_TRACE(method.name);
+    const Result result = completed(input);
     ASSERT_GE(result.sub_impacts.size(), 2u);
     const double momentum = input.scene.striker.mass * input.scene.striker.velocity;
     double largest = 0.0;
     for (const SubImpact& s : result.sub_impacts) {
       if (s.end) largest = std::max(largest, std::abs(s.impulse - s.force_integral) / momentum);
     }
-    printf("%-20s %.1e of m v0\n", method.name.c_str(), largest);
     EXPECT_EQ(largest, result.max_impulse_error);
     EXPECT_LT(largest, input.solver.method == Method::central_difference ? 1e-5 : 1e-8);
   }
@@ -243,7 +230,6 @@ TEST(AMethodThatStoodStill, EndsTheRunWithFewSubImpacts) {
   input.end_time = 1e-3;
   input.accuracy.energy = 1.0;  // or the run ends before
   const Result result = simulate(input);
-  printf("%zu sub-impacts: %s\n", result.sub_impacts.size(), result.outcome.message.c_str());
   EXPECT_FALSE(result.outcome.completed());
   EXPECT_LT(result.sub_impacts.size(), 200u);
 }
@@ -251,8 +237,7 @@ TEST(AMethodThatStoodStill, EndsTheRunWithFewSubImpacts) {
 // --- central differences ------------------------------------------------------------------------
 
 Case on_stiff_linear_contact() {
-  Case input = paper_case(SectionKind::exact, 4e-3);
-  input.model.segments = 101;
+  Case input = paper_case(SectionKind::exact, 4e-3, 101);
   input.scene.contact.kind = ContactKind::linear;
   input.scene.contact.stiffness = 1e9;
   return input;
@@ -264,8 +249,6 @@ TEST(TheCriticalStep, IsThatOfBeamAndStrikerJoinedByTheStiffestContact) {
   input.solver.method = Method::central_difference;
   const ResolvedSettings used = resolve(input).settings();
   const double alone = 2.0 / used.highest_frequency;
-  printf("critical step %.4f us, of the beam alone %.4f us; default %.4f us\n",
-         1e6 * used.critical_step, 1e6 * alone, 1e6 * *used.step);
   EXPECT_LT(used.critical_step, 0.7 * alone);
   EXPECT_LT(*used.step, used.critical_step);
   input.solver.step = 0.5 * (used.critical_step + alone);
@@ -278,17 +261,13 @@ TEST(CentralDifferences, ByDefaultFollowAStiffContactToAThousandthOfTheEnergy) {
   const Result result = completed(input);
   input.solver.method = Method::nystrom;
   const Result exact = simulate(input);
-  printf("%zu sub-impacts (nystrom %zu), energy to %.1e\n", result.sub_impacts.size(),
-         exact.sub_impacts.size(), result.max_energy_error);
   EXPECT_LT(result.max_energy_error, 1e-3);
   const double n = static_cast<double>(exact.sub_impacts.size());
   EXPECT_NEAR(static_cast<double>(result.sub_impacts.size()), n, 0.2 * n);
 }
 
 TEST(CentralDifferences, WarnOfContactsThatLastAFewStepsOnly) {
-  Case input = paper_case(SectionKind::exact, 2e-3);
-  input.model.segments = 101;
-  input.solver.method = Method::central_difference;
+  Case input = paper_case(SectionKind::exact, 2e-3, 101, Method::central_difference);
   const auto warnings_of_steps = [](const Result& result) {
     return std::ranges::count_if(result.warnings, [](const std::string& warning) {
       return warning.find("fewer than 8 steps") != std::string::npos;
@@ -300,8 +279,7 @@ TEST(CentralDifferences, WarnOfContactsThatLastAFewStepsOnly) {
 }
 
 TEST(CentralDifferences, DoNotWarnOfAContactThatTheEndOfTheRunCutsOff) {
-  Case input = paper_case(SectionKind::exact, 1e-6);
-  input.solver.method = Method::central_difference;
+  Case input = paper_case(SectionKind::exact, 1e-6, 501, Method::central_difference);
   input.solver.step = 0.2e-6;
   const Result result = simulate(input);
   ASSERT_EQ(result.sub_impacts.size(), 1u);
@@ -310,29 +288,23 @@ TEST(CentralDifferences, DoNotWarnOfAContactThatTheEndOfTheRunCutsOff) {
 }
 
 TEST(CentralDifferences, KeepHistoryInOrderAndImpulsesEqualToTheChangeOfVelocityInFlight) {
-  Case input = paper_case(SectionKind::layers, 2e-3);
-  input.solver.method = Method::central_difference;
-  const Result result = simulate(input);
+  const Result result =
+      simulate(paper_case(SectionKind::layers, 2e-3, 501, Method::central_difference));
   EXPECT_TRUE(
       std::is_sorted(result.history.begin(), result.history.end(),
                      [](const HistoryRow& a, const HistoryRow& b) { return a.time < b.time; }));
   // In flight the striker keeps the velocity that the table gives for the end of contact.
-  double largest = 0.0;
   for (std::size_t i = 0; i + 1 < result.sub_impacts.size(); ++i) {
     const SubImpact& s = result.sub_impacts[i];
     for (const HistoryRow& row : result.history) {
-      if (row.time > *s.end && row.time < result.sub_impacts[i + 1].start) {
-        largest = std::max(largest, std::abs(row.striker_velocity - s.striker_velocity));
-      }
+      if (row.time <= *s.end || row.time >= result.sub_impacts[i + 1].start) continue;
+      EXPECT_NEAR(row.striker_velocity, s.striker_velocity, 1e-12) << row.time;
     }
   }
-  printf("striker velocity in flight differs from the table by %.1e m/s at most\n", largest);
-  EXPECT_LT(largest, 1e-12);
 }
 
 TEST(CentralDifferences, RefuseLocatedEventsWithStepsThatWouldMakeThemGrow) {
-  Case input = paper_case(SectionKind::elastic, 1e-4);
-  input.solver.method = Method::central_difference;
+  Case input = paper_case(SectionKind::elastic, 1e-4, 501, Method::central_difference);
   input.solver.events = EventHandling::located;
   EXPECT_EQ(refusal_of(input).key, "solver.events");
 }

@@ -5,24 +5,18 @@
 namespace subimpact {
 namespace {
 
-constexpr EndSupport free_end = EndSupport::free;
-constexpr EndSupport pinned = EndSupport::pinned;
-constexpr EndSupport clamped = EndSupport::clamped;
-
 Case supported_case(SectionKind section, EndSupport first, EndSupport second) {
-  Case input = paper_case(section, 0.6e-3);
-  input.model.segments = 101;
+  Case input = paper_case(section, 0.6e-3, 101);
   input.scene.beam.ends = {first, second};
   input.output.interval = 1e-5;
   return input;
 }
 
-class Supports : public testing::TestWithParam<std::array<EndSupport, 2>> {};
+class Supports : public testing::TestWithParam<Ends> {};
 
 INSTANTIATE_TEST_SUITE_P(, Supports,
-                         testing::Values(std::array{pinned, pinned}, std::array{clamped, clamped},
-                                         std::array{clamped, free_end},
-                                         std::array{pinned, clamped}),
+                         testing::Values(Ends{pinned, pinned}, Ends{clamped, clamped},
+                                         Ends{clamped, free_end}, Ends{pinned, clamped}),
                          NamedAsPrinted{});
 
 TEST_P(Supports, KeepTheEnergyAndSayThatMomentumIsNotKept) {

@@ -4,23 +4,17 @@
 #include "subimpact/case/doubtful_units.h"
 
 #include "paper_case.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 bool warns_of(const Case& input, const std::string& words) {
-  for (const std::string& warning : simulate(input).warnings) {
-    if (warning.find(words) != std::string::npos) return true;
-  }
-  return false;
+  return std::ranges::any_of(simulate(input).warnings, [&](const std::string& warning) {
+    return warning.find(words) != std::string::npos;
+  });
 }
 
-Case plain_case() {
-  Case input = paper_case(SectionKind::elastic, 0.6e-3);
-  input.model.segments = 101;
-  return input;
-}
+Case plain_case() { return paper_case(SectionKind::elastic, 0.6e-3, 101); }
 
 TEST(TheModelsLimits, AreNotReachedByAnElasticStrikeOfASlenderBeam) {
   EXPECT_TRUE(simulate(plain_case()).warnings.empty());
@@ -54,9 +48,9 @@ TEST(LargeDeflections, AreDoubtedOnBeamsHeldAtBothEnds) {
   input.end_time = 2e-3;
   input.scene.striker.velocity = 4.0;
   EXPECT_FALSE(warns_of(input, "of the thickness"));  // a free beam moves away
-  input.scene.beam.ends = {EndSupport::pinned, EndSupport::free};
+  input.scene.beam.ends = {pinned, free_end};
   EXPECT_FALSE(warns_of(input, "of the thickness"));
-  input.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  input.scene.beam.ends = {pinned, pinned};
   EXPECT_TRUE(warns_of(input, "of the thickness, on a beam held at both ends"));
   input.scene.striker.velocity = 0.4;
   EXPECT_FALSE(warns_of(input, "of the thickness"));

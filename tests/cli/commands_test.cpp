@@ -1,7 +1,17 @@
+#include <nlohmann/json.hpp>
+
+#include "io/run_tables.h"
 #include "process.h"
+#include "subimpact/io/case_file.h"
+#include "subimpact/io/read_results.h"
+#include "subimpact/io/results.h"
+#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {
+
+using ARun = InADirectory;
+using SensitivityCommand = InADirectory;
 
 TEST(Help, OfEveryCommandGivesAnExampleOfThatCommand) {
   for (const std::string command : {"run", "work-precision", "stability", "plan", "sensitivity",
@@ -104,6 +114,71 @@ TEST(Explain, FollowsOverrides) {
                                {"--method", "central-difference"}))
                 .output,
             "central-difference", "101 of the beam", "not used (model");
+}
+
+TEST(ARunAsAsked, GivesWhatTheProgramGivesNumberForNumber) {
+  const TemporaryDirectory directory;
+  run_in(directory, paper("run", {"time.end=3e-4"}, {"--out", "here", "--quiet"}));
+  const FinishedRun program = read_results(directory.path / "here");
+  const LoadedCase loaded = read_case_file(SUBIMPACT_PAPER_CASE, {parse_override("time.end=3e-4")});
+  const WithinRun here = run_as_asked(loaded.value, loaded.given);
+  EXPECT_EQ(here.result.used.mesh, program.result.used.mesh);
+  EXPECT_EQ(csv_of<SubImpact>(here.result), csv_of<SubImpact>(program.result));
+  EXPECT_EQ(here.result.striker_velocity, program.result.striker_velocity);
+}
+
+Words of_paper(const std::string& command, Words more) {
+  more.insert(more.end(), {"--method", "exponential"});
+  return paper(command, {"model.section=elastic", "time.end=3e-4"}, more);
+}
+
+TEST_F(SensitivityCommand, WritesItsFileAndPrintsTheTable) {
+  expect_in(run_in(directory, of_paper("sensitivity",
+                                       {"--by", "striker.velocity,beam.thickness", "--out", "s"}))
+                .output,
+            "us per 1 %", "striker.", "velocity", "218.94", "sensitivity.csv in s",
+            "at rtol 1e-13 in place of 1e-08");
+  expect_in(directory.read("s/sensitivity.csv"), "d_striker.velocity,error_striker.velocity,",
+            "\nstart_s,1,0,0,0,0,0,\nend_s,1,0.00021894");
+}
+
+TEST_F(SensitivityCommand, WritesNothingWithoutADirectory) {
+  run_in(directory, of_paper("sensitivity", {"--by", "striker.mass"}));
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path));
+}
+
+TEST_F(SensitivityCommand, ChoosesTheMeshOfACaseThatLeavesItOpen) {
+  directory.write("open.toml", open_case);
+  expect_in(run_in(directory, {"sensitivity", "open.toml", "--set", "beam.yield_stress=inf", "--by",
+                               "striker.velocity"})
+                .output,
+            "Hermite");
+}
+
+TEST_F(SensitivityCommand, RefusesKeysByName) {
+  for (const auto& [key, words] :
+       {std::pair("striker.velocty", "\"striker.velocity\"?"),
+        std::pair("striker.gap", "logarithm"), std::pair("striker.position", "symmetric")}) {
+    expect_in(run_anywhere(of_paper("sensitivity", {"--by", key}), 2).errors, words);
+  }
+}
+
+TEST_F(ARun, OfACaseWithScatterStatesHowFarItCanBePredicted) {
+  expect_in(
+      run_in(directory, of_paper("run", {"--set", "scatter.striker.velocity=0.01", "--out", "r"}))
+          .output,
+      "predictable", "standard deviations by the scatter of the case");
+  const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
+  // 1.654 us by ln v.
+  EXPECT_NEAR(summary.at("predictability").at("zones").at(0).at("start_scatter_s"), 0.0, 1e-15);
+  const std::string events = directory.read("r/events.csv");
+  expect_in(events.substr(0, events.find('\n')), ",start_scatter_s,end_scatter_s,");
+}
+
+TEST_F(ARun, OfACaseWithoutScatterDoesNotSayHowFarItCanBePredicted) {
+  expect_not_in(run_program(of_paper("run", {"--out", "r"}), directory.path).output, "predictable");
+  const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
+  EXPECT_TRUE(summary.at("predictability").is_null());
 }
 
 }  // namespace

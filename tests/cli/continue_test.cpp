@@ -8,11 +8,8 @@ namespace {
 
 std::vector<std::string> run_to(const char* end, const std::string& out,
                                 std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {
-      "run",   SUBIMPACT_PAPER_CASE,           "--out", out,
-      "--set", std::string("time.end=") + end, "--set", "model.segments=201"};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+  more.insert(more.end(), {"--out", out});
+  return paper("run", {std::string("time.end=") + end, "model.segments=201"}, more);
 }
 
 TEST(ContinuedRun, OfTheProgramLeavesTheFilesOfTheWholeStrike) {
@@ -44,14 +41,12 @@ TEST(ContinuedRun, OfTheProgramLeavesTheFilesOfTheWholeStrike) {
 TEST(ContinuedRun, ThatWasToldToEndGoesOn) {
   const TemporaryDirectory here;
   const std::vector<std::string> slow = {"--set", "output.interval=1e-5", "--error-bars=off"};
-  auto words = run_to("1 s", "here", slow);
-  const Finished early = run_program(words, here.path, 1500, SIGTERM);
+  const Finished early = run_program(run_to("1 s", "here", slow), here.path, 1500, SIGTERM);
   ASSERT_EQ(early.status, 128 + SIGTERM) << early.errors;
   const double reached = read_results(here.path / "here").result.outcome.time;
   const std::string end = std::to_string(reached + 1e-3) + " s";
-  words = run_to(end.c_str(), "here", slow);
-  words.insert(words.end(), {"--continue", "here"});
-  run_in(here, words);
+  run_in(here, run_to(end.c_str(), "here",
+                      {"--set", "output.interval=1e-5", "--error-bars=off", "--continue", "here"}));
   const Result result = read_results(here.path / "here").result;
   EXPECT_TRUE(result.outcome.completed());
   EXPECT_GT(result.outcome.time, reached);
@@ -61,11 +56,10 @@ TEST(ContinuedRun, ThatWasToldToEndGoesOn) {
 TEST(ContinuedRun, RefusesWhatDoesNotGoTogether) {
   const TemporaryDirectory here;
   run_in(here, run_to("0.3 ms", "first", {"--error-bars=off"}));
-  const auto errors_of = [&](const std::vector<std::string>& more, const char* end = "1 ms") {
-    auto words = run_to(end, "next", {"--continue", "first"});
+  const auto errors_of = [&](const Words& more, const char* end = "1 ms") {
+    Words words = run_to(end, "next", {"--continue", "first"});
     words.insert(words.end(), more.begin(), more.end());
-    const Finished finished = run_in(here, words, 2);
-    return finished.errors;
+    return run_in(here, words, 2).errors;
   };
   expect_in(errors_of({"--set", "beam.width=0.02"}), "beam.width = 0.02, not 0.0163");
   expect_in(errors_of({"--set", "model.segments=301"}), "model.segments = 301, not 201");

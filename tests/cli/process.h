@@ -1,9 +1,8 @@
 #pragma once
 
+#include <sys/wait.h>
+
 #include <csignal>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "temporary_directory.h"
 #include "testing.h"
@@ -41,6 +40,21 @@ inline Finished run_anywhere(const Words& arguments, int status = 0) {
   EXPECT_TRUE(std::filesystem::is_empty(directory.path)) << testing::PrintToString(arguments);
   return finished;
 }
+
+/// The exit status of a line for the shell, in which `subimpact` stands for the program.
+inline int shell(const std::string& line, const std::filesystem::path& directory) {
+  const std::string whole = "cd '" + directory.string() + "' && subimpact() { '" +
+                            SUBIMPACT_PROGRAM + "' \"$@\"; } && " + line;
+  return WEXITSTATUS(std::system(whole.c_str()));
+}
+
+/// The paper's scene, with mesh and method left to the program.
+inline const std::string open_case =
+    "title = \"open\"\n"
+    "beam = { length = 0.7112, width = 0.0163, thickness = 0.0075, density = 2600, "
+    "youngs_modulus = 71.96e9, yield_stress = 150e6 }\n"
+    "striker = { mass = 0.201, nose_radius = 0.01, velocity = 15.9 }\n"
+    "time = { end = 0.25e-3 }\n";
 
 /// A command on the paper's case with settings and, before them, other arguments.
 inline Words paper(const std::string& command, const Words& settings = {}, const Words& more = {}) {

@@ -156,6 +156,19 @@ class Oscillators final : public KnownSystem {
   Vector frequencies_, amplitudes_;
 };
 
+/// The first step after a restart, which follows `n` steps, over the last one before it.
+template <class Method>
+double step_after_restart(const Method& method, int n) {
+  ElasticBar bar(5);
+  const auto integrator = method.with_tolerance(bar, 1e-8);
+  integrator->restart(0.0, bar.initial());
+  for (int i = 0; i < n; ++i) integrator->step();
+  const double before = integrator->time() - integrator->start_time();
+  integrator->restart(integrator->time(), State(integrator->state()));
+  integrator->step();
+  return (integrator->time() - integrator->start_time()) / before;
+}
+
 /// A bar of which one function throws at a call.
 class ThrowingBar final : public MechanicalSystem {
  public:

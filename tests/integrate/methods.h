@@ -4,7 +4,6 @@
 #include "integrate/nystrom.h"
 #include "integrate/sundials.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 

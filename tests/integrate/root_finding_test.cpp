@@ -2,7 +2,7 @@
 
 #include "integrate/sundials.h"
 #include "mechanical_systems.h"
-#include "testing.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {
@@ -30,15 +30,16 @@ const Finder one_step_methods[] = {{"dop853", "dop853", 0, make_arkode_erk},
 const Finder multistep_methods[] = {{"adams", "", adams_order_limit, make_cvode_adams},
                                     {"bdf", "", bdf_order_limit, make_cvode_bdf}};
 
-std::string name_of(const testing::TestParamInfo<Finder>& info) { return info.param.name; }
-
 class RootFinding : public testing::TestWithParam<Finder> {};
-INSTANTIATE_TEST_SUITE_P(OneStep, RootFinding, testing::ValuesIn(one_step_methods), name_of);
-INSTANTIATE_TEST_SUITE_P(Multistep, RootFinding, testing::ValuesIn(multistep_methods), name_of);
+INSTANTIATE_TEST_SUITE_P(OneStep, RootFinding, testing::ValuesIn(one_step_methods),
+                         NamedAsPrinted{});
+INSTANTIATE_TEST_SUITE_P(Multistep, RootFinding, testing::ValuesIn(multistep_methods),
+                         NamedAsPrinted{});
 
 // Only these evaluate the motion for their dense output.
 class DenseOutput : public testing::TestWithParam<Finder> {};
-INSTANTIATE_TEST_SUITE_P(OneStep, DenseOutput, testing::ValuesIn(one_step_methods), name_of);
+INSTANTIATE_TEST_SUITE_P(OneStep, DenseOutput, testing::ValuesIn(one_step_methods),
+                         NamedAsPrinted{});
 
 using Evaluate = std::function<std::vector<EventValue>(std::span<const double>)>;
 

@@ -2,7 +2,7 @@
 
 #include "ode/integrator.h"
 #include "ode/second_order_ode.h"
-#include "testing.h"
+#include "order_table.h"
 
 namespace subimpact {
 
@@ -55,6 +55,29 @@ double error_in_steps(const Method& method, Motion& motion, double end, int n, d
   return largest;
 } catch (const IntegrationFailure&) {
   return std::numeric_limits<double>::infinity();
+}
+
+/// Where errors are neither too coarse to be asymptotic nor rounding.
+struct Asymptotic {
+  int first_third;  ///< of doublings of one step
+  std::size_t most_rows;
+  double largest, smallest;  ///< errors
+};
+
+/// `error_of(n)` is the error with n steps; n grows by the cube root of 2, and the order over the
+/// last doubling lies within [low, high].
+template <class ErrorOf>
+void expect_finest_order(double low, double high, const Asymptotic& range, ErrorOf error_of) {
+  OrderTable table("largest error over steps");
+  for (int thirds = range.first_third; thirds < 45 && table.size() < range.most_rows; ++thirds) {
+    const auto n = static_cast<int>(std::lround(std::pow(2.0, thirds / 3.0)));
+    const double error = error_of(n);
+    if (!(error < range.largest)) continue;
+    if (error < range.smallest) break;
+    table.add(n, error);
+  }
+  table.print();
+  table.expect_finest_order_within(4, low, high);
 }
 
 /// A chain of n unit masses between two walls, joined by unit springs, time sped up by `rate`: all

@@ -7,12 +7,7 @@ namespace subimpact {
 namespace {
 
 std::string refusal_of(const std::string& text, const std::vector<Override>& overrides = {}) {
-  try {
-    read_case_text(text, "bad.toml", overrides);
-  } catch (const CaseFileError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+  return answer_of<CaseFileError>([&] { read_case_text(text, "bad.toml", overrides); });
 }
 
 std::string refusal_with(const std::string& setting) {
@@ -20,145 +15,126 @@ std::string refusal_with(const std::string& setting) {
 }
 
 /// Ways to spoil the small case, and what the message must then contain: place, key, what was found
-/// and what is allowed.
+/// and what is allowed, after the name of the file.
 constexpr const char* spoilt_cases[][3] = {
     {"length = 0.7112", "lenght = 0.7112",
-     R"(bad.toml:2:1: |unknown key "beam.lenght"|width, thickness|did you mean "beam.length"?)"},
-    {"density = 2600", "density = 2600\nrtol = 1e-9",
-     R"(bad.toml:6:1: |unknown key "beam.rtol"|did you mean "solver.rtol"?)"},
-    {"density = 2600", "density = 2600\nend = 8e-3",
-     R"(bad.toml:6:1: |end is a key of [time]|"time.end" or "beam.ends"?)"},
+     R"(2:1: |unknown key "beam.lenght"|width, thickness|did you mean "beam.length"?)"},
+    {"youngs", "rtol = 1e-9\nyoungs",
+     R"(6:1: |unknown key "beam.rtol"|did you mean "solver.rtol"?)"},
+    {"youngs", "end = 8e-3\nyoungs", R"(6:1: |end is a key of [time]|"time.end" or "beam.ends"?)"},
     {"length = 0.7112", "length = 711.2 mm",
-     R"(bad.toml:2:|711.2 mm is a value with a unit|in quotes, "711.2 mm"|SI)"},
-    {"mass = 0.201", "mass = 201g # light", R"(bad.toml:8:|201 g is a value with a unit|"201 g")"},
-    {"[beam]", "output = { interval = 1us, shapes = 0 }\n[beam]",
-     "bad.toml:1:|1 us is a value with a unit"},
-    {"length = 0.7112", R"(length = "711.2 kg")",
-     R"(bad.toml:2:1: |("711.2 kg")|"kg" is none of its units: m, mm)"},
-    {"mass = 0.201", "mass = 0.201\nposition = \"0.5 m\"",
-     "bad.toml:9:1: |write the number without a unit"},
-    {"[time]", "[model]\nsegments = \"501 cells\"\n[time]",
-     R"(bad.toml:12:1: |("501 cells")|a whole number)"},
-    {"velocity = 15.9", R"(velocity = "15.9 M/S")", R"("M/S" is none of its units: m/s, mm/s)"},
-    {"mass = 0.201", R"(mass = "-201 g")", "striker.mass is -0.201|above 0 (kg)"},
-    {"length = 0.7112", R"(length = "28 in")", R"("in" is none of its units: m, mm, um, cm, km)"},
-    {"length = 0.7112", R"(length = "0.7 0.1")", R"(("0.7 0.1")|none of its units)"},
-    {"length = 0.7112", R"(length = "mm")", R"(("mm")|above 0 (m))"},
-    {"density = 2600", "density = 2600\nposition = 0.5",
-     R"(position is a key of [striker]|"striker.position"?)"},
-    {"mass = 0.201", "mass = 0.201\nlaw = \"hertz\"", "law is a key of [contact]"},
-    {"[time]", "[solver]\nmesh = \"cells\"\n[time]", "mesh is a key of [model]"},
-    {"[beam]", "lengt = 1\n[beam]",
-     R"(bad.toml:1:1: |unknown key "lengt"|outside all tables|title)"},
+     R"(2:|711.2 mm is a value with a unit|in quotes, "711.2 mm"|SI)"},
+    {"mass = 0.201", "mass = 201g # light", R"(8:|201 g is a value with a unit|"201 g")"},
+    {"[beam]", "output = { interval = 1us, shapes = 0 }\n[beam]", "1:|1 us is a value with a unit"},
+    {"length = 0.7112", "length = '711.2 kg'",
+     R"(2:1: |("711.2 kg")|"kg" is none of its units: m, mm)"},
+    {"mass = 0.201", "mass = 0.201\nposition = '0.5 m'", "9:1: |write the number without a unit"},
+    {"", "[model]\nsegments = '501 cells'", R"(14:1: |("501 cells")|a whole number)"},
+    {"velocity = 15.9", "velocity = '15.9 M/S'", R"(|"M/S" is none of its units: m/s, mm/s)"},
+    {"mass = 0.201", "mass = '-201 g'", "|striker.mass is -0.201|above 0 (kg)"},
+    {"length = 0.7112", "length = '28 in'", R"(|"in" is none of its units: m, mm, um, cm, km)"},
+    {"length = 0.7112", "length = '0.7 0.1'", R"(|("0.7 0.1")|none of its units)"},
+    {"length = 0.7112", "length = 'mm'", R"(|("mm")|above 0 (m))"},
+    {"youngs", "position = 0.5\nyoungs", R"(|position is a key of [striker]|"striker.position"?)"},
+    {"mass = 0.201", "mass = 0.201\nlaw = 'hertz'", "|law is a key of [contact]"},
+    {"", "[solver]\nmesh = 'cells'", "|mesh is a key of [model]"},
+    {"[beam]", "lengt = 1\n[beam]", R"(1:1: |unknown key "lengt"|outside all tables|title)"},
     {"[time]", "[tiem]",
-     "bad.toml:11:2: |unknown table [tiem]|[beam], [beam.damping], [beam.section], [striker]|did "
-     "you mean [time]?"},
-    {"mass = 0.201\n", "", "bad.toml:7:2: |striker.mass is missing|above 0 (kg)|under [striker]"},
-    {"[time]\nend = 2e-5\n", "", "bad.toml: |table [time] is missing|at least: end"},
-    {"length = 0.7112", R"(length = "0.7112")",
-     R"(bad.toml:2:1: |beam.length is a text ("0.7112")|a number, finite and above 0 (m)|without quotes)"},
-    {"[time]", "[model]\nmesh = \"hermite\"\nspacing = \"points\"\n[time]",
-     R"(bad.toml:13:1: model.spacing is "points"|only cells have a spacing|allowed with this mesh: "cells"|leave it out)"},
-    {"[time]", "[model]\nmesh = \"rigid\"\nspacing = \"points\"\n[time]",
-     R"(bad.toml:13:1: model.spacing is "points"|allowed with this mesh: "cells")"},
-    {"[striker]", "ends = [\"pinned\", \"free\"]\n[model]\nspacing = \"points\"\n[striker]",
-     R"(: model.spacing is "points", which is for free ends|allowed with supports: "cells"|leave it out)"},
-    {"nose_radius = 0.01\n", "",
-     R"(bad.toml: striker.nose_radius is missing|"foundation" needs it|(m))"},
-    {"[time]", "[contact]\nstiffness = 1e7\n[time]",
-     R"(bad.toml:12:1: contact.stiffness is given|"foundation" derives its stiffness|leave it out)"},
-    {"[time]", "[contact]\nlaw = \"linear\"\n[time]",
-     R"(bad.toml: contact.stiffness is missing|"linear" needs it|give it in N/m)"},
-    {"[time]", "[contact]\nlaw = \"linear\"\nstiffness = 1e6\nstriker_modulus = 2e11\n[time]",
-     R"(bad.toml:14:1: contact.striker_modulus is given|"linear" does not use it)"},
-    {"[time]", "[contact]\nlaw = \"hertz\"\n[time]",
-     "bad.toml: contact.striker_modulus is missing|contact.stiffness in N/m^1.5"},
-    {"[time]", "[contact]\nlaw = \"hertz\"\nstiffness = 1e10\nbeam_poisson = 0.3\n[time]",
-     "bad.toml:14:1: contact.beam_poisson is given|already sets the stiffness"},
-    {"[time]", "[output]\nsections = [0.5, 1.5]\n[time]",
-     "bad.toml:12:1: output.sections is [0.5, 1.5]|a list of numbers, each from 0 to 1"},
-    {"[time]", "[output]\nsections = [\"middle\"]\n[time]",
-     R"(bad.toml:12:1: output.sections is a list (["middle"])|a list of numbers)"},
-    {"[time]", "[output]\nsections = [0.5]\ninterval = 0\n[time]",
-     "bad.toml:12:1: output.sections is given|output.interval = 0"},
-    {"[time]", "[output]\npoints = [0.5]\ninterval = 0\n[time]",
-     "bad.toml:12:1: output.points is given|output.interval = 0"},
-    {"[time]", "[output]\nshapes = 1e-15\n[time]",
-     "bad.toml:12:1: |output.shapes is 1e-15 s|at most 2e+07 rows"},
-    {"[time]", "[contact]\nlaw = 3\n[time]",
-     R"(bad.toml:12:1: |contact.law is a whole number (3)|"foundation")"},
-    {"[time]", "[model]\nsegments = 501.0\n[time]",
-     "bad.toml:12:1: |model.segments is a floating-point number|a whole number, from 5 to "
-     "100001|without decimal point"},
-    {"end = 2e-5", "end = 2024-01-31", "bad.toml:12:1: |time.end is a date|above 0 (s)"},
-    {"[time]", "[study]\nbeyond_critical = 1\n[time]",
-     "bad.toml:12:1: |study.beyond_critical is a whole number (1)|true or false"},
-    {"end = 2e-5", "end.value = 2e-5", "bad.toml:12:1: |time.end is a table|a number"},
-    {"[time]", "[[time]]", R"(bad.toml:11:3: |"time" is a list|allowed: a table)"},
-    {"width = 0.0163", "width = -0.0163", "bad.toml:3:1: |beam.width is -0.0163|above 0 (m)"},
-    {"mass = 0.201", "mass = 0", "bad.toml:8:1: |striker.mass is 0|above 0 (kg)"},
-    {"density = 2600", "density = nan",
-     "bad.toml:5:1: |beam.density is nan|finite and above 0 (kg/m3)"},
+     "11:2: |unknown table [tiem]|[beam], [beam.damping], [beam.section], [striker]|did you mean "
+     "[time]?"},
+    {"mass = 0.201\n", "", "7:2: |striker.mass is missing|above 0 (kg)|under [striker]"},
+    {"[time]\nend = 2e-5\n", "", " |table [time] is missing|at least: end"},
+    {"length = 0.7112", "length = '0.7112'",
+     R"(2:1: |beam.length is a text ("0.7112")|a number, finite and above 0 (m)|without quotes)"},
+    {"", "[model]\nmesh = 'hermite'\nspacing = 'points'",
+     R"(15:1: model.spacing is "points"|only cells have a spacing|allowed with this mesh: "cells"|leave it out)"},
+    {"", "[model]\nmesh = 'rigid'\nspacing = 'points'",
+     R"(15:1: model.spacing is "points"|allowed with this mesh: "cells")"},
+    {"[striker]", "ends = ['pinned', 'free']\n[model]\nspacing = 'points'\n[striker]",
+     R"(|: model.spacing is "points", which is for free ends|allowed with supports: "cells"|leave it out)"},
+    {"nose_radius = 0.01\n", "", R"( striker.nose_radius is missing|"foundation" needs it|(m))"},
+    {"", "[contact]\nstiffness = 1e7",
+     R"(14:1: contact.stiffness is given|"foundation" derives its stiffness|leave it out)"},
+    {"", "[contact]\nlaw = 'linear'",
+     R"( contact.stiffness is missing|"linear" needs it|give it in N/m)"},
+    {"", "[contact]\nlaw = 'linear'\nstiffness = 1e6\nstriker_modulus = 2e11",
+     R"(16:1: contact.striker_modulus is given|"linear" does not use it)"},
+    {"", "[contact]\nlaw = 'hertz'",
+     " contact.striker_modulus is missing|contact.stiffness in N/m^1.5"},
+    {"", "[contact]\nlaw = 'hertz'\nstiffness = 1e10\nbeam_poisson = 0.3",
+     "16:1: contact.beam_poisson is given|already sets the stiffness"},
+    {"", "[output]\nsections = [0.5, 1.5]",
+     "14:1: output.sections is [0.5, 1.5]|a list of numbers, each from 0 to 1"},
+    {"", "[output]\nsections = ['middle']",
+     R"(14:1: output.sections is a list (["middle"])|a list of numbers)"},
+    {"", "[output]\nsections = [0.5]\ninterval = 0",
+     "14:1: output.sections is given|output.interval = 0"},
+    {"", "[output]\npoints = [0.5]\ninterval = 0",
+     "14:1: output.points is given|output.interval = 0"},
+    {"", "[output]\nshapes = 1e-15", "14:1: |output.shapes is 1e-15 s|at most 2e+07 rows"},
+    {"", "[contact]\nlaw = 3", R"(14:1: |contact.law is a whole number (3)|"foundation")"},
+    {"", "[model]\nsegments = 501.0",
+     "14:1: |model.segments is a floating-point number|a whole number, from 5 to 100001|without "
+     "decimal point"},
+    {"end = 2e-5", "end = 2024-01-31", "12:1: |time.end is a date|above 0 (s)"},
+    {"", "[study]\nbeyond_critical = 1",
+     "14:1: |study.beyond_critical is a whole number (1)|true or false"},
+    {"end = 2e-5", "end.value = 2e-5", "12:1: |time.end is a table|a number"},
+    {"[time]", "[[time]]", R"(11:3: |"time" is a list|allowed: a table)"},
+    {"width = 0.0163", "width = -0.0163", "3:1: |beam.width is -0.0163|above 0 (m)"},
+    {"mass = 0.201", "mass = 0", "8:1: |striker.mass is 0|above 0 (kg)"},
+    {"density = 2600", "density = nan", "5:1: |beam.density is nan|finite and above 0 (kg/m3)"},
     {"youngs_modulus = 71.96e9", "youngs_modulus = inf",
-     "bad.toml:6:1: |beam.youngs_modulus is inf|finite and above 0 (Pa)"},
-    {"density = 2600", "density = 2600\nyield_stress = -inf",
-     "bad.toml:6:1: |beam.yield_stress is -inf|above 0, or inf (Pa)"},
-    {"velocity = 15.9", "velocity = 15.9\nposition = 1.5",
-     "bad.toml:11:1: |striker.position is 1.5|from 0 to 1"},
-    {"velocity = 15.9", "velocity = 15.9\nposition = 0.0005",
-     "bad.toml:11:1: |striker.position is 0.0005|501 segments|0.000998"},
-    {"[time]", "[model]\nsegments = 1000000000000\n[time]",
-     "bad.toml:12:1: |model.segments is 1000000000000|from 5 to 100001"},
-    {"[time]", "[model]\nlayers = 41\n[time]",
-     "bad.toml:12:1: |model.layers is 41|even, from 2 to 10000"},
-    {"[time]", "[contact]\nlaw = \"foundaton\"\n[time]",
-     R"(bad.toml:12:1: |contact.law is "foundaton"|"foundation"|did you mean "foundation"?)"},
-    {"[time]", "[solver]\nmethod = \"leapfrog\"\n[time]",
-     R"(bad.toml:12:1: |solver.method is "leapfrog"|"central-difference", "erk")"},
-    {"[time]", "[solver]\ntable = \"dop54\"\n[time]",
-     R"(bad.toml:12:1: |solver.table is "dop54"|"dop853", "dormand-prince")"},
-    {"density = 2600", "density = 2600\nends = [\"free\", \"glued\"]",
-     R"(bad.toml:6:1: |beam.ends is "glued"|a list of two out of "free")"},
-    {"density = 2600", "density = 2600\nends = [\"free\", \"fixed\"]",
-     R"(bad.toml:6:1: |beam.ends is "fixed"|did you mean "clamped"?)"},
-    {"density = 2600", "density = 2600\nends = [\"Simply supported\", \"ss\"]",
-     R"(bad.toml:6:1: |beam.ends is "Simply supported"|did you mean "pinned"?)"},
-    {"density = 2600", "density = 2600\nends = \"built-in\"",
-     R"(bad.toml:6:1: |beam.ends is a text ("built-in")|did you mean ["clamped", "clamped"]?)"},
-    {"density = 2600", "density = 2600\nends = [\"hinged\"]",
-     R"(bad.toml:6:1: |did you mean ["pinned", "pinned"]?)"},
-    {"density = 2600", "density = 2600\nends = \"cantilever\"",
-     R"(bad.toml:6:1: |did you mean ["clamped", "free"]?)"},
+     "6:1: |beam.youngs_modulus is inf|finite and above 0 (Pa)"},
+    {"youngs", "yield_stress = -inf\nyoungs",
+     "6:1: |beam.yield_stress is -inf|above 0, or inf (Pa)"},
+    {"[time]", "position = 1.5\n[time]", "11:1: |striker.position is 1.5|from 0 to 1"},
+    {"[time]", "position = 0.0005\n[time]",
+     "11:1: |striker.position is 0.0005|501 segments|0.000998"},
+    {"", "[model]\nsegments = 1000000000000",
+     "14:1: |model.segments is 1000000000000|from 5 to 100001"},
+    {"", "[model]\nlayers = 41", "14:1: |model.layers is 41|even, from 2 to 10000"},
+    {"", "[contact]\nlaw = 'foundaton'",
+     R"(14:1: |contact.law is "foundaton"|"foundation"|did you mean "foundation"?)"},
+    {"", "[solver]\nmethod = 'leapfrog'",
+     R"(14:1: |solver.method is "leapfrog"|"central-difference", "erk")"},
+    {"", "[solver]\ntable = 'dop54'",
+     R"(14:1: |solver.table is "dop54"|"dop853", "dormand-prince")"},
+    {"youngs", "ends = ['free', 'glued']\nyoungs",
+     R"(6:1: |beam.ends is "glued"|a list of two out of "free")"},
+    {"youngs", "ends = ['free', 'fixed']\nyoungs",
+     R"(6:1: |beam.ends is "fixed"|did you mean "clamped"?)"},
+    {"youngs", "ends = ['Simply supported', 'ss']\nyoungs",
+     R"(6:1: |beam.ends is "Simply supported"|did you mean "pinned"?)"},
+    {"youngs", "ends = 'built-in'\nyoungs",
+     R"(6:1: |beam.ends is a text ("built-in")|did you mean ["clamped", "clamped"]?)"},
+    {"youngs", "ends = ['hinged']\nyoungs", R"(6:1: |did you mean ["pinned", "pinned"]?)"},
+    {"youngs", "ends = 'cantilever'\nyoungs", R"(6:1: |did you mean ["clamped", "free"]?)"},
     {"mass = 0.201", "mass = 0,201",
-     "bad.toml:8:|0,201 has a decimal comma|TOML writes a decimal point: 0.201"},
-    {"mass = 0.201", R"(mass = "0,201")",
-     "bad.toml:8:1: striker.mass|TOML writes a decimal point: 0.201"},
+     "8:|0,201 has a decimal comma|TOML writes a decimal point: 0.201"},
+    {"mass = 0.201", "mass = '0,201'", "8:1: striker.mass|TOML writes a decimal point: 0.201"},
     {"[time]\nend = 2e-5", "time = { end = 2,5e-5 }",
-     "bad.toml:11:|2,5e-5 has a decimal comma|TOML writes a decimal point: 2.5e-5"},
-    {"[time]", "[solver]\ntolerance = 1e-9\n[time]",
-     R"(bad.toml:12:1: |unknown key "solver.tolerance"|has moved to "solver.rtol"|write rtol under [solver])"},
-    {"[time]", "[model]\ncells = 501\n[time]",
-     R"(bad.toml:12:1: |unknown key "model.cells"|has moved to "model.segments")"},
-    {"density = 2600", "density = 2600\nends = [\"free\"]",
-     R"(bad.toml:6:1: |beam.ends is ["free"]|a list of two)"},
-    {"density = 2600", "density = 2600\nends = [1, 2]",
-     "bad.toml:6:1: |beam.ends is a list of numbers ([1, 2])|a list of two"},
-    {"[time]", "[solver]\nrtol = 1e-20\n[time]",
-     "bad.toml:12:1: |solver.rtol is 1e-20|from 1e-14 to 0.1"},
-    {"[time]", "[output]\ninterval = 1e-15\n[time]",
-     "bad.toml:12:1: |output.interval is 1e-15 s|at most 5e+06 rows"},
-    {"[time]", "[output]\nsubzone_gap = 0.2\n[time]",
-     "bad.toml:12:1: |output.subzone_gap is 0.2|output.zone_gap = 0.1"},
-    {"[beam]", "title = \"open\n[beam]", "bad.toml:1:|not valid TOML"},
-    {"length = 0.7112", "length = 0.7112\nlength = 0.8", "bad.toml:3:|not valid TOML|length"},
-    {"[beam]", "\xff\xfe[beam]", "bad.toml:1:1: |not valid TOML"},
+     "11:|2,5e-5 has a decimal comma|TOML writes a decimal point: 2.5e-5"},
+    {"", "[solver]\ntolerance = 1e-9",
+     R"(14:1: |unknown key "solver.tolerance"|has moved to "solver.rtol"|write rtol under [solver])"},
+    {"", "[model]\ncells = 501",
+     R"(14:1: |unknown key "model.cells"|has moved to "model.segments")"},
+    {"youngs", "ends = ['free']\nyoungs", R"(6:1: |beam.ends is ["free"]|a list of two)"},
+    {"youngs", "ends = [1, 2]\nyoungs",
+     "6:1: |beam.ends is a list of numbers ([1, 2])|a list of two"},
+    {"", "[solver]\nrtol = 1e-20", "14:1: |solver.rtol is 1e-20|from 1e-14 to 0.1"},
+    {"", "[output]\ninterval = 1e-15", "14:1: |output.interval is 1e-15 s|at most 5e+06 rows"},
+    {"", "[output]\nsubzone_gap = 0.2", "14:1: |output.subzone_gap is 0.2|output.zone_gap = 0.1"},
+    {"[beam]", "title = \"open\n[beam]", "1:|not valid TOML"},
+    {"length = 0.7112", "length = 0.7112\nlength = 0.8", "3:|not valid TOML|length"},
+    {"[beam]", "\xff\xfe[beam]", "1:1: |not valid TOML"},
 };
 
 TEST(BadCaseFile, IsRefusedWithPlaceKeyFindingAndAllowedValues) {
   for (const auto& [from, to, message] : spoilt_cases) {
-    const std::string refusal = refusal_of(small_case_with(from, to));
-    EXPECT_TRUE(refusal.find("bad.toml:") == 0) << refusal;
-    expect_all_in(refusal, message);
+    // Without what is replaced it is added at the end, from line 13 on.
+    const std::string text = *from == '\0' ? small_case_text() + to : small_case_with(from, to);
+    expect_all_in(refusal_of(text), std::string("bad.toml:") + message);
   }
 }
 
@@ -206,27 +182,29 @@ TEST(BadCaseFile, IsNeitherATableNorAPictureNorAScript) {
 
 TEST(Units, StandForTheSameDoublesAsNumbersInSI) {
   struct Written {
-    const char *from, *to, *key, *number;
+    const char* key;
+    std::string number, with_unit;
   };
-  const Written all[] = {
-      {"length = 0.7112", "length = \"711.2 mm\"", "beam.length", "0.7112"},
-      {"length = 0.7112", "length = \"71.12cm\"", "beam.length", "0.7112"},
-      {"length = 0.7112", "length = \" 7.112e2  mm \"", "beam.length", "0.7112"},
-      {"length = 0.7112", "length = \"0.7112 m\"", "beam.length", "0.7112"},
-      {"mass = 0.201", "mass = \"201 g\"", "striker.mass", "0.201"},
-      {"youngs_modulus = 71.96e9", "youngs_modulus = \"71.96 GPa\"", "beam.youngs_modulus",
-       "71.96e9"},
-      {"density = 2600", "density = \"2.6 g/cm3\"", "beam.density", "2600"},
-      {"velocity = 15.9", "velocity = \"15900 mm/s\"", "striker.velocity", "15.9"}};
-  for (const auto& [from, to, key, number] : all) {
-    const LoadedCase loaded = read_case_text(small_case_with(from, to), "case.toml");
-    EXPECT_EQ(std::get<double>(*find_case_key(key)->get(loaded.value)), std::atof(number)) << to;
-    const LoadedCase overridden =
-        read_case_text(small_case_text(), "case.toml",
-                       {parse_override(std::string(key) + "=" +
-                                       std::string(to).substr(std::string(to).find('"')))});
-    EXPECT_EQ(std::get<double>(*find_case_key(key)->get(overridden.value)), std::atof(number))
-        << to;
+  for (const auto& [key, number, with_unit] : {Written{"beam.length", "0.7112", "711.2 mm"},
+                                               {"beam.length", "0.7112", "71.12cm"},
+                                               {"beam.length", "0.7112", " 7.112e2  mm "},
+                                               {"beam.length", "0.7112", "0.7112 m"},
+                                               {"striker.mass", "0.201", "201 g"},
+                                               {"beam.youngs_modulus", "71.96e9", "71.96 GPa"},
+                                               {"beam.density", "2600", "2.6 g/cm3"},
+                                               {"striker.velocity", "15.9", "15900 mm/s"}}) {
+    const CaseKey& found = *find_case_key(key);
+    const auto value_of = [&](const LoadedCase& loaded) {
+      return std::get<double>(*found.get(loaded.value));
+    };
+    const std::string line = found.leaf() + " = ", quoted = '"' + with_unit + '"';
+    EXPECT_EQ(value_of(read_case_text(small_case_with(line + number, line + quoted), "case.toml")),
+              std::stod(number))
+        << with_unit;
+    EXPECT_EQ(value_of(read_case_text(small_case_text(), "case.toml",
+                                      {parse_override(found.name + "=" + quoted)})),
+              std::stod(number))
+        << with_unit;
   }
   const LoadedCase bare =
       read_case_text(small_case_text(), "case.toml", {parse_override("time.end=8 ms")});

@@ -1,8 +1,8 @@
 #include "case_with.h"
+#include "paper_scene.h"
 #include "print.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -82,7 +82,7 @@ TEST(CaseFile, TakesSettingsBeforeItsOwnLinesAndTheLastOfTwo) {
     EXPECT_EQ(with({setting}).value.model.section, SectionKind::elastic) << setting;
   }
   for (const char* setting : {"beam.ends=free,pinned", "beam.ends=[\"free\", \"pinned\"]"}) {
-    EXPECT_EQ(with({setting}).value.scene.beam.ends[1], EndSupport::pinned) << setting;
+    EXPECT_EQ(with({setting}).value.scene.beam.ends[1], pinned) << setting;
   }
 }
 
@@ -165,9 +165,7 @@ TEST(CaseFile, EveryKeyOfTheTableCanBeReadBackFromItsOwnText) {
       covered.insert(key.name);
     }
     const Case copy = read_case_text("", "empty.toml", all).value;
-    for (const CaseKey& key : case_keys()) {
-      EXPECT_EQ(key.get(copy), key.get(original)) << key.name;
-    }
+    for (const CaseKey& key : case_keys()) EXPECT_EQ(key.get(copy), key.get(original)) << key.name;
   }
   // These go with one method, or in place of another key: solver.reversals, solver.max_order,
   // striker.drop_height.

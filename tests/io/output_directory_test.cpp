@@ -4,7 +4,6 @@
 
 #include "file_size_limit.h"
 #include "io/listed_files.h"
-#include "read_file.h"
 #include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
 #include "temporary_directory.h"
@@ -15,14 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> names_in(const fs::path& directory) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(directory)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+using AFullDisk = InADirectory;
+using AnOutputDirectory = InADirectory;
 
 using Names = std::vector<std::string>;
 
@@ -41,16 +34,10 @@ void commit(OutputDirectory& files, const std::string& name, const std::string& 
 
 std::string refusal_of(const fs::path& directory, const std::string& kind,
                        const std::string& identity = "1") {
-  try {
-    const OutputDirectory files(directory, kind, identity);
-  } catch (const OutputError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+  return answer_of<OutputError>([&] { OutputDirectory(directory, kind, identity); });
 }
 
-TEST(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
   for (const char* name : {"", "new"}) {  // which is there, and which is made
     {
       const OutputDirectory files(directory.path / name, "run");
@@ -60,22 +47,16 @@ TEST(AnOutputDirectory, ThatIsNotCommittedIsLeftAsItWas) {
   }
 }
 
-TEST(AnOutputDirectory, IsRefusedWhereAFileHasItsName) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, ThatCannotBeMadeIsRefusedWithTheCause) {
   directory.write("file", "x");
   expect_in(refusal_of(directory.path / "file", "run"), "a file has that name");
   expect_in(refusal_of(directory.path / "file" / "below", "run"), "cannot be made");
-}
-
-TEST(AnOutputDirectory, ThatCannotBeMadeIsRefusedWithTheCause) {
-  const TemporaryDirectory directory;
   expect_in(refusal_of(directory.path / std::string(300, 'x'), "run"), "File name too long");
   fs::create_symlink("nothing", directory.path / "link");
   expect_in(refusal_of(directory.path / "link", "run"), "a symbolic link to nothing");
 }
 
-TEST(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
   fs::create_directory(directory.path / "real");
   fs::create_directory_symlink("real", directory.path / "link");
   for (const char* content : {"1", "2"}) {
@@ -87,18 +68,17 @@ TEST(AnOutputDirectory, NamedByASymbolicLinkHasItsFilesInTheirPlaces) {
   }
 }
 
-TEST(AnOutputDirectory, HasOneWriterAtATime) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, HasOneWriterAtATime) {
   {
     const OutputDirectory first(directory.path, "run");
     expect_in(refusal_of(directory.path, "run"), "process " + std::to_string(getpid()) + " on ",
               "is writing into this directory; wait until");
+    EXPECT_THROW(OutputDirectory(directory.path, "run"), DirectoryInUse);
   }
   EXPECT_EQ(refusal_of(directory.path, "run"), "(accepted)");
 }
 
-TEST(AnOutputDirectory, LosesTheFilesOfTheRunBefore) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, LosesTheFilesOfTheRunBefore) {
   make(directory.path, "run", "1", {{"sections.csv", "old"}, {"events.csv", "old"}});
   OutputDirectory files(directory.path, "run");
   EXPECT_EQ(directory.read("events.csv"), "old");
@@ -108,8 +88,7 @@ TEST(AnOutputDirectory, LosesTheFilesOfTheRunBefore) {
   EXPECT_TRUE(files.notes().empty());
 }
 
-TEST(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
   directory.write("notes.txt", "mine");
   directory.write("transitions.csv", "mine");
   fs::create_symlink("notes.txt", directory.path / "summary.json");
@@ -130,8 +109,7 @@ TEST(AnOutputDirectory, KeepsFilesThatAreNotOfTheProgramOrWereChanged) {
   EXPECT_EQ(files.notes().size(), 4u);
 }
 
-TEST(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
   make(directory.path, "run", "1", {{"figure.gp", "drawn"}, {"events.csv", "old"}});
   std::ofstream(directory.path / "figure.gp", std::ios::app) << " and my colours";
   {
@@ -144,8 +122,7 @@ TEST(AnOutputDirectory, NotesAFileThatItKeepsOnce) {
   EXPECT_EQ(directory.read("figure.gp"), "drawn and my colours");
 }
 
-TEST(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
   make(directory.path, "run", "1", {{"events.csv", "of run 1"}});
   make(directory.path, "figures", "1", {{"response.svg", "of run 1"}});
   EXPECT_EQ(ListedFiles(directory.path).text("events.csv"), "of run 1");
@@ -156,31 +133,27 @@ TEST(AnOutputDirectory, TakesTheFiguresOfItsOwnRunOnly) {
   EXPECT_FALSE(directory.has("response.svg"));
 }
 
-TEST(AnOutputDirectory, DoesNotMixTheFiguresOfTwoRunsWithoutIdentity) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, DoesNotMixTheFiguresOfTwoRunsWithoutIdentity) {
   make(directory.path, "figures", "", {{"bending.svg", "of one run"}});
   OutputDirectory figures(directory.path, "figures", "");
   commit(figures, "response.svg", "of another run");
   EXPECT_FALSE(directory.has("bending.svg"));
 }
 
-TEST(AnOutputDirectory, HoldsFilesOfOneKind) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, HoldsFilesOfOneKind) {
   make(directory.path, "compare", "1", {{"comparison.csv", "1"}});
   expect_in(refusal_of(directory.path, "run"), "holds the results of `subimpact compare`");
   EXPECT_EQ(refusal_of(directory.path, "compare"), "(accepted)");
 }
 
-TEST(AnOutputDirectory, WithAManifestOfAnotherProgramIsRefused) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, WithAManifestOfAnotherProgramIsRefused) {
   directory.write("manifest.json", "{\"name\": \"of a web page\"}");
   expect_in(refusal_of(directory.path, "run"), "is not a manifest of this program");
   EXPECT_EQ(names_in(directory.path), (Names{"manifest.json"}));
 }
 
 // A manifest from elsewhere may name files outside its directory.
-TEST(AnOutputDirectory, IsNotLedOutsideByItsManifest) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, IsNotLedOutsideByItsManifest) {
   directory.write("outside", "x");
   fs::create_directory(directory.path / "inside");
   std::ofstream(directory.path / "inside" / "manifest.json")
@@ -240,8 +213,7 @@ TEST_F(AKilledWriter, LeavesTheNewerFilesFromItsManifestOn) {
   EXPECT_FALSE(fs::exists(killed_.path / staging_));
 }
 
-TEST(AFullDisk, SendsWhatWasStagedElsewhere) {
-  const TemporaryDirectory directory;
+TEST_F(AFullDisk, SendsWhatWasStagedElsewhere) {
   OutputDirectory files(directory.path, "run");
   write_file(files.staging() / "events.csv", "1");
   files.relocate("disk full");
@@ -255,8 +227,7 @@ TEST(AFullDisk, SendsWhatWasStagedElsewhere) {
   fs::remove_all(files.path());
 }
 
-TEST(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
-  const TemporaryDirectory directory;
+TEST_F(AFullDisk, IsNamedByTheFileThatCannotBeWritten) {
   std::string message;
   {
     const FileSizeLimit limit(1000);
@@ -290,8 +261,7 @@ TEST(FilesBeingMade, AreNamedByTheirPlaceInMessages) {
             (directory.path / "events.csv").string() + ": cannot be written");
 }
 
-TEST(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
-  const TemporaryDirectory directory;
+TEST_F(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
   fs::create_directory(directory.path / ".subimpact-backup");
   write_file(directory.path / ".subimpact-backup" / "data", "mine");
   write_file(directory.path / ".subimpact-notes", "mine");
@@ -299,12 +269,6 @@ TEST(AnOutputDirectory, KeepsHiddenFilesThatTheProgramDidNotMake) {
   commit(files, "events.csv", "1");
   EXPECT_EQ(directory.read(".subimpact-backup/data"), "mine");
   EXPECT_EQ(directory.read(".subimpact-notes"), "mine");
-}
-
-TEST(AnOutputDirectory, ThatIsInUseIsRefusedAsSuch) {
-  const TemporaryDirectory directory;
-  const OutputDirectory files(directory.path, "run");
-  EXPECT_THROW(OutputDirectory(directory.path, "run"), DirectoryInUse);
 }
 
 TEST(APipeInPlaceOfAFile, IsRefusedInsteadOfWaitedFor) {

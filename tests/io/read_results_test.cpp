@@ -1,20 +1,18 @@
-#include "subimpact/io/read_results.h"
-#include "io/record.h"
-#include "io/run_tables.h"
-
 #include <fmt/format.h>
 
+#include "case_with.h"
+#include "io/record.h"
 #include "io/row_thinning.h"
+#include "io/run_tables.h"
 #include "print.h"
-#include "read_file.h"
 #include "reseal.h"
 #include "sample_result.h"
 #include "small_case.h"
 #include "subimpact/case/case_keys.h"
-#include "subimpact/io/case_file.h"
+#include "subimpact/io/read_results.h"
 #include "subimpact/io/results.h"
+#include "subimpact/simulate/error.h"
 #include "temporary_directory.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -22,21 +20,15 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string refusal_of(const std::filesystem::path& directory) {
-  try {
-    read_results(directory);
-  } catch (const ResultsError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+  return answer_of<ResultsError>([&] { read_results(directory); });
 }
+
+Case small_case() { return read_case_text(small_case_text(), "small.toml").value; }
 
 TEST(ReadResults, IsTheInverseOfWritingThem) {
   const Case paper =
-      read_case_file(SUBIMPACT_PAPER_CASE,
-                     {parse_override("time.end=2e-5"), parse_override("output.sections=0.5,0.3"),
-                      parse_override("output.points=0.1,0.9")})
-          .value;
-  Case linear = read_case_text(small_case_text(), "small.toml").value;
+      paper_case_with({"time.end=2e-5", "output.sections=0.5,0.3", "output.points=0.1,0.9"});
+  Case linear = small_case();
   linear.scene.contact = {ContactKind::linear, 1e8, {}, {}, {}};
   linear.model.section = SectionKind::elastic;
   linear.solver.method = Method::central_difference;
@@ -77,7 +69,7 @@ TEST(ReadResults, RefusesNumbersThatAreNoIntegersWhereIntegersStand) {
 // A result written with the small case and read back.
 FinishedRun written_and_read(const Result& result) {
   const TemporaryDirectory directory;
-  const Case input = read_case_text(small_case_text(), "small.toml").value;
+  const Case input = small_case();
   write_results(directory.path, input, result);
   FinishedRun run = read_results(directory.path);
   EXPECT_EQ(summary_json(run.input, run.result), summary_json(input, result));
@@ -187,8 +179,7 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
   const TemporaryDirectory directory;
   expect_in(refusal_of(directory.path / "nowhere"), "nowhere: is not a directory");
   expect_in(refusal_of(directory.path), "summary.json: cannot be read (No such file");
-  write_results(directory.path, read_case_text(small_case_text(), "small.toml").value,
-                sample_result());
+  write_results(directory.path, small_case(), sample_result());
   EXPECT_EQ(refusal_of(directory.path), "(accepted)");
   const std::string summary = read_file(directory.path / "summary.json");
   const auto refusal_with = [&](const char* name, const std::string& text) {
@@ -217,26 +208,23 @@ TEST(ReadResults, SaysWhichFileIsMissingOrSpoilt) {
 }
 
 TEST(ReadResults, RefuseFilesThatWereChangedSince) {
-  const Case input = read_case_text(small_case_text(), "small.toml").value;
-  for (const char* name : {"events.csv", "transitions.csv", "history.csv", "summary.json"}) {
+  for (const std::string name : {"events.csv", "transitions.csv", "history.csv", "summary.json"}) {
     const TemporaryDirectory directory;
-    write_results(directory.path, input, sample_result());
+    write_results(directory.path, small_case(), sample_result());
     std::ofstream(directory.path / name, std::ios::app) << " ";
-    expect_in(refusal_of(directory.path),
-              std::string(name) + ": is not the file that the run wrote (its length or checksum");
+    expect_in(refusal_of(directory.path), name + ": is not the file that the run wrote",
+              "checksum");
     std::filesystem::remove(directory.path / name);
-    expect_in(refusal_of(directory.path),
-              std::string(name) + ": is not the file that the run wrote");
+    expect_in(refusal_of(directory.path), name + ": is not the file that the run wrote");
   }
 }
 
 TEST(ReadResults, RefuseTheFilesOfTwoRuns) {
-  const Case input = read_case_text(small_case_text(), "small.toml").value;
   const TemporaryDirectory one, other;
-  write_results(one.path, input, sample_result());
+  write_results(one.path, small_case(), sample_result());
   Result later = sample_result();
   later.sub_impacts.pop_back();
-  write_results(other.path, input, later);
+  write_results(other.path, small_case(), later);
   std::filesystem::copy_file(other.path / "events.csv", one.path / "events.csv",
                              std::filesystem::copy_options::overwrite_existing);
   expect_in(refusal_of(one.path), "events.csv: is not the file that the run wrote");
@@ -253,13 +241,10 @@ TEST(ReadResults, KeepTheExtremesOfALongHistory) {
   }
   const std::vector<HistoryRow> kept = rows.take();
   EXPECT_LE(kept.size(), 1100u);
-  const auto has = [&](double time) {
-    return std::any_of(kept.begin(), kept.end(),
-                       [&](const HistoryRow& row) { return row.time == time; });
-  };
-  for (const double time : {0.0, 12'345.0, 54'321.0, 99'999.0}) EXPECT_TRUE(has(time)) << time;
-  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(),
-                             [](const auto& a, const auto& b) { return a.time < b.time; }));
+  for (const double time : {0.0, 12'345.0, 54'321.0, 99'999.0}) {
+    EXPECT_EQ(std::ranges::count(kept, time, &HistoryRow::time), 1) << time;
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(kept, {}, &HistoryRow::time));
 }
 
 TEST(ReadResults, KeepTheSectionsOfAnInstantTogether) {
@@ -281,6 +266,46 @@ TEST(ReadResults, KeepTheSectionsOfAnInstantTogether) {
     has_extreme = has_extreme || kept[i].curvature == 1.0;
   }
   EXPECT_TRUE(has_extreme);
+}
+
+Signal signal_of(const std::string& text) {
+  const TemporaryDirectory directory;
+  return read_signal(directory.write("force.csv", text));
+}
+
+std::string refusal(const std::string& text) {
+  return message_of<ResultsError>([&] { signal_of(text); });
+}
+
+TEST(ReadSignal, TakesUnitsFromTheHeading) {
+  for (const char* text :
+       {"time_us,force_kN\n-1,0.0\n0,1.5\n1,2e0\n",
+        "t [us],channel 1,F [kN]\n-1,9,0\n0,9,1.5\n1,9,2\n",
+        "\xef\xbb\xbf\"time, µs\";\"force (kN)\"\r\n-1;0\r\n0;1.5\r\n1;2\r\n",
+        "v_m_per_s\ttime_ns\tforce N\n1\t-1000\t0\n2\t0\t 1500\n3\t1000\t2000\n\n"}) {
+    const Signal signal = signal_of(text);
+    ASSERT_EQ(signal.times.size(), 3u) << text;
+    EXPECT_DOUBLE_EQ(signal.times[0], -1e-6) << text;
+    EXPECT_DOUBLE_EQ(signal.times[2], 1e-6) << text;
+    EXPECT_DOUBLE_EQ(signal.forces[1], 1500.0) << text;
+  }
+}
+
+TEST(ReadSignal, NamesWhatIsWrong) {
+  expect_in(refusal("time,force\n0,1\n"), "unit of time (s, ms, us, ns)");
+  expect_in(refusal("time_s,force\n0,1\n"), "unit of force (N, mN, kN, MN)");
+  expect_in(refusal("time_s,F1_N,F2_N\n0,1,1\n"), "several columns (F1_N, F2_N)");
+  expect_in(refusal("time_s,force_N\n0,1\n1,x\n2,1\n"), "force.csv:3: force_N is \"x\"");
+  expect_in(refusal("time_s,force_N\n0,1\n1,nan\n2,1\n"), "force_N is \"nan\"");
+  expect_in(refusal("time_s,force_N\n0,1\n0,1\n2,1\n"), "force.csv:3: time_s is \"0\"", "later");
+  expect_in(refusal("time_s;force_N\n0;1\n1;1,5\n"), "force.csv:3: has a comma within a number");
+  expect_in(refusal("time_s,force_N\n0,1\n1,1,5\n"), "has 3 cells where the header has 2");
+  expect_in(refusal("time_s,force_N\n0,1\n1,1\n"), "has 2 rows of numbers");
+  expect_in(refusal(""), "has no heading");
+}
+
+TEST(ReadSignal, ReadsOfSeveralForcesTheOneNamedForce) {
+  EXPECT_EQ(signal_of("time_s,R_N,force_N\n0,1,2\n1,1,2\n2,1,2\n").forces[0], 2.0);
 }
 
 }  // namespace

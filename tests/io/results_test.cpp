@@ -4,17 +4,17 @@
 #include <nlohmann/json.hpp>
 
 #include "print.h"
-#include "read_file.h"
 #include "sample_result.h"
 #include "subimpact/case/case_keys.h"
 #include "subimpact/io/case_file.h"
 #include "temporary_directory.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
 
 namespace fs = std::filesystem;
+using WriteResults = InADirectory;
+
 using Table = std::vector<std::vector<std::string>>;
 
 Table parse_csv(const std::string& text) {
@@ -248,20 +248,14 @@ TEST(SummaryJson, KeepsAllDigits) {
             0.1 + 0.2);
 }
 
-TEST(WriteResults, LeavesItsFilesAndNothingElse) {
-  const TemporaryDirectory directory;
+TEST_F(WriteResults, LeavesItsFilesAndNothingElse) {
   write_results(directory.path / "new" / "deep", sample_case(), sample_result());
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(directory.path / "new" / "deep")) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"case.toml", "events.csv", "history.csv",
-                                             "manifest.json", "summary.json", "transitions.csv"}));
+  EXPECT_EQ(names_in(directory.path / "new" / "deep"),
+            (std::vector<std::string>{"case.toml", "events.csv", "history.csv", "manifest.json",
+                                      "summary.json", "transitions.csv"}));
 }
 
-TEST(WriteResults, ReplacesAnEarlierRun) {
-  const TemporaryDirectory directory;
+TEST_F(WriteResults, ReplacesAnEarlierRun) {
   Case with_sections = sample_case();
   with_sections.output.sections = {0.5};
   write_results(directory.path, with_sections, sample_result());
@@ -273,7 +267,7 @@ TEST(WriteResults, ReplacesAnEarlierRun) {
   EXPECT_FALSE(fs::exists(directory.path / "sections.csv"));
 }
 
-TEST(WriteResults, OfRowsAsTheyAreMadeAreThoseOfTheWholeResult) {
+TEST_F(WriteResults, OfRowsAsTheyAreMadeAreThoseOfTheWholeResult) {
   const TemporaryDirectory at_once, as_made;
   Case input = sample_case();
   input.end_time = 3e-4;

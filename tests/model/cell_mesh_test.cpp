@@ -1,11 +1,7 @@
 #include "model/cell_mesh.h"
-
-#include "dense.h"
 #include "mesh_contract.h"
 #include "numerics/mass_solver.h"
-#include "paper_scene.h"
-#include "random_walk.h"
-#include "testing.h"
+#include "subimpact/model/matrix_mesh.h"
 
 namespace subimpact {
 namespace {
@@ -13,18 +9,12 @@ namespace {
 using Extent = CellMesh::Extent;
 using Spacing = CellMesh::Spacing;
 
-Beam beam_of(BeamTheory theory) {
-  Beam beam = paper_beam();
-  beam.theory = theory;
-  return beam;
-}
-
 // Meshes of every shape: whole and half, few and many cells, strikes on and between centres and at
 // the ends.
 std::vector<CellMesh> meshes() {
   std::vector<CellMesh> all;
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
-    const Beam beam = beam_of(theory);
+    const Beam beam = paper_beam(theory);
     for (const std::size_t n : {5u, 7u, 11u, 101u}) {
       all.emplace_back(beam, 0.5, n, Extent::whole);
       all.emplace_back(beam, 0.5, n, Extent::half);
@@ -42,10 +32,9 @@ std::vector<CellMesh> meshes() {
 // The same on supports.
 std::vector<CellMesh> supported_meshes() {
   std::vector<CellMesh> all;
-  for (const EndSupport first : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
-    for (const EndSupport second : {EndSupport::free, EndSupport::pinned, EndSupport::clamped}) {
-      Beam beam = paper_beam();
-      beam.ends = {first, second};
+  for (const EndSupport first : all_ends) {
+    for (const EndSupport second : all_ends) {
+      const Beam beam = paper_beam(BeamTheory::rayleigh, {first, second});
       if (beam.is_free()) continue;
       for (const std::size_t n : {7u, 8u, 31u}) {
         for (const double position : {0.1, 0.5, 0.77}) {
@@ -72,8 +61,7 @@ TEST(CellMesh, BendingHasNoNetMoment) {
   for (const CellMesh& mesh : meshes()) {
     if (mesh.symmetric()) continue;  // the mirrored half's moment cancels this half's
     const std::vector<double> moments = random_numbers(4, mesh.n_sections());
-    std::vector<double> forces(mesh.n_unknowns());
-    mesh.bending_forces(moments, forces);
+    const std::vector<double> forces = bending_forces_of(mesh, moments);
     double net_moment = 0.0, force_size = 0.0;
     for (std::size_t i = 0; i < forces.size(); ++i) {
       net_moment += forces[i] * static_cast<double>(i);
@@ -89,8 +77,7 @@ TEST(CellMesh, RigidMotionsDoNotBend) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
       motion[i] = 3.0 + (mesh.symmetric() ? 0.0 : 0.25 * static_cast<double>(i));
     }
-    std::vector<double> curvatures(mesh.n_sections());
-    mesh.curvatures(motion, curvatures);
+    const std::vector<double> curvatures = curvatures_of(mesh, motion);
     for (const double kappa : curvatures) EXPECT_EQ(kappa, 0.0) << mesh.description();
   }
 }
@@ -100,19 +87,18 @@ TEST(CellMesh, ParabolaHasItsCurvatureInEverySection) {
   for (const Extent extent : {Extent::whole, Extent::half}) {
     const CellMesh mesh(beam, 0.5, 41, extent);
     const double dx = beam.length / 41;
-    std::vector<double> w(mesh.n_unknowns()), curvatures(mesh.n_sections());
+    std::vector<double> w(mesh.n_unknowns());
     for (std::size_t i = 0; i < w.size(); ++i) {
       const double x = (static_cast<double>(i) + 0.5) * dx - 0.5 * beam.length;
       w[i] = 0.35 * x * x;
     }
-    mesh.curvatures(w, curvatures);
-    for (const double kappa : curvatures) EXPECT_NEAR(kappa, 0.7, 1e-11);
+    for (const double kappa : curvatures_of(mesh, w)) EXPECT_NEAR(kappa, 0.7, 1e-11);
   }
 }
 
 TEST(CellMesh, HasTheBeamsMassAndTheRotaryInertiaOfAnInnerRotationOrOfAWholeOne) {
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
-    const Beam beam = beam_of(theory);
+    const Beam beam = paper_beam(theory);
     const CellMesh half(beam, 0.5, 41, Extent::half);
     EXPECT_NEAR(half.mass().quadratic_form(half.translation()), beam.mass(), 1e-13 * beam.mass());
     const CellMesh mesh(beam, 0.5, 200, Extent::whole);
@@ -147,19 +133,10 @@ TEST(CellsAboutPoints, HaveTheEquationsOfABeamLongerByASpacing) {
     EXPECT_NEAR(points.mass().quadratic_form(w), cells.mass().quadratic_form(w), 1e-14);
     EXPECT_EQ(points.struck_point()(w), cells.struck_point()(w));
     EXPECT_NEAR(points.highest_frequency(1.0), cells.highest_frequency(1.0), 1e-9);
-    std::vector<double> kappa(cells.n_sections()), expected(cells.n_sections());
-    points.curvatures(w, kappa);
-    cells.curvatures(w, expected);
-    for (std::size_t i = 0; i < kappa.size(); ++i) {
-      EXPECT_NEAR(kappa[i], expected[i], 1e-12 * std::abs(expected[i]));
-      EXPECT_NEAR(points.section_weights()[i], cells.section_weights()[i], 1e-16);
-    }
-    std::vector<double> forces(w.size()), expected_forces(w.size());
-    points.bending_forces(expected, forces);
-    cells.bending_forces(expected, expected_forces);
-    for (std::size_t i = 0; i < w.size(); ++i) {
-      EXPECT_NEAR(forces[i], expected_forces[i], 1e-12 * std::abs(expected_forces[i]));
-    }
+    const std::vector<double> kappa = curvatures_of(cells, w);
+    expect_near(curvatures_of(points, w), kappa, 0.0, 1e-12);
+    expect_near(points.section_weights(), cells.section_weights(), 1e-16);
+    expect_near(bending_forces_of(points, kappa), bending_forces_of(cells, kappa), 0.0, 1e-12);
   }
 }
 
@@ -181,7 +158,7 @@ TEST(CellsAboutPoints, LieFromEndToEnd) {
 TEST(CellMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
     for (const std::size_t n : {5u, 7u, 51u}) {
-      const Beam beam = beam_of(theory);
+      const Beam beam = paper_beam(theory);
       const auto spacing = n == 7 ? CellMesh::Spacing::whole : CellMesh::Spacing::cells;
       const CellMesh whole(beam, 0.5, n, Extent::whole, spacing);
       const CellMesh half(beam, 0.5, n, Extent::half, spacing);
@@ -195,9 +172,8 @@ TEST(CellMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
       EXPECT_DOUBLE_EQ(half.section_positions()[half.struck_section()],
                        whole.section_positions()[whole.struck_section()]);
 
-      std::vector<double> kappa(half.n_sections()), both_kappa(whole.n_sections());
-      half.curvatures(w, kappa);
-      whole.curvatures(both, both_kappa);
+      const std::vector<double> kappa = curvatures_of(half, w);
+      const std::vector<double> both_kappa = curvatures_of(whole, both);
       double energy = 0.0, both_energy = 0.0;
       for (std::size_t i = 0; i < kappa.size(); ++i) {
         EXPECT_NEAR(kappa[i], both_kappa[i], 1e-12 * std::abs(kappa[i]));
@@ -208,9 +184,8 @@ TEST(CellMesh, HalfAndWholeModelAgreeOnSymmetricFields) {
       }
       EXPECT_NEAR(energy, both_energy, 1e-12 * energy);
 
-      std::vector<double> forces(w.size()), both_forces(n);
-      half.bending_forces(kappa, forces);
-      whole.bending_forces(both_kappa, both_forces);
+      const std::vector<double> forces = bending_forces_of(half, kappa);
+      const std::vector<double> both_forces = bending_forces_of(whole, both_kappa);
       for (std::size_t i = 0; i < w.size(); ++i) {
         const double folded =
             i + 1 < w.size() ? both_forces[i] + both_forces[n - 1 - i] : both_forces[i];
@@ -245,34 +220,30 @@ TEST(CellMesh, OnSupportsKeepsTheShapesTheyAreMadeFor) {
   Beam beam = paper_beam();
   const std::size_t n = 40;
   const double dx = beam.length / static_cast<double>(n);
-  beam.ends = {EndSupport::pinned, EndSupport::pinned};
-  const CellMesh pinned(beam, 0.5, n, Extent::whole);
-  std::vector<double> w(pinned.n_unknowns());
-  std::vector<double> curvatures(pinned.n_sections());
+  beam.ends = {pinned, pinned};
+  const CellMesh on_pins(beam, 0.5, n, Extent::whole);
+  std::vector<double> w(on_pins.n_unknowns());
   const double wave = 3.0 * M_PI / beam.length;
+  std::vector<double> expected(w.size());
   for (std::size_t i = 0; i < w.size(); ++i) {
     w[i] = std::sin(wave * (static_cast<double>(i) + 0.5) * dx);
+    expected[i] = -4.0 * std::pow(std::sin(0.5 * wave * dx) / dx, 2) * w[i];
   }
-  pinned.curvatures(w, curvatures);
-  const double factor = -4.0 * std::pow(std::sin(0.5 * wave * dx) / dx, 2);
-  for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(curvatures[i], factor * w[i], 1e-9);
+  expect_near(curvatures_of(on_pins, w), expected, 1e-9);
 
-  beam.ends = {EndSupport::clamped, EndSupport::free};
-  const CellMesh clamped(beam, 0.5, n, Extent::whole);
-  w.resize(clamped.n_unknowns());
-  curvatures.resize(clamped.n_sections());
+  beam.ends = {clamped, free_end};
+  const CellMesh cantilever(beam, 0.5, n, Extent::whole);
+  w.resize(cantilever.n_unknowns());
   for (std::size_t i = 0; i < w.size(); ++i) {
     w[i] = 0.35 * std::pow((static_cast<double>(i) + 1.5) * dx, 2);
   }
-  clamped.curvatures(w, curvatures);
-  for (const double kappa : curvatures) EXPECT_NEAR(kappa, 0.7, 1e-11);
-  EXPECT_EQ(clamped.first_end()(w), 0.0);
-  EXPECT_TRUE(clamped.translation().empty());
+  for (const double kappa : curvatures_of(cantilever, w)) EXPECT_NEAR(kappa, 0.7, 1e-11);
+  EXPECT_EQ(cantilever.first_end()(w), 0.0);
+  EXPECT_TRUE(cantilever.translation().empty());
 }
 
 TEST(CellMesh, StrikesTheCellBesideAClampAsIfItWereAnUnknown) {
-  Beam beam = paper_beam();
-  beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  const Beam beam = paper_beam(BeamTheory::rayleigh, {clamped, clamped});
   for (const double position : {0.5 / 20, 1.0 / 20, 19.5 / 20}) {
     const CellMesh mesh(beam, position, 20, Extent::whole);
     std::vector<double> w(mesh.n_unknowns(), 9.0);
@@ -287,30 +258,77 @@ TEST(CellMesh, RefusesShapesItCannotModel) {
   EXPECT_THROW(CellMesh(beam, 0.5, 50, Extent::half), std::invalid_argument);
   EXPECT_THROW(CellMesh(beam, 0.4, 51, Extent::half), std::invalid_argument);
   EXPECT_NO_THROW(CellMesh(beam, 0.4, 50, Extent::whole));
-  Beam clamped = paper_beam();
-  clamped.ends = {EndSupport::clamped, EndSupport::pinned};
-  EXPECT_THROW(CellMesh(clamped, 0.5, 6, Extent::whole), std::invalid_argument);
-  EXPECT_THROW(CellMesh(clamped, 0.5, 7, Extent::half), std::invalid_argument);
-  EXPECT_NO_THROW(CellMesh(clamped, 0.5, 7, Extent::whole));
-  EXPECT_THROW(CellMesh(clamped, 0.5, 7, Extent::whole, Spacing::points), std::invalid_argument);
+  const Beam held = paper_beam(BeamTheory::rayleigh, {clamped, pinned});
+  EXPECT_THROW(CellMesh(held, 0.5, 6, Extent::whole), std::invalid_argument);
+  EXPECT_THROW(CellMesh(held, 0.5, 7, Extent::half), std::invalid_argument);
+  EXPECT_NO_THROW(CellMesh(held, 0.5, 7, Extent::whole));
+  EXPECT_THROW(CellMesh(held, 0.5, 7, Extent::whole, Spacing::points), std::invalid_argument);
 }
 
 TEST(BandedSolver, SolvesTheMassMatricesOfBeams) {
-  Beam slender = paper_beam();
-  slender.theory = BeamTheory::euler_bernoulli;
-  for (const Beam& beam : {paper_beam(), slender}) {
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
     for (const std::size_t n : {5u, 17u, 251u, 501u, 2001u}) {
-      for (const auto extent : {CellMesh::Extent::whole, CellMesh::Extent::half}) {
-        const CellMesh mesh(beam, 0.5, n, extent);
+      for (const Extent extent : {Extent::whole, Extent::half}) {
+        const CellMesh mesh(paper_beam(theory), 0.5, n, extent);
         const BandedSolver solver(mesh.mass());
         const std::vector<double> expected = random_numbers(9, mesh.n_unknowns());
-        std::vector<double> x(mesh.n_unknowns());
-        mesh.mass().multiply(expected, x);
+        std::vector<double> x = times(mesh.mass(), expected);
         solver.solve(x);
         // The rotary inertia of small cells makes the matrix stiff: up to 1 + 4 r^2/dx^2.
         EXPECT_LE(relative_difference(x, expected), 1e-12) << mesh.description();
       }
     }
+  }
+}
+
+MeshMatrices matrices_of(const BeamMesh& mesh) {
+  MeshMatrices matrices{.mass = mesh.mass()};
+  for (std::size_t i = 0; i < mesh.n_sections(); ++i) {
+    const auto [first, row] = mesh.section_stencil(i);
+    matrices.curvature.push_back({first, {row.begin(), row.end()}});
+    matrices.weights.push_back(mesh.section_weights()[i]);
+    matrices.positions.push_back(mesh.section_positions()[i]);
+  }
+  matrices.struck_point = mesh.struck_point();
+  matrices.first_end = mesh.first_end();
+  matrices.translation.assign(mesh.translation().begin(), mesh.translation().end());
+  return matrices;
+}
+
+TEST(AMeshOfTheMatricesOfCells, IsThatMesh) {
+  const CellMesh cells(paper_scene().beam, 0.5, 61, CellMesh::Extent::whole,
+                       CellMesh::Spacing::cells);
+  const auto mesh = mesh_of(matrices_of(cells));
+  EXPECT_EQ(mesh->struck_section(), cells.struck_section());
+  EXPECT_NEAR(mesh->beam_mass(), cells.beam_mass(), 1e-12);
+  std::vector<double> w(cells.n_unknowns());
+  for (std::size_t i = 0; i < w.size(); ++i) w[i] = std::sin(0.7 * static_cast<double>(i * i));
+  const std::vector<double> kappa = curvatures_of(cells, w);
+  expect_near(curvatures_of(*mesh, w), kappa, 1e-6, 1e-9);
+  expect_near(bending_forces_of(*mesh, kappa), bending_forces_of(cells, kappa), 1.0, 1e-9);
+  expect_near(mesh->momentum_functional(), cells.momentum_functional(), 1e-12);
+}
+
+TEST(AMeshOfMatrices, BoundsItsHighestFrequencyClosely) {
+  const CellMesh cells(paper_scene().beam, 0.5, 41, CellMesh::Extent::whole,
+                       CellMesh::Spacing::cells);
+  const auto mesh = mesh_of(matrices_of(cells));
+  const double bound = mesh->highest_frequency(40.0);
+  const double highest = dense_natural_modes(*mesh, 40.0).frequencies.back();
+  EXPECT_GT(bound, highest);
+  EXPECT_LT(bound, 1.002 * highest);
+}
+
+TEST(AMeshOfMatrices, IsRefusedWhereTheyDoNotGoTogether) {
+  const CellMesh cells(paper_scene().beam, 0.5, 41, CellMesh::Extent::whole,
+                       CellMesh::Spacing::cells);
+  const MeshMatrices right = matrices_of(cells);
+  MeshMatrices few_weights = right, long_row = right, no_mass = right;
+  few_weights.weights.pop_back();
+  long_row.curvature.back().first += 5;
+  no_mass.mass.set_zero();
+  for (const MeshMatrices& wrong : {few_weights, long_row, no_mass}) {
+    EXPECT_THROW(mesh_of(wrong), std::invalid_argument);
   }
 }
 

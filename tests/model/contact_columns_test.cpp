@@ -4,7 +4,6 @@
 #include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -85,9 +85,7 @@ double duration_constant(double exponent) {
   const PowerContact law(1.0, exponent, infinity);
   const double d_max = std::pow(0.5 * (exponent + 1.0), 1.0 / (exponent + 1.0));
   const double h = 1e-4;
-  double x = 0.0;
-  double v = 1.0;
-  double t = 0.0;
+  double x = 0.0, v = 1.0, t = 0.0;
   for (;;) {
     const double x1 = x + 0.5 * h * v, v1 = v - 0.5 * h * law.contact_force({}, x);
     const double x2 = x + 0.5 * h * v1, v2 = v - 0.5 * h * law.contact_force({}, x1);
@@ -209,8 +207,7 @@ TEST(ContactLaw, RecoverablePlusDissipatedEnergyIsTheWorkDoneOnAnyPath) {
   const double unit = law.yield_indentation();
   for (unsigned seed = 0; seed < 20; ++seed) {
     ContactHistory history;
-    double at = 0.0;
-    double work = 0.0;
+    double at = 0.0, work = 0.0;
     for (const double next : nested_walk(seed, 200, -unit, 15.0 * unit, 6.0 * unit)) {
       work += work_along(law, history, at, next);
       at = next;
@@ -226,8 +223,7 @@ TEST(ContactLaw, WorkOverAnyClosedPathIsNotNegative) {
   const double unit = law.yield_indentation();
   for (unsigned seed = 0; seed < 50; ++seed) {
     ContactHistory history;
-    double at = 0.0;
-    double work = 0.0;
+    double at = 0.0, work = 0.0;
     std::vector<double> path = nested_walk(seed, 50, -unit, 15.0 * unit, 8.0 * unit);
     path.push_back(0.0);
     for (const double next : path) {
@@ -281,10 +277,9 @@ TEST(ContactLaw, BreaksNoRuleWhetherItYieldsOrNot) {
 
 TEST(ContactLaw, RefusesWhatIsNoContactLaw) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(PowerContact(0.0, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(PowerContact(-1.0, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(PowerContact(infinity, 1.5, 1.0), std::invalid_argument);
-  EXPECT_THROW(PowerContact(nan, 1.5, 1.0), std::invalid_argument);
+  for (const double stiffness : {0.0, -1.0, infinity, nan}) {
+    EXPECT_THROW(PowerContact(stiffness, 1.5, 1.0), std::invalid_argument) << stiffness;
+  }
   EXPECT_THROW(PowerContact(1.0, 0.9, 1.0), std::invalid_argument);
   EXPECT_THROW(PowerContact(1.0, nan, 1.0), std::invalid_argument);
   EXPECT_THROW(PowerContact(1.0, 1.5, 0.0), std::invalid_argument);

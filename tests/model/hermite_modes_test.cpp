@@ -2,10 +2,7 @@
 
 #include "mesh_contract.h"
 #include "model/hermite_mesh.h"
-#include "model/modes.h"
-#include "paper_scene.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -13,13 +10,9 @@ namespace {
 using Extent = HermiteMesh::Extent;
 
 struct Chain {
-  std::array<EndSupport, 2> ends;
+  Ends ends;
   Extent extent;
 };
-
-constexpr EndSupport free_end = EndSupport::free;
-constexpr EndSupport pinned = EndSupport::pinned;
-constexpr EndSupport clamped = EndSupport::clamped;
 
 std::ostream& operator<<(std::ostream& out, const Chain& chain) {
   return out << chain.ends[0] << ' ' << chain.ends[1]
@@ -30,10 +23,7 @@ class ModesOfElements : public testing::TestWithParam<std::tuple<Chain, BeamTheo
  protected:
   Beam beam() const {
     const auto& [chain, theory, n] = GetParam();
-    Beam beam = paper_beam();
-    beam.theory = theory;
-    beam.ends = chain.ends;
-    return beam;
+    return paper_beam(theory, chain.ends);
   }
   std::size_t n_elements() const { return std::get<2>(GetParam()); }
   Extent extent() const { return std::get<0>(GetParam()).extent; }
@@ -93,8 +83,7 @@ TEST_P(ModesOfElements, BendWithTheEnergyOfTheirFrequency) {
 // phi_i^T Mass phi_j between modes in closed form and decomposed ones, which differ by more without
 // the corrections.
 TEST(DenseModes, OfAFineMeshMixNoLowModes) {
-  Beam beam = paper_beam();
-  beam.ends = {free_end, pinned};
+  const Beam beam = paper_beam(BeamTheory::rayleigh, {free_end, pinned});
   const std::size_t n = 300;
   const HermiteMesh mesh(beam, 1.0 / static_cast<double>(n), n, 2, Extent::whole);
   const NaturalModes closed = mesh.natural_modes(beam.bending_stiffness());
@@ -183,9 +172,7 @@ INSTANTIATE_TEST_SUITE_P(Half, ModesOfElements,
 
 // A frequency far below the highest is not that of a rigid mode: hinges add ten times higher ones.
 TEST(ACantileverOfManyElementsAndHinges, VibratesInItsLowestMode) {
-  Beam beam = paper_beam();
-  beam.theory = BeamTheory::euler_bernoulli;
-  beam.ends = {clamped, free_end};
+  const Beam beam = paper_beam(BeamTheory::euler_bernoulli, {clamped, free_end});
   const HermiteMesh mesh(beam, 0.44, 560, 2, Extent::whole, {{}, true});
   const NaturalModes modes = mesh.natural_modes(beam.bending_stiffness());
   EXPECT_LT(modes.frequencies.front(), 1e-7 * modes.frequencies.back());

@@ -51,8 +51,7 @@ class LayeredSection {
   Beam beam_;
   double layer_thickness_;
   std::vector<double> stress_;
-  double curvature_ = 0.0;
-  double plastic_work_ = 0.0;
+  double curvature_ = 0.0, plastic_work_ = 0.0;
 };
 
 }  // namespace subimpact

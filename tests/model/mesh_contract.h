@@ -1,10 +1,42 @@
 #pragma once
 
-#include "random_walk.h"
-#include "subimpact/model/beam_mesh.h"
-#include "testing.h"
+#include "dense.h"
+#include "model/modes.h"
+#include "order_table.h"
+#include "paper_scene.h"
 
 namespace subimpact {
+
+inline std::size_t n_rigid_modes(const Beam& beam) {
+  const auto has = [&](EndSupport end) { return beam.ends[0] == end || beam.ends[1] == end; };
+  return beam.is_free() ? 2 : has(free_end) && has(pinned) ? 1 : 0;
+}
+
+inline std::vector<OrderTable> tables_of_modes(std::size_t n_modes) {
+  std::vector<OrderTable> tables;
+  for (std::size_t mode = 1; mode <= n_modes; ++mode) {
+    tables.emplace_back("mode " + std::to_string(mode) + ": relative error of the frequency");
+  }
+  return tables;
+}
+
+/// The lowest natural frequencies of a mesh of n parts, found(n), tend to the beam's at an order
+/// within a band.
+template <class Found>
+void expect_order_of_frequencies(const Beam& beam, std::size_t n_modes,
+                                 std::span<const std::size_t> sizes, const Found& found, double low,
+                                 double high) {
+  const std::vector<double> exact = flexural_frequencies(beam, n_modes);
+  std::vector<OrderTable> tables = tables_of_modes(n_modes);
+  for (const std::size_t n : sizes) {
+    const std::vector<double> all = found(n);
+    for (std::size_t mode = 0; mode < n_modes; ++mode) {
+      const double frequency = all[mode + n_rigid_modes(beam)];
+      tables[mode].add(static_cast<double>(n), std::abs(frequency / exact[mode] - 1.0));
+    }
+  }
+  for (const OrderTable& table : tables) table.expect_every_order_within(low, high);
+}
 
 inline double dot(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);

@@ -3,10 +3,7 @@
 #include "mesh_contract.h"
 #include "model/cell_mesh.h"
 #include "model/modal_mesh.h"
-#include "model/modes.h"
-#include "paper_scene.h"
 #include "print.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -28,27 +25,15 @@ class ModesOfCells : public testing::TestWithParam<Chain> {
   CellMesh mesh() const {
     return {beam(), 0.5, GetParam().n_cells, GetParam().extent, GetParam().spacing};
   }
-  Beam beam() const {
-    Beam beam = paper_beam();
-    beam.theory = GetParam().theory;
-    return beam;
-  }
+  Beam beam() const { return paper_beam(GetParam().theory); }
 };
 
 TEST_P(ModesOfCells, InClosedFormHaveTheDenseDecompositionsFrequencies) {
   const CellMesh chain = mesh();
   const NaturalModes closed = chain.natural_modes(beam().bending_stiffness());
   const NaturalModes dense = dense_natural_modes(chain, beam().bending_stiffness());
-  ASSERT_EQ(closed.size(), chain.n_unknowns());
-  double worst = 0.0;
-  for (std::size_t k = 0; k < closed.size(); ++k) {
-    if (dense.frequencies[k] == 0.0) {
-      EXPECT_EQ(closed.frequencies[k], 0.0) << k;
-    } else {
-      worst = std::max(worst, std::abs(closed.frequencies[k] / dense.frequencies[k] - 1.0));
-    }
-  }
-  EXPECT_LT(worst, 1e-12);
+  EXPECT_EQ(closed.size(), chain.n_unknowns());
+  expect_near(closed.frequencies, dense.frequencies, 0.0, 1e-12);
 }
 
 TEST_P(ModesOfCells, AreOrthonormalAndSatisfyTheEquationsOfMotion) {
@@ -83,28 +68,25 @@ class ModalCoordinates : public testing::Test {
     }
     return q;
   }();
+  std::vector<double> z_ = [this] {
+    std::vector<double> z(q_.size());
+    modal_.to_modal(q_, z);
+    return z;
+  }();
 };
 
 TEST_F(ModalCoordinates, AndBackIsTheSameField) {
-  std::vector<double> z(q_.size());
   std::vector<double> back(q_.size());
-  modal_.to_modal(q_, z);
-  modal_.to_physical(z, back);
-  for (std::size_t i = 0; i < q_.size(); ++i) EXPECT_NEAR(back[i], q_[i], 1e-15);
+  modal_.to_physical(z_, back);
+  expect_near(back, q_, 1e-15);
 }
 
 TEST_F(ModalCoordinates, KeepEnergiesCurvaturesAndFunctionals) {
-  std::vector<double> z(q_.size());
-  modal_.to_modal(q_, z);
   const double kinetic = physical_.mass().quadratic_form(q_);
-  EXPECT_NEAR(modal_.mass().quadratic_form(z), kinetic, 1e-12 * kinetic);
-  EXPECT_NEAR(modal_.struck_point()(z), physical_.struck_point()(q_), 1e-15);
-  EXPECT_NEAR(modal_.first_end()(z), physical_.first_end()(q_), 1e-15);
-  std::vector<double> here(modal_.n_sections());
-  std::vector<double> there(modal_.n_sections());
-  modal_.curvatures(z, here);
-  physical_.curvatures(q_, there);
-  for (std::size_t i = 0; i < here.size(); ++i) EXPECT_NEAR(here[i], there[i], 1e-10);
+  EXPECT_NEAR(modal_.mass().quadratic_form(z_), kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(modal_.struck_point()(z_), physical_.struck_point()(q_), 1e-15);
+  EXPECT_NEAR(modal_.first_end()(z_), physical_.first_end()(q_), 1e-15);
+  expect_near(curvatures_of(modal_, z_), curvatures_of(physical_, q_), 1e-10);
 }
 
 TEST_F(ModalCoordinates, HaveTheBeamsRootMeanSquare) {
@@ -119,13 +101,10 @@ TEST_F(ModalCoordinates, HaveTheBeamsRootMeanSquare) {
 }
 
 TEST_F(ModalCoordinates, GiveTheCurvatureOfEachSectionAlone) {
-  std::vector<double> z(q_.size());
-  modal_.to_modal(q_, z);
-  std::vector<double> all(physical_.n_sections());
-  physical_.curvatures(q_, all);
+  const std::vector<double> all = curvatures_of(physical_, q_);
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_NEAR(physical_.curvature(i, q_), all[i], 1e-13) << i;
-    EXPECT_NEAR(modal_.curvature(i, z), all[i], 1e-10) << i;
+    EXPECT_NEAR(modal_.curvature(i, z_), all[i], 1e-10) << i;
   }
 }
 
@@ -138,18 +117,46 @@ TEST_F(ModalCoordinates, HaveThemselvesAsModes) {
 }
 
 TEST_F(ModalCoordinates, MakeTheElasticForceDiagonal) {
-  std::vector<double> z(q_.size());
-  modal_.to_modal(q_, z);
-  std::vector<double> moments(modal_.n_sections());
-  modal_.curvatures(z, moments);
+  std::vector<double> moments = curvatures_of(modal_, z_);
   for (double& m : moments) m *= beam_.bending_stiffness();
-  std::vector<double> force(q_.size());
-  modal_.bending_forces(moments, force);
-  double largest = 0.0;
-  for (const double f : force) largest = std::max(largest, std::abs(f));
-  for (std::size_t k = 0; k < z.size(); ++k) {
+  const std::vector<double> force = bending_forces_of(modal_, moments);
+  for (std::size_t k = 0; k < z_.size(); ++k) {
     const double w = modal_.frequencies()[k];
-    EXPECT_NEAR(force[k], -modal_.mass().at(k, k) * w * w * z[k], 1e-9 * largest) << k;
+    EXPECT_NEAR(force[k], -modal_.mass().at(k, k) * w * w * z_[k], 1e-9 * largest_of(force)) << k;
+  }
+}
+
+// The lowest modes and the static response of meshes by banded factorisation, beside those by all
+// modes.
+
+void expect_same(const BeamMesh& mesh, double stiffness, double first_period) {
+  constexpr std::size_t n_modes = 8;
+  const auto found = slow_motion(mesh, stiffness, first_period, n_modes);
+  ASSERT_TRUE(found.has_value());
+  const NaturalModes all = mesh.natural_modes(stiffness);
+  double compliance = 0.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double share = mesh.struck_point()(all.shape(k));
+    if (all.frequencies[k] > 0.0) compliance += std::pow(share / all.frequencies[k], 2);
+    if (k >= n_modes) continue;
+    EXPECT_NEAR(found->frequencies[k], all.frequencies[k], 1e-5 * all.frequencies[k]) << k;
+    if (all.frequencies[k] > 0.0) {
+      EXPECT_NEAR(std::abs(mesh.struck_point()(found->shapes[k])), std::abs(share),
+                  1e-3 * std::sqrt(1.0 / mesh.beam_mass()))
+          << k;
+    }
+  }
+  EXPECT_NEAR(mesh.struck_point()(found->response), compliance, 1e-6 * compliance);
+}
+
+TEST(SlowMotion, IsThatOfAllModesWhateverTheEnds) {
+  for (const EndSupport first : all_ends) {
+    for (const EndSupport last : all_ends) {
+      const Beam beam = paper_beam(BeamTheory::rayleigh, {first, last});
+      const double period = 2.0 * M_PI / flexural_frequencies(beam, 1).front();
+      expect_same(CellMesh(beam, 0.4, 61, BeamMesh::Extent::whole), beam.bending_stiffness(),
+                  period);
+    }
   }
 }
 

@@ -43,8 +43,7 @@ TEST_P(SectionFieldOfBothLaws, IsTheLawOfEverySectionOnItsOwn) {
         law().commit(alone[i], curvatures[i]);
       }
       field.commit(curvatures);
-      double elastic = 0.0;
-      double work = 0.0;
+      double elastic = 0.0, work = 0.0;
       for (std::size_t i = 0; i < n; ++i) {
         elastic += weights[i] * law().elastic_energy(alone[i], curvatures[i]);
         work += weights[i] * law().work(alone[i], curvatures[i]);

@@ -1,11 +1,11 @@
 // The section law's closed forms against stacks of layers, fibre by fibre.
 
 #include "layered_section.h"
+#include "model/moment_law.h"
 #include "model/section_law.h"
 #include "order_table.h"
 #include "paper_scene.h"
 #include "random_walk.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -15,8 +15,7 @@ struct Differences {
   double elastic = 0.0;  // in M_y kappa_y
   double plastic = 0.0;  // in M_y kappa_y
   double stress = 0.0;   // in Y
-  double plastic_total = 0.0;
-  double mean_square_moment = 0.0;
+  double plastic_total = 0.0, mean_square_moment = 0.0;
 };
 
 // Largest differences over a walk in units of the yield curvature, each state looked at before and
@@ -101,8 +100,7 @@ TEST(SectionLaw, OfLayersApproachesTheExactLawAtSecondOrderOnRandomWalks) {
   OrderTable moments("bending moment, layers against the exact law over random walks, M_y");
   OrderTable works("plastic work at the walks' ends, the same, M_y kappa_y");
   for (const int layers : {20, 40, 80, 160, 320}) {
-    double moment = 0.0;
-    double work = 0.0;
+    double moment = 0.0, work = 0.0;
     const int n_walks = 40;
     for (unsigned seed = 0; seed < n_walks; ++seed) {
       const std::vector<double> walk = nested_walk(seed, 800, -8.0, 8.0, 6.0);
@@ -117,6 +115,48 @@ TEST(SectionLaw, OfLayersApproachesTheExactLawAtSecondOrderOnRandomWalks) {
   moments.expect_overall_order_within(1.9, 2.1);
   works.expect_every_order_within(1.7, 2.3);
   works.expect_overall_order_within(1.9, 2.1);
+}
+
+// The bending law by moments against the same law by curvatures.
+
+class MomentLawOnRandomPaths : public testing::TestWithParam<unsigned> {};
+
+INSTANTIATE_TEST_SUITE_P(Seeds, MomentLawOnRandomPaths, testing::Range(1u, 9u));
+
+TEST_P(MomentLawOnRandomPaths, IsTheInverseOfTheLawByCurvatures) {
+  const Beam beam = paper_beam();
+  const SectionLaw by_curvature(beam, Fibres::continuous());
+  const double unit = beam.yield_curvature();
+  SectionHistory history;
+  MomentLaw law;
+  std::mt19937 random(GetParam());
+  std::uniform_real_distribution<double> anywhere(-1.49, 1.49), nearby(-0.1, 0.1);
+  double m = 0.0;
+  for (int step = 0; step < 400; ++step) {
+    const double by = nearby(random);
+    m = step % 3 == 0 ? anywhere(random) : std::abs(m + by) < 1.49 ? m + by : m - by;
+    const double x = m + law.at(m).plastic;
+    EXPECT_NEAR(by_curvature.moment(history, x * unit) / beam.yield_moment(), m, 1e-10);
+    const double slope = beam.bending_stiffness() / by_curvature.tangent(history, x * unit);
+    EXPECT_NEAR(1.0 + law.at(m).slope, slope, 1e-6 * slope);
+    by_curvature.commit(history, x * unit);
+    law.commit(m, by_curvature, unit);
+    EXPECT_NEAR(law.history(by_curvature, unit).work, history.work, 1e-9 * (1.0 + history.work));
+  }
+}
+
+TEST_P(MomentLawOnRandomPaths, FlowsOnlyOutsideItsWindow) {
+  const Beam beam = paper_beam();
+  const SectionLaw by_curvature(beam, Fibres::continuous());
+  MomentLaw law;
+  std::mt19937 random(GetParam());
+  std::uniform_real_distribution<double> anywhere(-1.49, 1.49);
+  for (int step = 0; step < 100; ++step) {
+    const double m = anywhere(random);
+    const bool inside = m >= law.low() && m <= law.high();
+    EXPECT_EQ(law.at(m).plastic == law.plastic(), inside);
+    EXPECT_EQ(law.commit(m, by_curvature, beam.yield_curvature()), !inside);
+  }
 }
 
 }  // namespace

@@ -185,8 +185,7 @@ TEST(SectionLaw, MomentIsContinuousAcrossTheWindowsEdges) {
 TEST(SectionLaw, TangentEqualsFiniteDifferencesOfTheMoment) {
   for (const SectionLaw& law : {exact_law(), layered_law()}) {
     SectionHistory history;
-    int n_compared = 0;
-    int n_kinks = 0;
+    int n_compared = 0, n_kinks = 0;
     const double h = 1e-6 * unit;
     const std::vector<double> trials = random_numbers(8, 3000, 10.0 * unit);
     const std::vector<double> walk = nested_walk(4, trials.size(), -8.0, 8.0, 6.0);
@@ -214,8 +213,7 @@ TEST(SectionLaw, TangentEqualsFiniteDifferencesOfTheMoment) {
 TEST(SectionLaw, WorkIsTheIntegralOfTheMoment) {
   for (const SectionLaw& law : {exact_law(), layered_law()}) {
     SectionHistory history;
-    double at = 0.0;
-    double sum = 0.0;
+    double at = 0.0, sum = 0.0;
     for (const double next : nested_walk(12, 300, -6.0, 6.0, 5.0)) {
       const int n = 4000;
       const double h = (next - at) * unit / n;

@@ -86,8 +86,7 @@ TEST(HermiteCubic, RisesAtAnEndWhereRoundingLeavesNoSignChange) {
 }
 
 TEST(HermiteCubic, ExtremaAreThoseOfADenseScan) {
-  int n_maxima = 0;
-  int n_reversed = 0;
+  int n_maxima = 0, n_reversed = 0;
   for (unsigned seed = 0; seed < 500; ++seed) {
     const std::vector<double> c = random_numbers(seed, 4);
     const HermiteCubic path = through({c[0], c[1], c[2], c[3]}, 0.0, 1.0);

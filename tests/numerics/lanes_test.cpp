@@ -2,6 +2,7 @@
 
 #include "numerics/lanes.h"
 #include "numerics/sin_cos.h"
+#include "numerics/vector_sum.h"
 #include "subimpact/numerics/banded_matrix.h"
 #include "testing.h"
 
@@ -74,6 +75,109 @@ TEST(QuadraticForm, IsThatOfTheProductForEverySizeAndBandwidth) {
       EXPECT_EQ(matrix.quadratic_form(x), dot(x.data(), product.data(), n)) << n;
     }
   }
+}
+
+// Next to others on which the formulae differ.
+std::array<double, 6> stumpff_of(double y) {
+  Lanes values{0.5, 0.0, 1e3, 0.999, 1.5, 7e6, 1e-9, 1.0};
+  values[2] = y;
+  const StumpffLanes c = stumpff(values);
+  std::array<double, 6> result{};
+  for (std::size_t k = 0; k < 6; ++k) result[k] = c[k][2];
+  return result;
+}
+
+TEST(StumpffFunctions, AreTheirSeriesAndTheirIntegrals) {
+  for (const double y : {0.0, 1e-8, 1e-3, 0.3, 0.999, 1.0, 1.001, 2.5, 10.0, 300.0}) {
+    const auto c = stumpff_of(y);
+    // C_{k+2} is the k-fold repeated integral; here by Simpson's rule on
+    // m! C_{m+2}(y) = integral_0^1 sin(y (1 - s))/y s^m ds.
+    constexpr int n = 20000;
+    for (int m = 0; m <= 3; ++m) {
+      double sum = 0.0;
+      for (int i = 0; i <= n; ++i) {
+        const double s = static_cast<double>(i) / n;
+        const double x = y * (1.0 - s);
+        const double kernel = y > 0.0 ? std::sin(x) / y : 1.0 - s;
+        sum += (i == 0 || i == n ? 1.0 : i % 2 ? 4.0 : 2.0) * kernel * std::pow(s, m);
+      }
+      const double factorial = m == 3 ? 6.0 : m == 2 ? 2.0 : 1.0;
+      const double expected = sum / (3.0 * n) / factorial;
+      EXPECT_NEAR(c[static_cast<std::size_t>(m + 2)], expected, 1e-13) << "y " << y << " m " << m;
+    }
+    EXPECT_NEAR(c[0], std::cos(y), 1e-15);
+    EXPECT_NEAR(c[1], y > 0.0 ? std::sin(y) / y : 1.0, 1e-15);
+  }
+}
+
+TEST(StumpffFunctions, AreContinuousWhereTheFormulaChanges) {
+  expect_near(stumpff_of(std::nextafter(1.0, 0.0)), stumpff_of(1.0), 4e-15);
+}
+
+// Small whole numbers, so that every order of additions gives the same sum.
+double entry(std::size_t k, std::size_t i) {
+  return static_cast<double>((7 * k + 3 * i) % 11) - 5.0;
+}
+double weight(std::size_t k) { return static_cast<double>(k % 4) + 0.5; }
+
+struct Example {
+  std::vector<std::vector<double>> vectors;
+  std::vector<double> expected;
+  VectorSum sum;
+
+  Example(std::size_t n_terms, std::size_t n) : vectors(n_terms), expected(n, 0.0) {
+    for (std::size_t k = 0; k < n_terms; ++k) {
+      for (std::size_t i = 0; i < n; ++i) {
+        vectors[k].push_back(entry(k, i));
+        expected[i] += weight(k) * entry(k, i);
+      }
+      sum.add(weight(k), vectors[k].data());
+    }
+  }
+};
+
+TEST(VectorSum, IsTheSumForEveryNumberOfTermsAndEveryLength) {
+  for (std::size_t n_terms = 0; n_terms <= VectorSum::most_terms; ++n_terms) {
+    for (const std::size_t n : {1u, 7u, 8u, 9u, 31u, 64u}) {
+      SCOPED_TRACE(testing::Message() << n_terms << " terms of length " << n);
+      const Example example(n_terms, n);
+      std::vector<double> out(n + 1, 42.0);
+      example.sum.write(out.data(), n);
+      EXPECT_EQ(out.back(), 42.0);
+      out.pop_back();
+      EXPECT_EQ(out, example.expected);
+      double squares = 0.0;
+      for (const double value : example.expected) squares += value * value;
+      EXPECT_EQ(example.sum.sum_of_squares(n), squares);
+    }
+  }
+}
+
+TEST(VectorSum, MayBeWrittenOverItsFirstVector) {
+  for (std::size_t n_terms = 1; n_terms <= VectorSum::most_terms; ++n_terms) {
+    Example example(n_terms, 37);
+    example.sum.write(example.vectors.front().data(), 37);
+    EXPECT_EQ(example.vectors.front(), example.expected) << n_terms;
+  }
+}
+
+TEST(VectorSum, LeavesVectorsOfWeightZeroOut) {
+  VectorSum sum;
+  for (int i = 0; i < 100; ++i) sum.add(0.0, nullptr);
+  double out = 1.0;
+  sum.write(&out, 1);
+  EXPECT_EQ(out, 0.0);
+}
+
+TEST(VectorSum, RefusesMoreTermsThanItHolds) {
+  const double one = 1.0;
+  VectorSum sum;
+  for (std::size_t k = 0; k < VectorSum::most_terms; ++k) {
+    EXPECT_FALSE(sum.is_full());
+    sum.add(1.0, &one);
+  }
+  EXPECT_TRUE(sum.is_full());
+  EXPECT_THROW(sum.add(1.0, &one), std::length_error);
 }
 
 }  // namespace

@@ -14,8 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
-  const TemporaryDirectory directory;
+using AFigureGnuplotCannotDraw = InADirectory;
+using AFigure = InADirectory;
+
+TEST_F(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
   const fs::path place = directory.path / "it's a place";  // which a shell would trip over
   fs::create_directory(place);
   draw_figure(place, "parabola",
@@ -33,8 +35,7 @@ TEST(AFigure, IsDrawnAsSvgAndAsPngOfTwiceThePixels) {
   EXPECT_EQ(big_endian(20), 600);
 }
 
-TEST(AFigureGnuplotCannotDraw, IsReportedWithWhatGnuplotSaid) {
-  const TemporaryDirectory directory;
+TEST_F(AFigureGnuplotCannotDraw, IsReportedWithWhatGnuplotSaid) {
   expect_in(message_of<OutputError>(
                 [&] { draw_figure(directory.path, "nonsense", "plot of nothing at all\n"); }),
             "nonsense.svg", "line 1");
@@ -67,8 +68,7 @@ TEST(AFigureThatTakesTooLong, IsGivenUpWithTheCauseAndWhatDrawsItIsEnded) {
   }
 }
 
-TEST(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
-  const TemporaryDirectory directory;
+TEST_F(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
   const std::string script =
       "set title 'obeyed: '.system('env | grep -cE \"^(GNUTERM|GNUPLOT_|GDFONTPATH)\"')\n"
       "plot [1:10] x\n";
@@ -76,12 +76,9 @@ TEST(AFigure, IsDrawnWithoutTheSettingsOfItsUser) {
   fs::create_directory(directory.path / "home");
   std::ofstream(directory.path / "home" / ".gnuplot")
       << "set logscale y\nset datafile separator ';'\nprint 'hello'\n";
-  const std::string home = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
-  ::setenv("HOME", (directory.path / "home").c_str(), 1);
-  for (const char* name : {"GNUTERM", "GNUPLOT_LIB", "GDFONTPATH"}) ::setenv(name, "dumb", 1);
+  const Environment home("HOME", directory.path / "home"), terminal("GNUTERM", "dumb"),
+      library("GNUPLOT_LIB", "dumb"), fonts("GDFONTPATH", "dumb");
   draw_figure(directory.path, "figure", script);
-  for (const char* name : {"GNUTERM", "GNUPLOT_LIB", "GDFONTPATH"}) ::unsetenv(name);
-  ::setenv("HOME", home.c_str(), 1);
   const std::string svg = read_file(directory.path / "figure.svg");
   expect_in(svg, "obeyed: 0");
   EXPECT_EQ(svg, read_file(directory.path / "plain.svg"));
@@ -100,8 +97,7 @@ TEST(AFigureThatCannotBeWritten, LeavesNoneOfItsFiles) {
   EXPECT_TRUE(fs::is_empty(place));
 }
 
-TEST(AFigureGnuplotCannotDraw, IsReportedWithTheLastTwelveLinesGnuplotSaid) {
-  const TemporaryDirectory directory;
+TEST_F(AFigureGnuplotCannotDraw, IsReportedWithTheLastTwelveLinesGnuplotSaid) {
   const auto said = [&](const std::string& script) {
     const FakeGnuplot gnuplot(directory.path / "bin", script);
     return failure(directory.path, "plot x\n", most_drawing_time);

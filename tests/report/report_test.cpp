@@ -20,14 +20,11 @@ Case paper_case() { return paper_case_with({}); }
 TEST(SubImpactTable, SetsZonesApartAndMarksAnOpenEndInMicrosecondsMillimetresAndNewtons) {
   const std::string table = sub_impact_table(sample_result());
   expect_in(table, "333.3333", "8796.31", "0.1696389");  // end in us, force in N, indentation in mm
-  const auto zone_1 = table.find("zone 1\n");
-  const auto subzone_2 = table.find("sub-zone 2\n");
-  const auto zone_2 = table.find("\nzone 2\n");
-  const auto open = table.find("(open)");
-  ASSERT_NE(open, std::string::npos) << table;
-  EXPECT_LT(zone_1, subzone_2);
-  EXPECT_LT(subzone_2, zone_2);
-  EXPECT_LT(zone_2, open);
+  std::size_t at = 0;                                    // in this order
+  for (const char* mark : {"zone 1\n", "sub-zone 2\n", "\nzone 2\n", "(open)"}) {
+    at = table.find(mark, at);
+    ASSERT_NE(at, std::string::npos) << mark << table;
+  }
 }
 
 // The line of a table that begins with that number.
@@ -92,12 +89,8 @@ Result result_with_many_uncertain() {
 TEST(SubImpactTable, FoldsThreeUncertainRowsInSuccessionIntoTheirSums) {
   const Result result = result_with_many_uncertain();
   const std::string table = sub_impact_table(result);
-  expect_in(table,
-            "  2-4? 500.0 to 660.0 us: 3 in this run, not certain one by one; forces up to 2350 N, "
-            "impulse 0.140 N s in all\n");
-  for (const char* number : {"2?", "3?", "4?"}) {
-    expect_not_in(table, std::string(" ") + number);
-  }
+  expect_in(table, "  2-4? 500.0 to 660.0 us: 3 in this run", "up to 2350 N", "0.140 N s in all");
+  for (const char* number : {"2?", "3?", "4?"}) expect_not_in(table, std::string(" ") + number);
   EXPECT_GT(table.find("2-4?"), table.find("sub-zone 2\n"));
   EXPECT_LT(table.find("2-4?"), table.find("zone 2\n   5?"));
   row_of(table, "1");
@@ -117,10 +110,9 @@ TEST(SubImpactTable, FoldsNeitherTwoUncertainRowsNorThoseOfTwoSubZones) {
 }
 
 TEST(SubImpactTable, EndsWithTheReasonIfThereMayBeAnotherSubImpactAfterTheLast) {
-  const std::string last =
-      "after the last one there may be another: there is another one with the same, coarser\n";
   const std::string table = sub_impact_table(sample_result_with_an_uncertain_flight(2));
-  EXPECT_EQ(table.rfind(last), table.size() - last.size()) << table;
+  expect_in(table, "after the last one there may be another");
+  EXPECT_TRUE(table.ends_with("there is another one with the same, coarser\n")) << table;
   expect_not_in(table, "3?");
   expect_not_in(sub_impact_table(sample_result_with_an_uncertain_flight(1)), "after the last");
 }
@@ -173,20 +165,17 @@ TEST(RunSummary, GivesLargestForceAndFinalVelocitiesTheirErrors) {
   result.max_indentation = 1.6963887700000001e-4;
   const std::string summary = summary_of(paper_case(), result);
   expect_in(line_of(summary, "largest force"), "8796.3 +- 0.5 N");
-  expect_in(line_of(summary, "dent"),
-            "0.1540 +- 0.0009 mm: pressed in by at most 0.169639 +- 0.000008 mm");
-  EXPECT_EQ(line_of(summary, "restitution"),
-            "  restitution         0.20302 +- 0.00008: striker 5.7933 +- 0.0007 m/s, beam "
-            "9.0213 +- 0.0006 m/s (mean) at the end");
+  expect_in(line_of(summary, "dent"), "0.1540 +- 0.0009 mm", "0.169639 +- 0.000008 mm");
+  expect_in(line_of(summary, "restitution"), "0.20302 +- 0.00008", "striker 5.7933 +- 0.0007 m/s",
+            "beam 9.0213 +- 0.0006 m/s");
 }
 
 TEST(RunSummary, GivesZonesTheirErrors) {
   const std::string summary = summary_of(paper_case(), sample_result_with_errors(3));
-  EXPECT_EQ(line_of(summary, "zone 1"),
-            "  zone 1            0.2000 +- 0.0006 N s: 2 sub-impacts in 2 sub-zones, 0 to "
-            "600.0 +- 0.3 us");
-  EXPECT_EQ(line_of(summary, "zone 2"),
-            "  zone 2            0.1000 +- 0.0006 N s: 1 sub-impact, 5000.0 +- 0.3 to (open) us");
+  expect_in(line_of(summary, "zone 1"), "0.2000 +- 0.0006 N s", "2 sub-impacts in 2 sub-zones",
+            "0 to 600.0 +- 0.3 us");
+  expect_in(line_of(summary, "zone 2"), "0.1000 +- 0.0006 N s", "1 sub-impact,",
+            "5000.0 +- 0.3 to (open) us");
   expect_in(line_of(summary_of(paper_case(), sample_result_with_errors(1)), "zone 1"),
             "2 +- 1 sub-impacts in 2 sub-zones");
 }
@@ -212,9 +201,7 @@ TEST(RunSummary, GivesNoDigitsToFinalVelocitiesWhoseErrorIsNotKnown) {
 
 TEST(RunSummary, GivesAReasonOnce) {
   const std::string summary = summary_of(paper_case(), sample_result_with_errors(2), true);
-  const auto first = summary.find("they part");
-  ASSERT_NE(first, std::string::npos);
-  EXPECT_EQ(summary.find("they part", first + 1), std::string::npos) << summary;
+  EXPECT_EQ(count_in(summary, "they part"), 1u) << summary;
   expect_in(line_of(summary, "mesh error"), "as above (runs beside: the same, coarser)");
 }
 
@@ -244,10 +231,8 @@ TEST(ModelTable, GivesTimesWithErrorsAndHowMuchLaterTheyCome) {
     timoshenko.pairs.push_back({i, i});
   }
   const std::string table = model_table({rayleigh, timoshenko});
-  expect_in(table, "353.583 +- 0.017", "+20.25");  // 353.583 - 333.333
-  expect_in(table,
-            "timoshenko: 3 sub-impacts, 3 by rayleigh; the first 3 correspond, with times up to "
-            "20.25 us apart\n");
+  expect_in(table, "353.583 +- 0.017", "+20.25",  // 353.583 - 333.333
+            "timoshenko: 3 sub-impacts, 3 by rayleigh", "the first 3 correspond", "20.25 us apart");
 }
 
 TEST(ErrorWords, NameTheErrorOfCertainTimesOrTheFirstDoubt) {
@@ -257,20 +242,13 @@ TEST(ErrorWords, NameTheErrorOfCertainTimesOrTheFirstDoubt) {
   const std::pair<Result, std::string> all[] = {
       {sample_result_with_errors(3), "all times to 0.3 us up to 8 ms"},
       {touch, "no event time up to 8 ms but the first touch, which is exact"},
-      {sample_result_with_errors(2),
-       "times of the certain ones to 0.3 us; sub-impact 3: they part"},
-      {between, "times of the certain ones to 0.017 us; sub-impact 2: they part"},
+      {sample_result_with_errors(2), "certain ones to 0.3 us; sub-impact 3: they part"},
+      {between, "certain ones to 0.017 us; sub-impact 2: they part"},
       {sample_result_with_an_uncertain_flight(1),
-       "times of the certain ones to 0.3 us; after sub-impact 2: there is another one with the "
-       "same, "
-       "coarser"},
-      {sample_result_with_an_uncertain_flight(2),
-       "times of the certain ones to 0.3 us; after the last sub-impact: there is another one with "
-       "the "
-       "same, coarser"},
-      {sample_result(),
-       "errors are not known; without --error-bars=off runs on coarser meshes estimate them"}};
-  for (const auto& [result, words] : all) EXPECT_EQ(error_words(result), words);
+       "certain ones to 0.3 us; after sub-impact 2: there is another one with the same, coarser"},
+      {sample_result_with_an_uncertain_flight(2), "certain ones to 0.3 us; after the last"},
+      {sample_result(), "errors are not known"}};
+  for (const auto& [result, words] : all) expect_in(error_words(result), words);
 }
 
 TEST(RunSummary, CountsTheSubImpactsThatAreCertain) {
@@ -356,16 +334,15 @@ TEST(FailureMessage, NamesTimeModeMethodLastEventAndCause) {
   const std::string message = failure_message(paper_case(), result);
   expect_in(message, "solver-failed at 12.5 us", "in contact, sub-impact 3", "method erk",
             "last event section_reverses at 0.666667 us", "the library gave up");
-  EXPECT_EQ(message.find('\n'), std::string::npos);
+  expect_not_in(message, "\n");
   result.sub_impacts.pop_back();
   expect_in(failure_message(paper_case(), result), "separated after sub-impact 2");
 }
 
 TEST(RunSummary, WeighsBeamAndStriker) {
   Case input = paper_case();
-  expect_in(summary_of(input, sample_result()),
-            "strike              0.201 kg (cylindrical nose of 10 mm, law foundation) at 15.9 m/s, "
-            "at the middle of a free-free beam of 0.2261 kg");
+  expect_in(line_of(summary_of(input, sample_result()), "strike"), "0.201 kg", "nose of 10 mm",
+            "foundation", "15.9 m/s", "at the middle of a free-free beam of 0.2261 kg");
   input.scene.beam.length *= 1e3;
   input.scene.beam.width *= 1e3;
   input.scene.beam.thickness *= 1e3;
@@ -463,29 +440,20 @@ TEST(AFailedCheck, IsPlacedInTimeBySummaryFailureMessageAndTable) {
   EXPECT_TRUE(sub_impact_table(sample_result()).starts_with("  "));
 }
 
-TEST(Warnings, AreShownInTheSummary) {
-  Result result = sample_result();
-  result.warnings = {"beam.length is 711.2 m"};
-  expect_in(summary_of(paper_case(), result), "warning             beam.length is 711.2 m\n");
-}
-
 TEST(Wish, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
   const std::pair<ToleranceOutcome, std::string> all[] = {
-      {{1e-7, true, 0.3e-7, 8e-3, "", ""},
-       "event times within 0.1 us: met to the end (0.03 us reached)"},
+      {{1e-7, true, 0.3e-7, 8e-3, "", ""}, "within 0.1 us: met to the end (0.03 us reached)"},
       {{1e-6, true, 0.3e-6, 840e-6, "its mesh is too coarse", "model.segments"},
-       "event times within 1 us: met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: "
-       "its "
-       "mesh is too coarse; free model.segments"},
+       "met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: its mesh is too coarse; "
+       "free model.segments"},
       {{1e-6, false, 2.5e-6, 8e-3, "model.segments is fixed", "model.segments"},
-       "event times within 1 us: not met; 3 us reached to the end; model.segments is fixed; free "
-       "model.segments"},
+       "not met; 3 us reached to the end; model.segments is fixed; free model.segments"},
       {{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, "", ""},
-       "event times within 1 us: not met; the error reached is not known"}};
+       "within 1 us: not met; the error reached is not known"}};
   Result result = sample_result();  // ends: 0.33, 0.6 and, still open, 8 ms
   expect_not_in(summary_of(paper_case(), result), "  tolerance ");
   for (const auto& [wish, words] : all) {
-    EXPECT_EQ(tolerance_words(wish, result), words);
+    expect_in(tolerance_words(wish, result), words);
     result.tolerance = wish;
     const std::string summary = summary_of(paper_case(), result);
     expect_in(line_of(summary, "tolerance"), words);
@@ -553,8 +521,7 @@ TEST(Explanation, FollowsTheCase) {
 }
 
 TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {
-  Case input = paper_case();
-  input.solver.method = Method::central_difference;
+  Case input = paper_case_with({"solver.method=central-difference"});
   input.solver.step = 1e-7;
   ResolvedRun run = resolve(input);
   const auto cost = estimate_cost(run);

@@ -14,7 +14,6 @@
 #include "subimpact/report/studies.h"
 #include "subimpact/report/text.h"
 #include "temporary_directory.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -24,12 +23,7 @@ LoadedCase read(const std::string& more, const std::vector<Override>& overrides 
 }
 
 std::string refusal_of(const std::string& more) {
-  try {
-    read(more);
-  } catch (const CaseFileError& error) {
-    return error.what();
-  }
-  return "(accepted)";
+  return message_of<CaseFileError>([&] { read(more); });
 }
 
 using Scatter = std::map<std::string, double>;
@@ -60,9 +54,7 @@ TEST(ScatterOfACase, LeavesTheRestOfTheCaseAsItIs) {
 }
 
 TEST(ScatterOfACase, IsRefusedOfWhatIsNoNumberOfTheScene) {
-  const std::string of_mesh = refusal_of("[scatter]\nmodel.segments = 0.01\n");
-  expect_in(of_mesh,
-            "unknown key \"scatter.model\"; allowed in [scatter]: beam.length, beam.width");
+  expect_in(refusal_of("[scatter]\nmodel.segments = 0.01\n"), "\"scatter.model\"", "beam.length");
   expect_in(refusal_of("[scatter]\ndensity = 0.01\n"), "did you mean \"scatter.beam.density\"?");
   expect_in(refusal_of("[scater]\n"), "did you mean [scatter]?");
 }
@@ -91,9 +83,6 @@ TEST(ScatterOfACase, IsNotedWhereItHasNoEffect) {
       "scatter.contact.stiffness = 0.1 has no effect with contact.stiffness = (not given)"};
   EXPECT_EQ(notes, expected);
 }
-
-// --- results
-// --------------------------------------------------------------------------------------
 
 Result predicted() {
   Result result = sample_result_with_errors(2);
@@ -133,9 +122,6 @@ TEST(Predictability, IsPrintedWithTheReasonWhereItEnds) {
   expect_in(predictability_words(predicted()), "1 of 3 sub-impacts, up to 333.3 us");
   expect_in(run_summary(read("").value, predicted()), "predictable");
 }
-
-// --- studies
-// --------------------------------------------------------------------------------------
 
 Sensitivity sample_study() {
   Sensitivity study;

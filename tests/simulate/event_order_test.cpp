@@ -1,7 +1,8 @@
 // Event times are as accurate as the method, when they are located by the method itself.
 
 #include "lumped.h"
-#include "testing.h"
+#include "order_table.h"
+#include "print.h"
 
 namespace subimpact {
 namespace {
@@ -42,11 +43,6 @@ struct SmoothImpact {
   }
 };
 
-const char* name_of(EventHandling events) {
-  if (events == EventHandling::library) return "library";
-  return events == EventHandling::located ? "located" : "interpolated";
-}
-
 double exact_end() { return SmoothImpact::end({"dprkn12", 1e-14, {}, EventHandling::located}); }
 
 struct Order {
@@ -56,31 +52,25 @@ struct Order {
   double low, high;
 };
 
-void PrintTo(const Order& order, std::ostream* out) { *out << order.table; }
+void PrintTo(const Order& order, std::ostream* out) {
+  constexpr const char* names[] = {"located", "interpolated", "library"};
+  *out << order.table << '_' << names[static_cast<int>(order.events)];
+}
 
 class EventTimes : public testing::TestWithParam<Order> {};
 
 TEST_P(EventTimes, HaveTheExpectedOrderInTheStep) {
   const Order& expected = GetParam();
   const double exact = exact_end();
-  printf("%s, events %s: contact ends at %.15g s\n   steps  error, s   ratio  order\n",
-         expected.table, name_of(expected.events), exact);
-  // The contact's end falls inside a step, always at the same part of it.
-  double sum = 0.0;
-  double previous = 0.0;
-  constexpr int n_halvings = 2;
-  for (int k = 0; k <= n_halvings; ++k) {
-    const double steps = expected.coarsest * std::exp2(k) + 0.37;
-    const double error = std::abs(
-        SmoothImpact::end({expected.table, 1e-12, exact / steps, expected.events}) - exact);
-    const double order = previous > 0.0 ? std::log2(previous / error) : 0.0;
-    printf("%8.2f  %.2e  %6.1f  %.2f\n", steps, error, previous / error, order);
-    sum += order;
-    previous = error;
+  OrderTable table("error of the contact's end, s, over halvings of the step");
+  for (const double refined : {1.0, 2.0, 4.0}) {
+    // The contact's end falls inside a step, always at the same part of it.
+    const double steps = expected.coarsest * refined + 0.37;
+    const Way way{expected.table, 1e-12, exact / steps, expected.events};
+    table.add(refined, std::abs(SmoothImpact::end(way) - exact));
   }
-  const double order = sum / n_halvings;
-  EXPECT_GT(order, expected.low);
-  EXPECT_LT(order, expected.high);
+  table.print();
+  table.expect_overall_order_within(expected.low, expected.high);
 }
 
 constexpr EventHandling located = EventHandling::located;
@@ -108,35 +98,26 @@ INSTANTIATE_TEST_SUITE_P(
         // the end itself comes from a cubic through that step.
         Order{"dormand-prince", interpolated, 12, 2.5, 3.5},
         Order{"dop853", interpolated, 4, 2.5, 3.5}),
-    [](const auto& info) {
-      std::string name = std::string(info.param.table) + "_" + name_of(info.param.events);
-      for (char& c : name) {
-        if (c == '-' || c == ':') c = '_';
-      }
-      return name;
-    });
+    NamedAsPrinted{});
 
 // Multistep methods choose their steps themselves.
 class EventTimesOfMultistepMethods : public testing::TestWithParam<const char*> {};
 
 TEST_P(EventTimesOfMultistepMethods, FallWithTheToleranceHoweverEventsAreFound) {
   const double exact = exact_end();
-  printf("%s: error of the contact's end, s\n    rtol   located   library\n", GetParam());
-  constexpr double tightest = 1e-11;
-  double errors[2][2];
-  for (double rtol : {1e-7, tightest}) {
-    double* error = errors[rtol == tightest ? 1 : 0];
-    error[0] = std::abs(SmoothImpact::end({GetParam(), rtol, {}, located}) - exact);
-    error[1] = std::abs(SmoothImpact::end({GetParam(), rtol, {}, library}) - exact);
-    printf("%8.0e  %.2e  %.2e\n", rtol, error[0], error[1]);
+  const auto error = [&](double rtol, EventHandling events) {
+    return std::abs(SmoothImpact::end({GetParam(), rtol, {}, events}) - exact);
+  };
+  for (const EventHandling events : {located, library}) {
+    EXPECT_LT(error(1e-11, events), 1e-2 * error(1e-7, events));
   }
-  for (int i : {0, 1}) EXPECT_LT(errors[1][i], 1e-2 * errors[0][i]);
   // Both follow the method's own polynomial.
-  for (const auto& error : errors) EXPECT_NEAR(error[1], error[0], 0.1 * error[0]);
+  for (const double rtol : {1e-7, 1e-11}) {
+    EXPECT_NEAR(error(rtol, library), error(rtol, located), 0.1 * error(rtol, located));
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(, EventTimesOfMultistepMethods, testing::Values("adams", "bdf"),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(, EventTimesOfMultistepMethods, testing::Values("adams", "bdf"));
 
 }  // namespace
 }  // namespace subimpact

@@ -9,10 +9,7 @@ namespace {
 // A target on a spring and a striker of ten times its mass that stay in contact through a linear
 // spring: the indentation is the sum of two sines.
 struct TwoSprings {
-  double target_mass = 1.0;
-  double striker_mass = 10.0;
-  double spring = 1.0e6;
-  double contact_stiffness = 3.0e6;
+  double target_mass = 1.0, striker_mass = 10.0, spring = 1.0e6, contact_stiffness = 3.0e6;
   double velocity = 1.0;
 
   StruckBeam make(bool in_modes) const {

@@ -12,15 +12,12 @@ class Coverage {
   void judge(double stated, double error) {
     ++n_events_;
     n_covered_ += error <= stated;
-    largest_ = std::max(largest_, error);
     if (error > 0.0) ratios_.push_back(stated / error);
   }
 
   /// The starts and ends of the certain sub-impacts, but for the first start, against those of a
   /// run without errors worth the name.
   void judge(const Result& result, const Result& exact) {
-    const int n_events = n_events_, n_covered = n_covered_;
-    largest_ = 0.0;
     const Counterparts exact_ones = counterparts(result.sub_impacts, exact.sub_impacts);
     for (std::size_t i = 0; i < result.sub_impacts.size(); ++i) {
       const SubImpact& here = result.sub_impacts[i];
@@ -30,11 +27,6 @@ class Coverage {
       if (i > 0) judge(here.start_error.value(), std::abs(here.start - there.start));
       if (here.end && there.end) judge(here.end_error.value(), std::abs(*here.end - *there.end));
     }
-    std::printf(
-        "%2zu sub-impacts, %2zu certain; %2d of %2d times covered; true error up to %.1e us, "
-        "stated %.1e\n",
-        result.sub_impacts.size(), *result.n_certain(), n_covered_ - n_covered,
-        n_events_ - n_events, 1e6 * largest_, 1e6 * result.error_estimate->largest_error);
   }
 
   /// At least that many times, 95 % of them covered, by errors that are in the middle above the
@@ -52,7 +44,6 @@ class Coverage {
 
  private:
   int n_events_ = 0, n_covered_ = 0;
-  double largest_ = 0.0;
   std::vector<double> ratios_;
 };
 

@@ -1,16 +1,13 @@
 #pragma once
 
-#include "paper_scene.h"
-#include "subimpact/case/case.h"
+#include "paper_run.h"
 
 namespace subimpact {
 
 /// The paper's strike on a beam that stays elastic.
-inline Case elastic_case(double end_time) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.section = SectionKind::elastic;
-  input.end_time = end_time;
+inline Case elastic_case(double end_time, int segments = 501, Method method = Method::erk) {
+  Case input = paper_run(SectionKind::elastic, end_time, segments, method);
+  input.output.interval.reset();
   return input;
 }
 

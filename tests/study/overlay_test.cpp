@@ -61,8 +61,7 @@ class Filter {
 
 const std::vector<HistoryRow>& history() {
   static const std::vector<HistoryRow> rows = [] {
-    Case input = elastic_case(1.8e-3);
-    input.model.segments = 51;
+    Case input = elastic_case(1.8e-3, 51);
     input.output.interval = 5e-7;
     return simulate(input).history;
   }();
@@ -200,13 +199,8 @@ TEST(Overlay, OfAnotherForceHasALowCorrelation) {
 }
 
 TEST(Overlay, RefusesWhatCannotBeLaidBesideEachOther) {
-  const auto message = [](Signal signal, const OverlayOptions& options = {}) -> std::string {
-    try {
-      overlay_of(history(), signal, options);
-    } catch (const ResultsError& error) {
-      return error.what();
-    }
-    return {};
+  const auto message = [](const Signal& signal, const OverlayOptions& options = {}) {
+    return message_of<ResultsError>([&] { overlay_of(history(), signal, options); });
   };
   Signal signal = measured({.shift = 0.0});
   expect_in(message(signal, {.shift = 1.0, .low_pass = {}}), "no time in common");

@@ -1,9 +1,10 @@
 // Beams that are struck again: at rest in their residual shape, or as they move.
 
 #include "case/problem.h"
-#include "paper_scene.h"
+#include "paper_run.h"
 #include "print.h"
 #include "runs.h"
+#include "settings.h"
 #include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
@@ -11,16 +12,13 @@ namespace {
 
 struct RestingBeam {
   const char* name;
-  std::function<void(Case&)> set;
+  Settings settings = {};
 };
 void PrintTo(const RestingBeam& beam, std::ostream* out) { *out << beam.name; }
 
 Case paper_strike(double end_time) {
-  Case input;
-  input.scene = paper_scene();
-  input.model.segments = 301;
-  input.solver.method = Method::central_difference;
-  input.end_time = end_time;
+  Case input = paper_run(SectionKind::exact, end_time, 301, Method::central_difference);
+  input.output.interval.reset();
   return input;
 }
 
@@ -40,48 +38,26 @@ std::vector<ShapeRow> shape_at_rest(Case input, const Result& before) {
 class RestingBeams : public testing::TestWithParam<RestingBeam> {};
 
 const RestingBeam free_of_moments[] = {
-    {"exact_sections", [](Case&) {}},
-    {"layers", [](Case& c) { c.model.section = SectionKind::layers; }},
-    {"pinned",
-     [](Case& c) {
-       c.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
-     }},
-    {"cantilever",
-     [](Case& c) {
-       c.scene.beam.ends = {EndSupport::clamped, EndSupport::free};
-       c.scene.striker.position = 0.8;
-     }},
-    {"fine_cells", [](Case& c) { c.model.segments = 2001; }},
+    {"exact_sections"},
+    {"layers", {{"model.section", "layers"}}},
+    {"pinned", {{"beam.ends", Names{"pinned", "pinned"}}}},
+    {"cantilever", {{"beam.ends", Names{"clamped", "free"}}, {"striker.position", 0.8}}},
+    {"fine_cells", {{"model.segments", 2001}}},
     {"hermite_elements",
-     [](Case& c) {
-       c.model.mesh = MeshKind::hermite;
-       c.model.elements = 60;
-       c.solver.method = Method::erk;
-     }},
-    {"with_shear",
-     [](Case& c) {
-       c.scene.beam.theory = BeamTheory::timoshenko;
-       c.scene.beam.poisson = 0.33;
-     }},
-    {"mixed_cells",
-     [](Case& c) {
-       c.model.mesh = MeshKind::mixed;
-       c.model.segments = 400;
-     }},
+     {{"model.mesh", "hermite"}, {"model.elements", 60}, {"solver.method", "erk"}}},
+    {"with_shear", {{"beam.theory", "timoshenko"}, {"beam.poisson", 0.33}}},
+    {"mixed_cells", {{"model.mesh", "mixed"}, {"model.segments", 400}}},
     {"mixed_cells_pinned",
-     [](Case& c) {
-       c.model.mesh = MeshKind::mixed;
-       c.model.segments = 400;
-       c.scene.striker.position = 0.3;
-       c.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
-     }},
+     {{"model.mesh", "mixed"},
+      {"model.segments", 400},
+      {"striker.position", 0.3},
+      {"beam.ends", Names{"pinned", "pinned"}}}},
 };
 
 INSTANTIATE_TEST_SUITE_P(, RestingBeams, testing::ValuesIn(free_of_moments), NamedAsPrinted{});
 
 TEST_P(RestingBeams, HaveNoMomentsAndTheirPermanentSetWhereSupportsAllowIt) {
-  Case input = paper_strike(4e-4);
-  GetParam().set(input);
+  const Case input = changed(paper_strike(4e-4), GetParam().settings);
   const Result first = simulate(input);
   ASSERT_GT(first.n_yielded_sections, 0U);
   const std::vector<ShapeRow> shape = shape_at_rest(input, first);
@@ -97,8 +73,6 @@ TEST_P(RestingBeams, HaveNoMomentsAndTheirPermanentSetWhereSupportsAllowIt) {
     difference = std::max(difference, std::abs(shape[i].displacement - chord - set));
     moment = std::max(moment, std::abs(shape[i].moment));
   }
-  std::printf("moments left %.1e of yield, set %.4g mm, difference %.1e\n", moment / yield_moment,
-              1e3 * largest, difference / largest);
   EXPECT_GT(largest, 1e-4);
   EXPECT_LT(moment, 1e-8 * yield_moment);
   EXPECT_LT(difference, 2e-3 * largest);  // the integral of the set is of the order of the mesh
@@ -110,7 +84,7 @@ TEST(RestingBeam, BetweenClampsKeepsTheUniformMomentOfLeastEnergy) {
     Case input = paper_strike(1.5e-3);
     input.model.mesh = mesh;
     if (mesh == MeshKind::mixed) input.model.segments = 400;
-    input.scene.beam.ends = {EndSupport::clamped, EndSupport::clamped};
+    input.scene.beam.ends = {clamped, clamped};
     input.scene.striker.velocity = 8.0;
     const Result first = simulate(input);
     const std::vector<ShapeRow> shape = shape_at_rest(input, first);
@@ -121,7 +95,6 @@ TEST(RestingBeam, BetweenClampsKeepsTheUniformMomentOfLeastEnergy) {
     const Beam& beam = input.scene.beam;
     const double moment = -beam.bending_stiffness() * rotation / beam.length;
     EXPECT_GT(std::abs(moment), 1e-4 * beam.yield_moment());
-    std::printf("moment left %.4g of yield\n", moment / beam.yield_moment());
     for (const ShapeRow& row : shape) {
       EXPECT_NEAR(row.moment, moment, 1e-6 * std::abs(moment)) << row.position;
     }
@@ -181,7 +154,7 @@ TEST(RepeatedStrikes, OfRigidBodiesFollowTheBalanceOfEachDent) {
 
 TEST(RepeatedStrikes, OnAYieldingBeamHaveTheErrorsOfRunsThatWereStruckAsOften) {
   Case input = paper_strike(1.5e-3);
-  input.scene.beam.ends = {EndSupport::pinned, EndSupport::pinned};
+  input.scene.beam.ends = {pinned, pinned};
   input.scene.striker.velocity = 4.0;
   input.strikes = 3;
   const Result result = run_as_asked(input, {}, {}).result;
@@ -211,27 +184,16 @@ TEST(RepeatedStrikes, OnAMovingBeamMeetItWhereItIs) {
 }
 
 TEST(RepeatedStrikes, RefuseWhatTheBeamCannotTake) {
-  const auto words_of = [](const Case& refused) {
-    const Refusal refusal = refusal_of([&] { simulate(refused); });
-    return refusal.key + ' ' + refusal.message;
-  };
   Case input = paper_strike(4e-4);
   input.parts.start = simulate(input).end_state;
-  expect_in(words_of(input), "time.end");
-  Case other = input;
-  other.at_rest = true;
-  other.model.segments = 201;
-  expect_in(words_of(other), "model.mesh");
-  other = input;
-  other.at_rest = true;
-  other.model.section = SectionKind::layers;
-  expect_in(words_of(other), "model.section");
-  other = input;
-  other.at_rest = false;
-  other.scene.striker.velocity = 0.1;
-  expect_in(words_of(other), "striker.velocity");
-  other.scene.striker.gap = 1e-3;
-  expect_in(words_of(other), "striker.gap");
+  expect_refused(input, "time.end");
+  input.at_rest = true;
+  expect_refused(changed(input, {{"model.segments", 201}}), "model.mesh");
+  expect_refused(changed(input, {{"model.section", "layers"}}), "model.section");
+  input.at_rest = false;
+  const Case slow = changed(input, {{"striker.velocity", 0.1}});
+  EXPECT_EQ(refusal_of([&] { simulate(slow); }).key, "striker.velocity");
+  expect_refused(changed(slow, {{"striker.gap", 1e-3}}), "striker.gap");
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "subimpact/study/sensitivity.h"
-
 #include "elastic_case.h"
 #include "refusal.h"
 #include "rigid_case.h"
+#include "study/stencil.h"
 #include "testing.h"
 
 namespace subimpact {
@@ -23,11 +23,8 @@ double derivative(const Sensitivity& study, EventQuantity quantity, const std::s
   return std::nan("");
 }
 
-Sensitivity study_of(const Case& input, std::vector<std::string> keys = {}) {
-  SensitivityOptions options;
-  options.keys = std::move(keys);
-  options.jobs = 2;
-  return sensitivity(input, options);
+Sensitivity study_of(const Case& input, std::vector<std::string> keys = {}, Jobs jobs = 2) {
+  return sensitivity(input, {std::move(keys), jobs, {}, {}});
 }
 
 std::string flag_of(const Sensitivity& study, std::size_t sub_impact) {
@@ -134,9 +131,7 @@ TEST(Sensitivity, OfABodyOnASpringThrownAgainstAStopIsThatOfTheClosedForm) {
 }
 
 TEST(Sensitivity, HoldsTheIdentitiesOfTimeMassAndLength) {
-  Case elastic = elastic_case(1e-3);
-  elastic.model.segments = 101;
-  elastic.solver.method = Method::exponential;
+  Case elastic = elastic_case(1e-3, 101, Method::exponential);
   Case yielding = elastic;
   yielding.model.section = SectionKind::exact;
   yielding.solver.method = Method::nystrom;
@@ -178,9 +173,7 @@ double edge_of_count(const Case& input, double low, double high) {
 }
 
 TEST(Sensitivity, FlagsAContactThatMergesOrAppearsWithinTheShifts) {
-  Case input = elastic_case(2e-3);
-  input.model.segments = 51;
-  input.solver.method = Method::exponential;
+  Case input = elastic_case(2e-3, 51, Method::exponential);
   const double first = 10.0;
   double second = first;
   double edge = 0.0;
@@ -200,9 +193,7 @@ TEST(Sensitivity, FlagsAContactThatMergesOrAppearsWithinTheShifts) {
 }
 
 TEST(Sensitivity, FlagsTheKinkOfAStruckPointAtTheCentreOfACell) {
-  Case input = elastic_case(4e-4);
-  input.model.segments = 101;
-  input.solver.method = Method::exponential;
+  Case input = elastic_case(4e-4, 101, Method::exponential);
   input.scene.striker.position = 40.5 / 101.0;  // a centre
   expect_in(flag_of(study_of(input, {"striker.position"}), 0), "kink");
   input.scene.striker.position = 40.75 / 101.0;
@@ -220,35 +211,23 @@ TEST(Sensitivity, TakesTheNineNumbersOfThePapersExample) {
   EXPECT_EQ(sensitivity_keys(input), nine);
 }
 
-std::string reason_against(const Case& input, const std::string& key) {
-  const Refusal refusal = refusal_of([&] { study_of(input, {key}); });
-  EXPECT_EQ(refusal.key, key);
-  return refusal.message;
-}
-
 TEST(Sensitivity, RefusesByNameAKeyWithoutADerivative) {
-  Case input = elastic_case(1e-4);
-  input.model.segments = 51;
-  const auto expect = [&](const char* key, const char* words) {
-    const std::string reason = reason_against(input, key);
-    expect_in(reason, words);
-  };
-  expect("striker.gap", "is 0, which has no logarithm");
-  expect("striker.position", "is 0.5, where the scene is symmetric");
-  expect("contact.stiffness", "is not given");
-  expect("model.segments", "is not a number of the scene");
-  expect("solver.rtol", "is not a number of the scene");
-  expect("model.strike_refinement", "is 1, at an end of its range");
-  input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
-  expect("beam.yield_stress", "is inf, which has no logarithm");
+  Case input = elastic_case(1e-4, 51);
   input.scene.beam.poisson = 0.3;
-  expect("beam.poisson", "is 0.3, has no effect with beam.theory = \"rayleigh\"");
+  input.scene.beam.yield_stress = std::numeric_limits<double>::infinity();
+  for (const auto& [key, words] :
+       {std::pair("striker.gap", "logarithm"), std::pair("striker.position", "symmetric"),
+        std::pair("contact.stiffness", "not given"), std::pair("model.segments", "not a number"),
+        std::pair("solver.rtol", "not a number"), std::pair("model.strike_refinement", "an end"),
+        std::pair("beam.yield_stress", "logarithm"), std::pair("beam.poisson", "no effect")}) {
+    const auto [found, message] = refusal_of([&] { study_of(input, {key}); });
+    EXPECT_EQ(found, key);
+    expect_in(message, words);
+  }
 }
 
 TEST(Sensitivity, OfACaseByCentralDifferencesIsMadeByNystromAndRemarksThat) {
-  Case input = elastic_case(3e-4);
-  input.model.segments = 51;
-  input.solver.method = Method::central_difference;
+  Case input = elastic_case(3e-4, 51, Method::central_difference);
   const Sensitivity study = study_of(input, {"striker.mass"});
   EXPECT_EQ(study.input.solver.method, Method::nystrom);
   ASSERT_EQ(study.remarks.size(), 1u);
@@ -256,14 +235,9 @@ TEST(Sensitivity, OfACaseByCentralDifferencesIsMadeByNystromAndRemarksThat) {
 }
 
 TEST(Sensitivity, DoesNotDependOnTheNumberOfJobs) {
-  Case input = elastic_case(5e-4);
-  input.model.segments = 51;
-  input.solver.method = Method::exponential;
-  SensitivityOptions options;
-  options.keys = {"striker.mass"};
-  const Sensitivity one = sensitivity(input, options);
-  options.jobs = 3;
-  const Sensitivity three = sensitivity(input, options);
+  Case input = elastic_case(5e-4, 51, Method::exponential);
+  const Sensitivity one = study_of(input, {"striker.mass"}, 1);
+  const Sensitivity three = study_of(input, {"striker.mass"}, 3);
   ASSERT_EQ(one.rows.size(), three.rows.size());
   for (std::size_t i = 0; i < one.rows.size(); ++i) {
     EXPECT_EQ(one.rows[i].by_key[0]->value, three.rows[i].by_key[0]->value);
@@ -272,9 +246,7 @@ TEST(Sensitivity, DoesNotDependOnTheNumberOfJobs) {
 }
 
 TEST(Sensitivity, KeepsTheKeysWhoseRunsHadEndedWhenItIsStopped) {
-  Case input = elastic_case(5e-4);
-  input.model.segments = 51;
-  input.solver.method = Method::nystrom;
+  Case input = elastic_case(5e-4, 51, Method::nystrom);
   std::size_t n_ended = 0;
   SensitivityOptions options;
   options.keys = {"striker.mass", "striker.velocity"};
@@ -296,6 +268,32 @@ TEST(Sensitivity, HasNoKeysWhereItsBaseRunIsStopped) {
   EXPECT_TRUE(study.interrupted);
   EXPECT_TRUE(study.keys.empty());
   EXPECT_TRUE(study.rows.empty());
+}
+
+// A number that changes as the root of the distance d from a graze, whose slope is -1/(2 d).
+Stencil of_root(double d) {
+  Stencil s;
+  s.base = 1.0;
+  for (std::size_t i = 0; i < sensitivity_shifts.size(); ++i) {
+    s.plus[i] = std::sqrt(1.0 - sensitivity_shifts[i] / d);
+    s.minus[i] = std::sqrt(1.0 + sensitivity_shifts[i] / d);
+  }
+  return s;
+}
+
+TEST(Stencil, ExtrapolatesWhereNumbersAreSmooth) {
+  const double d = 1e-4;
+  const Stencil s = of_root(d);
+  const double exact = -0.5 / d;
+  const Derivative smooth = derivative_of(s, 1e-16, Smoothness::everywhere);
+  EXPECT_NEAR(smooth.value, exact, 1e-2 * std::abs(s.slope(1) - exact) + 1e-9 / d);
+  EXPECT_GE(smooth.error, std::abs(smooth.value - exact));
+  EXPECT_EQ(derivative_of(s, 1e-16, Smoothness::between_thresholds).value, s.slope(1));
+}
+
+TEST(Stencil, ShowsTheBendOfASlopeBeyondTheErrorsOfRuns) {
+  EXPECT_GT(bend_of_slope(of_root(2e-5), 1e-16), 0.01 * 0.5 / 2e-5);
+  EXPECT_EQ(bend_of_slope(of_root(2e-5), 1.0), 0.0);
 }
 
 }  // namespace

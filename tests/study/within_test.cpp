@@ -1,27 +1,22 @@
 // Wishes for event times: what the program chooses, and whether the wish is met.
 
 #include "subimpact/study/within.h"
-
-#include "paper_run.h"
+#include "elastic_case.h"
+#include "runs.h"
 #include "same_results.h"
 #include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/other_mesh.h"
-#include "testing.h"
+#include "subimpact/study/plan.h"
 
 namespace subimpact {
 namespace {
 
-// The largest difference of starts and ends; infinite if counts differ.
-double largest_difference(const std::vector<SubImpact>& a, const std::vector<SubImpact>& b) {
-  const std::vector<MatchedPair> pairs = match_sub_impacts(a, b);
-  if (n_leading_matches(pairs) < pairs.size()) return INFINITY;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(a[i].start - b[i].start));
-    if (a[i].end && b[i].end) largest = std::max(largest, std::abs(*a[i].end - *b[i].end));
-  }
-  return largest;
+Case wishing(double wish, SectionKind section, double end_time, int segments = 501,
+             Method method = Method::erk) {
+  Case input = paper_run(section, end_time, segments, method);
+  input.accuracy.event_times = wish;
+  return input;
 }
 
 GivenKeys given(std::set<std::string> keys) { return {std::move(keys), {}}; }
@@ -52,16 +47,12 @@ TEST(AChoice, IsModesWhereTheBeamIsElasticAndCentralDifferencesWhereItYields) {
 }
 
 TEST(AChoice, SaysThatContactIsIntegratedWhereSectionsMightYield) {
-  const auto names_nystrom = [](const ChosenModel& chosen) {
-    return chosen.reason.find("nystrom") != std::string::npos;
-  };
-  EXPECT_TRUE(names_nystrom(choose_model(paper_run(SectionKind::exact, 1e-3), {}, false)));
-  EXPECT_FALSE(names_nystrom(choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false)));
+  expect_in(choose_model(paper_run(SectionKind::exact, 1e-3), {}, false).reason, "nystrom");
+  expect_not_in(choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false).reason, "nystrom");
 }
 
 TEST(AChoice, LeavesWhatTheCaseFixes) {
-  Case input = paper_run(SectionKind::elastic, 1e-3);
-  input.solver.method = Method::erk;
+  Case input = paper_run(SectionKind::elastic, 1e-3, 501, Method::erk);
   input.model.mesh = MeshKind::cells;
   OpenChoices open;
   open.method = open.mesh = false;
@@ -72,20 +63,18 @@ TEST(AChoice, LeavesWhatTheCaseFixes) {
 
 // The limit of fine meshes, from ten times as many elements as the wish needs.
 TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
-  Case finest = paper_run(SectionKind::elastic, 2e-3);
+  Case finest = paper_run(SectionKind::elastic, 2e-3, 501, Method::exponential);
   finest.model.mesh = MeshKind::hermite;
   finest.model.elements = 1600;
-  finest.solver.method = Method::exponential;
   finest.solver.rtol = 1e-11;
   const Result limit = simulate(finest);
   for (const double wish : {1e-5, 1e-6, 1e-7}) {
-    Case input = paper_run(SectionKind::elastic, 2e-3);
-    input.accuracy.event_times = wish;
-    const WithinRun run = simulate_within(input, {});
+    const WithinRun run = simulate_within(wishing(wish, SectionKind::elastic, 2e-3), {});
     ASSERT_TRUE(run.result.tolerance);
     EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
     EXPECT_LE(run.result.tolerance->reached, wish);
-    EXPECT_LE(largest_difference(run.result.sub_impacts, limit.sub_impacts), wish) << wish;
+    expect_same_starts(run.result, limit, 1e6 * wish);
+    expect_same_ends(run.result, limit, 1e6 * wish);
     EXPECT_LT(mesh_count(run.input), 1600);
   }
 }
@@ -93,9 +82,7 @@ TEST(AWish, IsMetByEveryEventOfAnElasticStrike) {
 // The first separation of the paper's beam that yields: 201.476 +- 0.006 us, from 1600 graded
 // elements and 8007 cells.
 TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
-  Case input = paper_run(SectionKind::exact, 0.3e-3);
-  input.accuracy.event_times = 0.3e-6;
-  const WithinRun run = simulate_within(input, {});
+  const WithinRun run = simulate_within(wishing(0.3e-6, SectionKind::exact, 0.3e-3), {});
   EXPECT_TRUE(run.result.tolerance->met) << run.result.tolerance->reason;
   ASSERT_GE(run.result.sub_impacts.size(), 3u);
   EXPECT_NEAR(*run.result.sub_impacts[0].end, 201.476e-6, 0.3e-6);
@@ -103,27 +90,22 @@ TEST(AWish, FindsTheOpeningThatCoarseMeshesMiss) {
 }
 
 TEST(AWish, ChoosesTheSameWhateverTheNumberOfJobs) {
-  Case input = paper_run(SectionKind::elastic, 1e-3);
-  input.accuracy.event_times = 1e-6;
+  const Case input = wishing(1e-6, SectionKind::elastic, 1e-3);
+  const WithinRun alone = simulate_within(input, {});
   WithinOptions two;
   two.jobs = 2;
-  const WithinRun alone = simulate_within(input, {});
   const WithinRun beside = simulate_within(input, {}, two);
   EXPECT_EQ(mesh_count(alone.input), mesh_count(beside.input));
   expect_same(alone.result, beside.result);
 }
 
 TEST(AWish, LeavesACaseThatRepeatsTheRunBitForBit) {
-  Case input = paper_run(SectionKind::exact, 0.25e-3);
-  input.accuracy.event_times = 2e-6;
-  const WithinRun run = simulate_within(input, {});
+  const WithinRun run = simulate_within(wishing(2e-6, SectionKind::exact, 0.25e-3), {});
   expect_same(simulate(run.input), run.result);
 }
 
 TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
-  Case input = paper_run(SectionKind::elastic, 1e-3);
-  input.model.segments = 101;
-  input.accuracy.event_times = 1e-9;
+  const Case input = wishing(1e-9, SectionKind::elastic, 1e-3, 101);
   OpenChoices open;
   open.mesh = open.size = false;
   const WithinRun run = simulate_within(input, open);
@@ -135,10 +117,8 @@ TEST(AWish, ThatAFixedMeshCannotMeetNamesTheKeyInTheWay) {
 }
 
 TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
-  Case input = paper_run(SectionKind::elastic, 0.4e-3);
-  input.solver.method = Method::central_difference;
+  Case input = wishing(1e-9, SectionKind::elastic, 0.4e-3, 501, Method::central_difference);
   input.solver.step = 1e-7;
-  input.accuracy.event_times = 1e-9;
   OpenChoices open;
   open.method = open.tolerance = false;
   const WithinRun run = simulate_within(input, open);
@@ -148,8 +128,7 @@ TEST(AWish, ThatAFixedStepCannotMeetNamesThatKey) {
 }
 
 TEST(AWish, StopsAtTheLimitOfWork) {
-  Case input = paper_run(SectionKind::exact, 1e-3);
-  input.accuracy.event_times = 1e-10;
+  Case input = wishing(1e-10, SectionKind::exact, 1e-3);
   input.accuracy.work_limit = 3e6;
   double work = 0.0;
   WithinOptions options;
@@ -161,10 +140,9 @@ TEST(AWish, StopsAtTheLimitOfWork) {
 }
 
 TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
-  Case input = paper_run(SectionKind::elastic, 0.3e-3);
+  Case input = wishing(1e-5, SectionKind::elastic, 0.3e-3);  // met by the first level, without rows
   input.output.interval = 1e-6;
   input.output.shapes = 1e-5;
-  input.accuracy.event_times = 1e-5;           // which the first level meets, run without rows
   std::map<std::pair<int, double>, int> runs;  // by mesh and tolerance
   WithinOptions options;
   options.finished = [&](const Case& run, const Result&) {
@@ -185,9 +163,8 @@ TEST(AWish, RunsTheBestCaseOnceMoreForItsRowsAndNotThoseBesideIt) {
 }
 
 TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
-  Case input = paper_run(SectionKind::exact, 0.3e-3);
+  Case input = wishing(1e-6, SectionKind::exact, 0.3e-3);
   input.scene.beam.yield_stress = 3e9;
-  input.accuracy.event_times = 1e-6;
   const WithinRun run = simulate_within(input, {});
   EXPECT_EQ(run.result.n_yielded_sections, 0u);
   EXPECT_EQ(run.input.model.mesh, MeshKind::hermite);
@@ -195,9 +172,7 @@ TEST(AWish, OfABeamThatDoesNotYieldUsesModes) {
 }
 
 TEST(CasesBeside, AreCoarserInMeshAndTime) {
-  Case input = paper_run(SectionKind::exact, 1e-3);
-  input.model.segments = 401;
-  input.solver.method = Method::central_difference;
+  Case input = paper_run(SectionKind::exact, 1e-3, 401, Method::central_difference);
   const std::vector<CaseBeside> cases = cases_beside(input);
   ASSERT_EQ(cases.size(), 3u);
   EXPECT_EQ(cases[0].input.model.segments, 341);
@@ -221,8 +196,7 @@ TEST(CasesBeside, OfARigidBeamAreCoarserInTimeAlone) {
 }
 
 TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {
-  Case input = paper_run(SectionKind::exact, 0.5e-3);
-  input.accuracy.event_times = 1e-9;
+  const Case input = wishing(1e-9, SectionKind::exact, 0.5e-3);
   WithinOptions options;
   int n_meshes = 0;
   options.announce = [&](const std::string&) { ++n_meshes; };
@@ -231,6 +205,67 @@ TEST(ASearch, ThatIsStoppedReturnsTheLastMeshThatWasFinished) {
   EXPECT_EQ(run.result.outcome.kind, OutcomeKind::stopped);
   EXPECT_TRUE(run.result.n_certain().has_value());
   EXPECT_NEAR(run.result.outcome.time, 0.5e-3, 1e-9);
+}
+
+// 218.049244 us and 275.925801 us: the limit of an independent program (tests/data).
+TEST(APlan, IsJudgedByTheLimitOfAnIndependentProgram) {
+  const Plan result = plan(elastic_case(285e-6), 0.1e-6);
+  ASSERT_EQ(result.reference.sub_impacts.size(), 3u);
+  EXPECT_NEAR(1e6 * *result.reference.sub_impacts[0].end, 218.049244, 0.02);
+  EXPECT_NEAR(1e6 * *result.reference.sub_impacts[2].end, 275.925801, 0.02);
+  EXPECT_LE(result.reference.error, 0.2 * 0.1e-6);
+}
+
+TEST(APlan, NamesTheCheapestMeshThatIsWithinTheErrorTogetherWithAllFinerOnes) {
+  const double wanted = 1e-6;
+  const Plan result = plan(elastic_case(285e-6), wanted);
+  ASSERT_TRUE(result.cheapest.has_value());
+  const PlanPoint& best = result.points[*result.cheapest];
+  EXPECT_EQ(best.verdict, Verdict::right);
+  EXPECT_TRUE(best.admitted);
+  EXPECT_LE(best.errors.maximum, wanted);
+  bool admitted = false;
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    const PlanPoint& point = result.points[i];
+    const PlanPoint* before = i > 0 ? &result.points[i - 1] : nullptr;
+    const bool same =
+        before && before->setting.method == point.setting.method &&
+        before->input.model.strike_refinement == point.input.model.strike_refinement &&
+        before->input.model.mesh == point.input.model.mesh;
+    EXPECT_FALSE(same && admitted && !point.admitted) << point.mesh;
+    admitted = point.admitted;
+    if (admitted) {
+      EXPECT_GE(point.counted, best.counted);
+    }
+  }
+  // The named combination, run as anyone would, is within the error of the reference.
+  const EventErrors errors =
+      event_errors(simulate(best.input).sub_impacts, result.reference.sub_impacts);
+  EXPECT_LE(errors.maximum, wanted);
+}
+
+// Separations last 6.5 and 7.1 us.
+TEST(APlan, AdvisesNoErrorThatSubImpactsGetLostIn) {
+  const Plan result = plan(elastic_case(285e-6), 20e-6);
+  ASSERT_TRUE(result.cheapest.has_value());
+  double shortest = INFINITY;
+  for (std::size_t i = 1; i < result.reference.sub_impacts.size(); ++i) {
+    shortest = std::min(
+        shortest, result.reference.sub_impacts[i].start - *result.reference.sub_impacts[i - 1].end);
+  }
+  EXPECT_LE(result.points[*result.cheapest].errors.maximum, 0.5 * shortest);
+}
+
+TEST(APlan, IsNotMadeWhereNoEventTimeIsKnown) {
+  EXPECT_THROW(plan(elastic_case(1e-4), 1e-6), InvalidCase);
+}
+
+TEST(EventErrors, CallAContactStillOpenWrongWhereThatOfTheReferenceHasEnded) {
+  SubImpact ended;
+  ended.end = 1e-4;
+  SubImpact open;
+  const EventErrors errors = event_errors({open}, {ended});
+  EXPECT_FALSE(errors.all_correspond());
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 #include "subimpact/study/work_precision.h"
-
 #include "paper_run.h"
 #include "print.h"
-#include "testing.h"
+#include "subimpact/study/match.h"
 
 namespace subimpact {
 namespace {
@@ -10,13 +9,58 @@ namespace {
 std::vector<SubImpact> sub_impacts(const std::vector<std::pair<double, double>>& times) {
   std::vector<SubImpact> list;
   for (const auto& [start, end] : times) {
-    SubImpact s;
-    s.start = start;
-    s.end = end;
-    s.peak_force = 100.0;
-    list.push_back(s);
+    list.push_back({});
+    list.back().start = start;
+    list.back().end = end;
+    list.back().peak_force = 100.0;
   }
   return list;
+}
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+Pairs match(const std::vector<std::pair<double, double>>& a,
+            const std::vector<std::pair<double, double>>& b) {
+  Pairs pairs;
+  for (const MatchedPair& pair : match_sub_impacts(sub_impacts(a), sub_impacts(b))) {
+    pairs.push_back({pair.first ? static_cast<int>(*pair.first) : -1,
+                     pair.second ? static_cast<int>(*pair.second) : -1});
+  }
+  return pairs;
+}
+
+TEST(MatchedSubImpacts, CorrespondOneToOneWhereTheyOverlap) {
+  EXPECT_EQ(match({{0, 10}, {20, 25}}, {{0, 10.2}, {19.8, 25}}), (Pairs{{0, 0}, {1, 1}}));
+}
+
+TEST(MatchedSubImpacts, ShowOneThatOnlyTheFirstOrTheSecondRunHas) {
+  EXPECT_EQ(match({{0, 10}, {12, 13}, {20, 25}}, {{0, 10}, {20, 25}}),
+            (Pairs{{0, 0}, {1, -1}, {2, 1}}));
+  EXPECT_EQ(match({{0, 10}, {20, 25}}, {{0, 10}, {12, 13}, {20, 25}}),
+            (Pairs{{0, 0}, {-1, 1}, {1, 2}}));
+  EXPECT_EQ(match({}, {{0, 1}}), (Pairs{{-1, 0}}));
+}
+
+TEST(MatchedSubImpacts, DoNotTakeOneOfTwoHalvesForTheWhole) {
+  const Pairs pairs = match({{0, 10}, {20, 40}}, {{0, 10}, {20, 29}, {31, 40}});
+  EXPECT_EQ(pairs.size(), 3u);
+  const auto list = match_sub_impacts(sub_impacts({{0, 10}, {20, 40}}),
+                                      sub_impacts({{0, 10}, {20, 29}, {31, 40}}));
+  EXPECT_LE(n_leading_matches(list), 2u);
+}
+
+TEST(MatchedSubImpacts, CountTheLeadingOnesUpToTheFirstOddOne) {
+  const auto list = match_sub_impacts(sub_impacts({{0, 1}, {2, 3}, {4, 5}, {6, 7}}),
+                                      sub_impacts({{0, 1}, {2, 3}, {6, 7}}));
+  EXPECT_EQ(n_leading_matches(list), 2u);
+}
+
+TEST(MatchedSubImpacts, PairTwoThatAreStillOpenAtTheEnd) {
+  auto a = sub_impacts({{0, 1}, {2, 3}});
+  auto b = sub_impacts({{0, 1}, {2.1, 3}});
+  a.back().end.reset();
+  b.back().end.reset();
+  EXPECT_EQ(n_leading_matches(match_sub_impacts(a, b)), 2u);
 }
 
 TEST(ErrorsOfEventTimes, LeaveOutTheFirstStartAndKnowMedianAndLargest) {
@@ -145,17 +189,19 @@ TEST(AnInterruptedStudy, KeepsThePointsItHas) {
   EXPECT_EQ(study.points.size(), 3u);
 }
 
+Trial trial(const char* method, double error, double seconds, Verdict verdict = Verdict::right) {
+  Trial p;
+  p.setting.method = method;
+  p.errors.maximum = error;
+  p.seconds = seconds;
+  p.verdict = verdict;
+  return p;
+}
+
 TEST(Recommendation, TakesTheCheapestOfThoseThatFindEverySubImpact) {
-  const auto point = [](double error, double seconds, Verdict verdict) {
-    Trial p;
-    p.errors.maximum = error;
-    p.seconds = seconds;
-    p.verdict = verdict;
-    return p;
-  };
-  const std::vector<Recommendation> recommendations = recommendations_from(
-      {point(2e-7, 3.0, Verdict::right), point(2e-7, 2.0, Verdict::right),
-       point(1e-9, 1.0, Verdict::wrong_count), point(5e-9, 7.0, Verdict::right)});
+  const std::vector<Recommendation> recommendations =
+      recommendations_from({trial("a", 2e-7, 3.0), trial("a", 2e-7, 2.0),
+                            trial("a", 1e-9, 1.0, Verdict::wrong_count), trial("a", 5e-9, 7.0)});
   EXPECT_EQ(recommendations[0].point->seconds, 2.0);  // 1 us
   EXPECT_EQ(recommendations[1].point->seconds, 7.0);  // 0.1 us
   EXPECT_EQ(recommendations[2].point->seconds, 7.0);  // 0.01 us
@@ -163,17 +209,9 @@ TEST(Recommendation, TakesTheCheapestOfThoseThatFindEverySubImpact) {
 }
 
 TEST(Recommendation, TellsASettingThatReachesItsErrorByLuckFromOneThatDoesSteadily) {
-  const auto point = [](const char* method, double error, double seconds) {
-    Trial p;
-    p.setting.method = method;
-    p.errors.maximum = error;
-    p.seconds = seconds;
-    p.verdict = Verdict::right;
-    return p;
-  };
   const std::vector<Recommendation> recommendations =
-      recommendations_from({point("a", 0.5e-6, 1.0), point("a", 2e-6, 2.0), point("a", 0.4e-6, 4.0),
-                            point("b", 1e-7, 3.0)});
+      recommendations_from({trial("a", 0.5e-6, 1.0), trial("a", 2e-6, 2.0), trial("a", 0.4e-6, 4.0),
+                            trial("b", 1e-7, 3.0)});
   EXPECT_EQ(recommendations[0].point->seconds, 1.0);
   EXPECT_EQ(recommendations[0].steady->seconds, 3.0);
   EXPECT_EQ(recommendations[1].point->seconds, 3.0);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <span>
 
 #include "random_walk.h"
 #include "subimpact/numerics/banded_matrix.h"
@@ -45,15 +46,19 @@ inline BandedMatrix random_positive_definite(std::size_t n, std::size_t half_ban
   return matrix;
 }
 
+/// max_i |a_i|.
+inline double largest_of(std::span<const double> a) {
+  double largest = 0.0;
+  for (const double x : a) largest = std::fmax(largest, std::abs(x));
+  return largest;
+}
+
 /// max_i |a_i - b_i| over max_i |b_i|.
 inline double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double difference = 0.0;
-  double size = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (std::size_t i = 0; i < a.size(); ++i)
     difference = std::fmax(difference, std::abs(a[i] - b[i]));
-    size = std::fmax(size, std::abs(b[i]));
-  }
-  return difference / size;
+  return difference / largest_of(b);
 }
 
 }  // namespace subimpact

@@ -17,6 +17,25 @@ inline std::span<double> entries(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
+inline std::vector<double> curvatures_of(const BeamMesh& mesh, std::span<const double> unknowns) {
+  std::vector<double> kappa(mesh.n_sections());
+  mesh.curvatures(unknowns, kappa);
+  return kappa;
+}
+
+inline std::vector<double> bending_forces_of(const BeamMesh& mesh,
+                                             std::span<const double> moments) {
+  std::vector<double> forces(mesh.n_unknowns());
+  mesh.bending_forces(moments, forces);
+  return forces;
+}
+
+inline std::vector<double> times(const BandedMatrix& matrix, std::span<const double> x) {
+  std::vector<double> product(x.size());
+  matrix.multiply(x, product);
+  return product;
+}
+
 /// The stiffness matrix of an elastic beam on a mesh, column by column out of curvatures, forces
 /// and shear forces.
 inline Eigen::MatrixXd stiffness_matrix(const BeamMesh& mesh, double bending_stiffness) {
@@ -40,6 +59,12 @@ inline Eigen::VectorXd squared_frequencies(const BeamMesh& mesh, double bending_
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
       stiffness_matrix(mesh, bending_stiffness), dense(mesh.mass()), Eigen::EigenvaluesOnly);
   return solver.eigenvalues();
+}
+
+inline std::vector<double> dense_frequencies(const BeamMesh& mesh, double bending_stiffness) {
+  const Eigen::VectorXd roots =
+      squared_frequencies(mesh, bending_stiffness).cwiseMax(0.0).cwiseSqrt();
+  return {roots.begin(), roots.end()};
 }
 
 /// The highest natural frequency.

@@ -3,29 +3,48 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "read_file.h"
 
 namespace subimpact {
 
+/// Sets a variable of the environment for a while.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Environment() {
+    if (before_) {
+      ::setenv(name_, before_->c_str(), 1);
+    } else {
+      ::unsetenv(name_);
+    }
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
 /// While it exists, a shell script in a directory is what runs as gnuplot.
 class FakeGnuplot {
  public:
   FakeGnuplot(const std::filesystem::path& directory, const std::string& script)
-      : path_(std::getenv("PATH")) {
+      : path_("PATH", directory.string() + ":" + std::getenv("PATH")) {
     std::filesystem::create_directories(directory);
     const std::filesystem::path program = directory / "gnuplot";
     std::ofstream(program) << "#!/bin/sh\n" << script;
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-    ::setenv("PATH", (directory.string() + ":" + path_).c_str(), 1);
   }
-  ~FakeGnuplot() { ::setenv("PATH", path_.c_str(), 1); }
-  FakeGnuplot(const FakeGnuplot&) = delete;
-  FakeGnuplot& operator=(const FakeGnuplot&) = delete;
 
  private:
-  std::string path_;
+  Environment path_;
 };
 
 /// Whether a process of that number, as a file has it, is there and has not ended.

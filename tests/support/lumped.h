@@ -16,14 +16,12 @@
 #include "simulate/recorder.h"
 #include "struck_beam_of.h"
 #include "system/contact_events.h"
-#include "system/struck_beam.h"
 
 namespace subimpact {
 
 /// Two bodies and the law between them.
 struct TwoBodies {
-  double striker_mass = 1.0;
-  double target_mass = 1.0;
+  double striker_mass = 1.0, target_mass = 1.0;
   double spring = 0.0;              ///< of the target, N/m
   double contact_stiffness = 1e8;   ///< K, N/m^1.5
   double yield_indentation = 1e30;  ///< lambda_s, m

@@ -20,6 +20,18 @@ inline Scene paper_scene() {
   return scene;
 }
 
-inline Beam paper_beam() { return paper_scene().beam; }
+using Ends = std::array<EndSupport, 2>;
+inline constexpr EndSupport free_end = EndSupport::free;
+inline constexpr EndSupport pinned = EndSupport::pinned;
+inline constexpr EndSupport clamped = EndSupport::clamped;
+inline constexpr EndSupport all_ends[] = {free_end, pinned, clamped};
+inline constexpr Ends free_ends = {free_end, free_end};
+
+inline Beam paper_beam(BeamTheory theory = BeamTheory::rayleigh, Ends ends = free_ends) {
+  Beam beam = paper_scene().beam;
+  beam.theory = theory;
+  beam.ends = ends;
+  return beam;
+}
 
 }  // namespace subimpact

@@ -39,4 +39,12 @@ inline Refusal refusal_of(const Case& input) {
   return refusal_of([&] { resolve(input); });
 }
 
+/// A case is refused for a key; each of these words stands in the message.
+template <class... Words>
+void expect_refused(const Case& input, const std::string& key, const Words&... words) {
+  const auto [found, message] = refusal_of(input);
+  EXPECT_EQ(found, key) << message;
+  expect_in(message, words...);
+}
+
 }  // namespace subimpact

@@ -1,14 +1,27 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "read_file.h"
 
 namespace subimpact {
+
+inline std::vector<std::string> names_in(const std::filesystem::path& directory) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 /// A directory of the test's own, removed at its end. Names are relative to it.
 class TemporaryDirectory {
@@ -33,6 +46,12 @@ class TemporaryDirectory {
   bool has(const std::string& name) const { return std::filesystem::exists(path / name); }
 
   std::filesystem::path path;
+};
+
+/// Tests with a directory each. Suites that are alike are other names of this one.
+class InADirectory : public testing::Test {
+ protected:
+  const TemporaryDirectory directory;
 };
 
 }  // namespace subimpact

@@ -33,7 +33,7 @@ namespace subimpact {
 /// Each of these pieces stands in the text.
 template <class... Pieces>
 void expect_in(const std::string& text, const Pieces&... pieces) {
-  for (const std::string& piece : {std::string(pieces)...}) {
+  for (const std::string& piece : std::initializer_list<std::string>{pieces...}) {
     EXPECT_NE(text.find(piece), std::string::npos) << '"' << piece << "\" is not in:\n"
                                                    << text.substr(0, 10'000);
   }
@@ -60,16 +60,33 @@ inline std::size_t count_in(const std::string& text, const std::string& piece) {
   return n;
 }
 
-/// The message of the exception that a call throws; empty, and a failure, if it throws none.
+/// Numbers that agree one by one, within an absolute error and one relative to what is expected.
+template <class Found, class Expected>
+void expect_near(const Found& found, const Expected& expected, double absolute,
+                 double relative = 0.0) {
+  ASSERT_EQ(std::size(found), std::size(expected));
+  for (std::size_t i = 0; i < std::size(found); ++i) {
+    EXPECT_NEAR(found[i], expected[i], absolute + relative * std::abs(expected[i])) << i;
+  }
+}
+
+/// The message of the exception that a call throws; "(accepted)" if it throws none.
 template <class Error, class Call>
-std::string message_of(const Call& call) {
+std::string answer_of(const Call& call) {
   try {
     call();
   } catch (const Error& error) {
     return error.what();
   }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
+  return "(accepted)";
+}
+
+/// The same; a failure if it throws none.
+template <class Error, class Call>
+std::string message_of(const Call& call) {
+  const std::string message = answer_of<Error>(call);
+  EXPECT_NE(message, "(accepted)");
+  return message;
 }
 
 }  // namespace subimpact

@@ -1,16 +1,9 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numbers>
-#include <string>
-#include <utility>
-#include <vector>
-
+#include "banded_examples.h"
 #include "model/cell_mesh.h"
 #include "paper_scene.h"
-#include "random_walk.h"
+#include "print.h"
 #include "struck_beam_of.h"
 
 namespace subimpact {
@@ -62,9 +55,7 @@ inline State smooth_state(const StruckBeam& beam, unsigned seed, double bending,
   }
   std::vector<double> curvatures(beam.mesh().n_sections());
   beam.mesh().curvatures({y.data(), n}, curvatures);
-  double largest = 0.0;
-  for (const double kappa : curvatures) largest = std::fmax(largest, std::abs(kappa));
-  const double factor = bending * paper_beam().yield_curvature() / largest;
+  const double factor = bending * paper_beam().yield_curvature() / largest_of(curvatures);
   for (std::size_t i = 0; i < n; ++i) y[i] *= factor;
   y[n] = beam.mesh().struck_point()({y.data(), n}) + indentation;
   y.back() = beam.mesh().struck_point()({y.data() + n + 1, n}) + rate;

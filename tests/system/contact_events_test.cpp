@@ -2,10 +2,7 @@
 
 #include "system/contact_events.h"
 #include "beam_under_test.h"
-#include "model/contact_laws.h"
-#include "print.h"
 #include "system/section_correction.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -13,15 +10,12 @@ namespace {
 constexpr double unit = 1.56337e-5;  // yield indentation
 
 TEST(EventFunctions, RatesAreThoseOfTheirValuesAlongTheFlow) {
-  const struct {
-    EventKind kind;
-    ContactBranch branch;
-  } functions[] = {{EventKind::contact_begins, ContactBranch::separated},
-                   {EventKind::contact_ends, ContactBranch::elastic},
-                   {EventKind::contact_yields, ContactBranch::elastic},
-                   {EventKind::contact_unloads, ContactBranch::plastic}};
   for (const Model& model : models()) {
-    for (const auto& [kind, branch] : functions) {
+    for (const auto& [kind, branch] :
+         {std::pair(EventKind::contact_begins, ContactBranch::separated),
+          std::pair(EventKind::contact_ends, ContactBranch::elastic),
+          std::pair(EventKind::contact_yields, ContactBranch::elastic),
+          std::pair(EventKind::contact_unloads, ContactBranch::plastic)}) {
       for (const Direction before : {Direction::rising, Direction::falling}) {
         StruckBeam beam = make_beam(model);
         enter(beam, branch, 2.0 * unit);
@@ -61,11 +55,17 @@ class ContactCrossing : public testing::Test {
  protected:
   // Puts the contact into a branch, with a given largest indentation.
   void enter(ContactBranch branch, double max_indentation) {
-    contact_.set(branch, {max_indentation});
+    contact_.set(branch, {max_indentation * unit});
   }
-  bool find(double lambda0, double rate0, double lambda1, double rate1,
-            const std::vector<EventFunction>& without = {}) {
-    const auto found = find_crossing(contact_, {2.0, 2.0 + step_, lambda0, rate0, lambda1, rate1},
+  // At both ends of a step, in yield indentations, and such a step.
+  struct Path {
+    double from, rate_from, to, rate_to;
+  };
+  bool find(const Path& path, const std::vector<EventFunction>& without = {}) {
+    const double rate = unit / step_;
+    const auto found = find_crossing(contact_,
+                                     {2.0, 2.0 + step_, path.from * unit, path.rate_from * rate,
+                                      path.to * unit, path.rate_to * rate},
                                      {without, true, 1e-18});
     if (found) crossing_ = *found;
     return found.has_value();
@@ -78,64 +78,55 @@ class ContactCrossing : public testing::Test {
   Crossing crossing_{EventKind::contact_begins};
 };
 
-TEST_F(ContactCrossing, EndOfContactIsWhereTheIndentationMeetsTheResidualOne) {
-  enter(ContactBranch::elastic, 3.0 * unit);
-  const double rate = -unit / step_;
-  ASSERT_TRUE(find(2.25 * unit, rate, 1.25 * unit, rate));
-  EXPECT_EQ(crossing_.function.kind, EventKind::contact_ends);
-  EXPECT_FALSE(crossing_.unresolved);
-  EXPECT_NEAR(part(), 0.25, 1e-6);
-  EXPECT_LE(crossing_.t_lower, crossing_.guess);
-  EXPECT_GE(crossing_.t_upper, crossing_.guess);
-}
-
-TEST_F(ContactCrossing, YieldIsWhereTheIndentationExceedsTheLargest) {
-  enter(ContactBranch::elastic, 0.0);
-  const double rate = unit / step_;
-  ASSERT_TRUE(find(0.5 * unit, rate, 1.5 * unit, rate));
-  EXPECT_EQ(crossing_.function.kind, EventKind::contact_yields);
-  EXPECT_NEAR(part(), 0.5, 1e-4);
-  EXPECT_FALSE(find(0.1 * unit, 0.5 * rate, 0.6 * unit, 0.5 * rate));
-}
-
-TEST_F(ContactCrossing, BeginOfContactIsWhereTheGapCloses) {
-  enter(ContactBranch::separated, 3.0 * unit);
-  const double rate = unit / step_;
-  ASSERT_TRUE(find(1.6 * unit, rate, 2.6 * unit, rate));
-  EXPECT_EQ(crossing_.function.kind, EventKind::contact_begins);
-  EXPECT_NEAR(part(), 0.4, 1e-4);
-  EXPECT_FALSE(find(1.0 * unit, 0.5 * rate, 1.5 * unit, 0.5 * rate));
-}
-
-TEST_F(ContactCrossing, UnloadingIsWhereTheIndentationStopsGrowing) {
-  enter(ContactBranch::plastic, 3.0 * unit);
-  // Rate falls from 3 to -1 units a step: zero at 0.75.
-  ASSERT_TRUE(find(4.0 * unit, 3.0 * unit / step_, 5.0 * unit, -1.0 * unit / step_));
-  EXPECT_EQ(crossing_.function.kind, EventKind::contact_unloads);
-  EXPECT_NEAR(part(), 0.75, 1e-6);
-  EXPECT_FALSE(find(6.0 * unit, 3.0 * unit / step_, 8.0 * unit, 1.0 * unit / step_));
+TEST_F(ContactCrossing, IsWhereTheConditionOfTheEventIsMet) {
+  using enum EventKind;
+  using enum ContactBranch;
+  struct Event {
+    EventKind kind;
+    ContactBranch branch;
+    double largest;
+    Path path;
+    double part, tolerance;
+    std::optional<Path> short_of_it;
+  };
+  // The indentation meets the residual one, exceeds the largest, closes the gap, stops growing.
+  const Event events[] = {
+      {contact_ends, elastic, 3.0, {2.25, -1.0, 1.25, -1.0}, 0.25, 1e-6, {}},
+      {contact_yields, elastic, 0.0, {0.5, 1.0, 1.5, 1.0}, 0.5, 1e-4, Path{0.1, 0.5, 0.6, 0.5}},
+      {contact_begins, separated, 3.0, {1.6, 1.0, 2.6, 1.0}, 0.4, 1e-4, Path{1.0, 0.5, 1.5, 0.5}},
+      {contact_unloads, plastic, 3.0, {4.0, 3.0, 5.0, -1.0}, 0.75, 1e-6, Path{6.0, 3.0, 8.0, 1.0}}};
+  for (const auto& [kind, branch, largest, path, at, tolerance, short_of_it] : events) {
+    SCOPED_TRACE(to_string(kind));
+    enter(branch, largest);
+    ASSERT_TRUE(find(path));
+    EXPECT_EQ(crossing_.function.kind, kind);
+    EXPECT_FALSE(crossing_.unresolved);
+    EXPECT_NEAR(part(), at, tolerance);
+    EXPECT_LE(crossing_.t_lower, crossing_.guess);
+    EXPECT_GE(crossing_.t_upper, crossing_.guess);
+    EXPECT_FALSE(short_of_it && find(*short_of_it));
+  }
 }
 
 TEST_F(ContactCrossing, ABranchLeftAndRegainedWithinOneStepIsNotMissed) {
-  enter(ContactBranch::elastic, 3.0 * unit);
+  enter(ContactBranch::elastic, 3.0);
   // A parabola that dips by 0.25 at half the step: below the residual 2, barely above, far above.
-  const double rate = unit / step_;
-  ASSERT_TRUE(find(2.1 * unit, -rate, 2.1 * unit, rate));
+  ASSERT_TRUE(find({2.1, -1.0, 2.1, 1.0}));
   EXPECT_EQ(crossing_.function.kind, EventKind::contact_ends);
   EXPECT_TRUE(crossing_.unresolved);
   EXPECT_NEAR(part(), 0.5, 1e-5);
-  ASSERT_TRUE(find(2.2501 * unit, -rate, 2.2501 * unit, rate));
+  ASSERT_TRUE(find({2.2501, -1.0, 2.2501, 1.0}));
   EXPECT_TRUE(crossing_.unresolved);
-  EXPECT_FALSE(find(2.9 * unit, -rate, 2.9 * unit, rate));
+  EXPECT_FALSE(find({2.9, -1.0, 2.9, 1.0}));
 }
 
 TEST_F(ContactCrossing, TheEarlierOfTwoIsFound) {
-  enter(ContactBranch::elastic, 2.1 * unit);  // residual 1.1, yields again at 2.1
-  // First up through 2.1, at the end below 1.1.
-  ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_));
+  enter(ContactBranch::elastic, 2.1);    // residual 1.1, yields again at 2.1
+  const Path path{2.0, 2.0, 1.0, -6.0};  // first up through 2.1, at the end below 1.1
+  ASSERT_TRUE(find(path));
   EXPECT_EQ(crossing_.function.kind, EventKind::contact_yields);
   const std::vector<EventFunction> yields{crossing_.function};
-  ASSERT_TRUE(find(2.0 * unit, 2.0 * unit / step_, 1.0 * unit, -6.0 * unit / step_, yields));
+  ASSERT_TRUE(find(path, yields));
   EXPECT_EQ(crossing_.function.kind, EventKind::contact_ends);
 }
 

@@ -3,7 +3,6 @@
 #include "system/free_flight.h"
 #include "beam_under_test.h"
 #include "system/accounts.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -93,12 +92,8 @@ TEST_P(AFreeFlight, MovesAsTheBeamDoes) {
   const State before = at(t - h), y = at(t), after = at(t + h);
   std::vector<double> acceleration(n_ + 1);
   beam_.acceleration({y.data(), n_ + 1}, acceleration);
-  double largest = 0.0;
-  double fastest = 0.0;
-  for (std::size_t i = 0; i <= n_; ++i) {
-    largest = std::fmax(largest, std::abs(acceleration[i]));
-    fastest = std::fmax(fastest, std::abs(y[n_ + 1 + i]));
-  }
+  const double largest = largest_of(acceleration);
+  const double fastest = largest_of({&y[n_ + 1], n_ + 1});
   for (std::size_t i = 0; i <= n_; ++i) {
     const std::size_t v = n_ + 1 + i;
     EXPECT_NEAR((after[i] - before[i]) / (2.0 * h), y[v], 1e-6 * fastest) << i;
@@ -128,8 +123,7 @@ TEST_P(AFreeFlight, HasTheSameStatesAtTimesThatWereExpected) {
 TEST_P(AFreeFlight, KeepsEnergyAndMomentumToRounding) {
   ASSERT_TRUE(fly(y_));
   EXPECT_NEAR(energy(flight_->state()), energy(y_), 1e-12 * energy(y_));
-  double size = 0.0;
-  for (std::size_t i = n_ + 1; i < y_.size(); ++i) size = std::fmax(size, std::abs(y_[i]));
+  const double size = largest_of({&y_[n_ + 1], n_ + 1});
   const double mass = paper_beam().mass() + beam_.striker_mass();
   EXPECT_NEAR(Accounts(beam_).momentum(flight_->state()), Accounts(beam_).momentum(y_),
               1e-12 * mass * size);
@@ -137,9 +131,7 @@ TEST_P(AFreeFlight, KeepsEnergyAndMomentumToRounding) {
 
 TEST_P(AFreeFlight, StaysWithinWindowsAndApartAndCoversFourFifthsOfTheTimeToALimit) {
   ASSERT_TRUE(fly(y_));
-  for (int i = 0; i <= 10000; ++i) {
-    ASSERT_GT(to_nearest_limit(at(1e-4 * i * length())), 0.0) << i;
-  }
+  for (int i = 0; i <= 10000; ++i) ASSERT_GT(to_nearest_limit(at(1e-4 * i * length())), 0.0) << i;
   double nearest = 1.0;
   for (int i = 0; i <= 100; ++i) {
     nearest = std::min(nearest, to_nearest_limit(at(length() * (1.0 + 2.5e-3 * i))));
@@ -167,7 +159,7 @@ TEST_P(AFreeFlight, DoesNotBeginInContactOrWhileASectionFlows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, AFreeFlight, testing::Values(models()[1], models()[3], models()[4]),
-                         [](const auto& info) { return "model" + std::to_string(info.index); });
+                         NamedAsPrinted{});
 
 }  // namespace
 }  // namespace subimpact

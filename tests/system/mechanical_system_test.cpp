@@ -1,7 +1,6 @@
 // The struck beam as implicit methods see it: forces in parts, mass and tangent stiffness.
 
 #include "beam_under_test.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -21,12 +20,6 @@ std::vector<double> multiply(const SparsityPattern& pattern, const std::vector<d
   return y;
 }
 
-double largest(const std::vector<double>& values) {
-  double size = 0.0;
-  for (const double value : values) size = std::max(size, std::abs(value));
-  return size;
-}
-
 class MechanicalBeam : public testing::TestWithParam<Model> {
  protected:
   StruckBeam beam_ = make_beam(GetParam());
@@ -38,12 +31,7 @@ class MechanicalBeam : public testing::TestWithParam<Model> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Models, MechanicalBeam, testing::ValuesIn(models()), [](const auto& info) {
-  std::string name = info.param.name;
-  std::erase(name, ',');
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Models, MechanicalBeam, testing::ValuesIn(models()), NamedAsPrinted{});
 
 TEST_P(MechanicalBeam, ForceIsTheSumOfItsParts) {
   enter(beam_, ContactBranch::plastic, 2.0 * unit);
@@ -52,7 +40,7 @@ TEST_P(MechanicalBeam, ForceIsTheSumOfItsParts) {
   const std::vector<double> stiff = force(y, Part::stiff);
   const std::vector<double> rest = force(y, Part::rest);
   for (std::size_t i = 0; i < n_; ++i) {
-    EXPECT_NEAR(all[i], stiff[i] + rest[i], 1e-13 * largest(all));
+    EXPECT_NEAR(all[i], stiff[i] + rest[i], 1e-13 * largest_of(all));
   }
   EXPECT_NEAR(rest.back(), -beam_.contact_force(y), 1e-12 * std::abs(rest.back()));
   EXPECT_EQ(stiff.back(), 0.0);
@@ -66,7 +54,7 @@ TEST_P(MechanicalBeam, MassTimesAccelerationIsForce) {
   beam_.mass_entries(mass);
   const std::vector<double> product = multiply(beam_.pattern(), mass, a);
   const std::vector<double> all = force(y, Part::all);
-  for (std::size_t i = 0; i < n_; ++i) EXPECT_NEAR(product[i], all[i], 1e-12 * largest(all));
+  expect_near(product, all, 1e-12 * largest_of(all));
 }
 
 TEST_P(MechanicalBeam, StiffnessIsMinusTheDerivativeOfEveryPartOfTheForce) {
@@ -88,7 +76,7 @@ TEST_P(MechanicalBeam, StiffnessIsMinusTheDerivativeOfEveryPartOfTheForce) {
       const std::vector<double> f1 = force(ahead, part);
       const std::vector<double> f0 = force(behind, part);
       for (std::size_t i = 0; i < n_; ++i) {
-        EXPECT_NEAR(expected[i], (f0[i] - f1[i]) / (2.0 * h), 1e-4 * largest(expected) + 1e-6);
+        EXPECT_NEAR(expected[i], (f0[i] - f1[i]) / (2.0 * h), 1e-4 * largest_of(expected) + 1e-6);
       }
     }
   }
@@ -105,9 +93,7 @@ TEST_P(MechanicalBeam, PatternIsAscendingAndSymmetric) {
   };
   for (std::size_t j = 0; j < n_; ++j) {
     for (std::size_t k = pattern.column_starts[j]; k < pattern.column_starts[j + 1]; ++k) {
-      if (k > pattern.column_starts[j]) {
-        EXPECT_LT(pattern.rows[k - 1], pattern.rows[k]);
-      }
+      EXPECT_TRUE(k == pattern.column_starts[j] || pattern.rows[k - 1] < pattern.rows[k]);
       EXPECT_TRUE(has(j, pattern.rows[k]));
     }
     EXPECT_TRUE(has(j, j));

@@ -7,7 +7,6 @@
 #include "order_table.h"
 #include "paper_scene.h"
 #include "struck_beam_of.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

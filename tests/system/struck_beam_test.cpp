@@ -1,10 +1,7 @@
 // The struck beam's equations: what they conserve, and that they are what the header says.
 
-#include "system/struck_beam.h"
-
 #include "beam_under_test.h"
 #include "system/accounts.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {

@@ -2,10 +2,12 @@
 // reverses, and the moments of the defect that follows.
 
 #include "system/section_events.h"
-
+#include "dense.h"
+#include "model/cell_mesh.h"
+#include "model/hermite_mesh.h"
+#include "model/timoshenko_mesh.h"
 #include "order_table.h"
 #include "paper_scene.h"
-#include "testing.h"
 
 namespace subimpact {
 namespace {
@@ -49,6 +51,15 @@ double moment_of(F f, double from, double to, double t1, int k) {
 struct Errors {
   double time, curvature;
   double moments[2];  // relative
+
+  template <class Event, class Defect>
+  void see(const Event& event, const Defect& defect, double from, double t1) {
+    for (const int k : {0, 1}) {
+      moments[k] = std::abs(event.defect_moments[static_cast<std::size_t>(k)] /
+                                moment_of(defect, from, t1, t1, k) -
+                            1.0);
+    }
+  }
 };
 
 // A step in which the section begins to flow, at the part `before` of it, t = 0.
@@ -66,10 +77,7 @@ Errors onset(double step, double before) {
   const auto defect = [&](double t) {
     return section.law().moment({}, section.kappa(t)) - section.stiffness() * section.kappa(t);
   };
-  for (int k = 0; k < 2; ++k) {
-    const double exact = moment_of(defect, 0.0, t1, t1, k);
-    errors.moments[k] = std::abs(event->defect_moments[static_cast<std::size_t>(k)] / exact - 1.0);
-  }
+  errors.see(*event, defect, 0.0, t1);
   return errors;
 }
 
@@ -97,10 +105,7 @@ Errors reversal(double step, double before) {
     return section.law().moment(after, section.kappa(t)) -
            section.law().moment_on(branch, section.kappa(t));
   };
-  for (int k = 0; k < 2; ++k) {
-    const double exact = moment_of(defect, turns, t1, t1, k);
-    errors.moments[k] = std::abs(event->defect_moments[static_cast<std::size_t>(k)] / exact - 1.0);
-  }
+  errors.see(*event, defect, turns, t1);
   return errors;
 }
 
@@ -151,6 +156,95 @@ TEST(OneSectionOnAKnownPath, StaysOnItsPieceIfAnEarlierEventKeepsItInItsWindow) 
   };
   EXPECT_TRUE(follow(0.0).has_value());
   EXPECT_FALSE(follow(5.0 * paper_beam().yield_curvature()).has_value());
+}
+
+// What one section's moment does to the beam, worked out once a section.
+
+struct Mesh {
+  std::string name;
+  std::unique_ptr<BeamMesh> mesh;
+};
+
+std::vector<Mesh> meshes() {
+  using Extent = BeamMesh::Extent;
+  std::vector<Mesh> all;
+  const auto add = [&]<class Of>(const char* name, Of mesh) {
+    all.push_back({name, std::make_unique<Of>(std::move(mesh))});
+  };
+  for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
+    const Beam beam = paper_beam(theory);
+    add("half of cells", CellMesh(beam, 0.5, 201, Extent::half));
+    add("cells, struck off centre", CellMesh(beam, 0.317, 60, Extent::whole));
+    add("half of elements", HermiteMesh(beam, 0.5, 40, 2, Extent::half));
+  }
+  Beam shearing = paper_beam(BeamTheory::timoshenko);
+  shearing.poisson = 0.33;
+  add("half of cells that shear", TimoshenkoMesh(shearing, 0.5, 51, Extent::half));
+  shearing.ends = {pinned, clamped};
+  add("cells that shear, held, struck off centre",
+      TimoshenkoMesh(shearing, 0.317, 60, Extent::whole));
+  return all;
+}
+
+// Calls check(mesh, solver, influence) on every mesh.
+template <class Check>
+void on_every_mesh(Check check) {
+  for (const Mesh& of : meshes()) {
+    SCOPED_TRACE(of.name);
+    const BandedSolver solver(of.mesh->mass());
+    SectionInfluence influence(*of.mesh, solver);
+    check(*of.mesh, solver, influence);
+  }
+}
+
+TEST(SectionInfluence, GivesTheCurvatureAccelerationsThatAMassSolveGives) {
+  on_every_mesh([](const BeamMesh& mesh, const BandedSolver& solver, SectionInfluence& influence) {
+    const std::vector<double> moments = random_numbers(7, mesh.n_sections());
+    constexpr double force = 3.0;
+    std::vector<double> accelerations = bending_forces_of(mesh, moments);
+    mesh.struck_point().add_to(accelerations, force);
+    std::vector<double> shear_forces(mesh.shears() ? mesh.n_unknowns() : 0, 0.0);
+    mesh.add_shear_forces(random_numbers(8, mesh.n_unknowns(), 1e-9), shear_forces);
+    for (std::size_t i = 0; i < shear_forces.size(); ++i) accelerations[i] += shear_forces[i];
+    solver.solve(accelerations);
+    const std::vector<double> expected = curvatures_of(mesh, accelerations);
+    std::vector<double> weighted = moments;
+    for (std::size_t i = 0; i < weighted.size(); ++i) weighted[i] *= mesh.section_weights()[i];
+    const double largest = largest_of(expected);
+    for (std::size_t i = 0; i < weighted.size(); ++i) {
+      EXPECT_NEAR(influence.curvature_acceleration(i, weighted, force, shear_forces), expected[i],
+                  1e-13 * largest)
+          << "section " << i;
+    }
+  });
+}
+
+TEST(SectionInfluence, AddsUpToTheAccelerationsOfAllMoments) {
+  on_every_mesh([](const BeamMesh& mesh, const BandedSolver& solver, SectionInfluence& influence) {
+    const std::vector<double> moments = random_numbers(11, mesh.n_sections());
+    std::vector<double> expected = bending_forces_of(mesh, moments);
+    solver.solve(expected);
+    std::vector<double> sum(mesh.n_unknowns(), 0.0);
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      influence.add_accelerations(i, moments[i], sum);
+    }
+    expect_near(sum, expected, 1e-13 * largest_of(expected));
+  });
+}
+
+TEST(SectionInfluence, OfOneSectionOnAnotherIsTheCurvatureOfItsAccelerations) {
+  on_every_mesh([](const BeamMesh& mesh, const BandedSolver&, SectionInfluence& influence) {
+    for (const std::size_t section : {std::size_t{0}, mesh.n_sections() / 3}) {
+      std::vector<double> accelerations(mesh.n_unknowns(), 0.0);
+      influence.add_accelerations(section, 1.0, accelerations);
+      const std::vector<double> curvatures = curvatures_of(mesh, accelerations);
+      const double own = std::abs(curvatures[section]);
+      for (std::size_t other = 0; other < mesh.n_sections(); ++other) {
+        EXPECT_NEAR(influence.curvature_acceleration_at(other, section), curvatures[other],
+                    1e-13 * own);
+      }
+    }
+  });
 }
 
 }  // namespace
