@@ -552,33 +552,6 @@ TEST(Explanation, FollowsTheCase) {
   expect_in(with({"striker.position=0.4"}), "not symmetric about mid-span");
 }
 
-TEST(CostEstimate, OfCentralDifferencesIsTheNumberOfStepsToTheEnd) {
-  Case input = paper_case();
-  input.solver.method = Method::central_difference;
-  input.solver.step = 1e-7;
-  ResolvedRun run = resolve(input);
-  const auto cost = estimate_cost(run);
-  ASSERT_TRUE(cost);
-  EXPECT_NEAR(cost->steps, 80000.0, 1e-6);
-  EXPECT_NEAR(cost->right_hand_sides, 80000.0, 1e-6);
-  EXPECT_GT(cost->seconds, 0.0);
-}
-
-TEST(CostEstimate, IsRightWithinAFactorOfThreeAlsoWithStrongDamping) {
-  for (const auto& [end_time, damping] : {std::pair(2e-4, 0.0), {5e-5, 1e-5}}) {
-    Case input = paper_case();
-    input.output.interval = 0.0;
-    input.end_time = end_time;
-    input.scene.beam.damping.stiffness = damping;
-    ResolvedRun run = resolve(input);
-    const auto cost = estimate_cost(run);
-    ASSERT_TRUE(cost);
-    const double counted = static_cast<double>(simulate(input).work.right_hand_sides);
-    EXPECT_LT(cost->right_hand_sides, 3.0 * counted);
-    EXPECT_GT(cost->right_hand_sides, counted / 3.0);
-  }
-}
-
 TEST(Listings, NameEveryKeyMethodAndTable) {
   const std::string keys = fmt::format("\n{}", key_listing());
   for (const CaseKey& key : case_keys()) expect_in(keys, fmt::format("\n{} ", key.leaf()));

@@ -24,6 +24,12 @@ struct OpenChoices {
 /// What the keys that a user gave leave open. Keys of one mesh or method fix that mesh or method.
 OpenChoices open_choices(const GivenKeys& given);
 
+/// Makes a run of `input` and adds those of `cases` to `beside`, all of which then judge it. `rows`
+/// takes the rows of the run.
+using JudgedRunMaker =
+    std::function<void(const Case& input, const std::vector<CaseBeside>& cases, RowSink* rows,
+                       Result& run, std::vector<RunBeside>& beside)>;
+
 struct WithinOptions {
   Jobs jobs = 1;
   /// Called before each run, with its description.
@@ -34,7 +40,10 @@ struct WithinOptions {
   /// Called before each run whose rows are kept: where they go. Those of the run before are to be
   /// discarded. Empty: rows stay in the result.
   std::function<RowSink*()> rows;
+  JudgedRunMaker make;  ///< in place of simulate_beside() and judge(); see maker_of()
 };
+/// WithinOptions::make, or what it stands in place of.
+JudgedRunMaker maker_of(const WithinOptions& options);
 
 /// What a run cost: evaluations of the right-hand side times unknowns of the beam, and its modes
 /// and the steps in them in the same unit.
