@@ -165,8 +165,7 @@ std::string description(const Case& input, const ResolvedSettings& used,
     text += fmt::format("  {:<21} {}\n", label, value);
   };
   head(input.title.empty() ? "untitled case" : input.title.c_str());
-  head("Forecast of subimpact run");
-  line("files", files_text(input, used));
+  head("Forecast of `subimpact run`");
   text += forecast_text(forecast);
   head("Scene");
   line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
@@ -229,6 +228,7 @@ std::string description(const Case& input, const ResolvedSettings& used,
                                "energy",
                                used.energy_tolerance));
   line("end", duration_text(input.end_time));
+  line("files", files_text(input, used));
   return text;
 }
 

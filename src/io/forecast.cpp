@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <string>
 
 #include "case/counted.h"
 #include "io/record.h"
-#include "io/uncertain.h"
 #include "numerics/units.h"
 #include "subimpact/io/report.h"
 
@@ -26,12 +25,18 @@ const Record<ForecastCost> cost_record = {
 
 const Record<RunForecast> forecast_record = {
     {"jobs", "runs at a time", &RunForecast::jobs},
-    {"memory_bytes", "that suffices", &RunForecast::memory},
+    {"memory_bytes", "that suffices for the process", &RunForecast::memory},
     {"expected", "what is expected", &RunForecast::expected, cost_record},
-    {"least", "if all sub-impacts become certain soon", &RunForecast::least, cost_record},
-    {"most", "if they do not before the limit of work", &RunForecast::most, cost_record}};
+    {"least", "if the next level meets the tolerance", &RunForecast::least, cost_record},
+    {"most", "if no more sub-impacts become certain", &RunForecast::most, cost_record}};
 
-std::string seconds_text(double seconds) { return duration_text(seconds); }
+// Of the shortest to the longest time, above which no range is stated.
+constexpr double certain_within = 0.9;
+
+// With two digits.
+std::string rough(double seconds) {
+  return duration_text(std::stod(fmt::format("{:.2g}", seconds)));
+}
 
 }  // namespace
 
@@ -40,20 +45,33 @@ std::string forecast_json(const RunForecast& forecast) {
 }
 
 std::string forecast_text(const RunForecast& forecast) {
-  const ForecastCost& cost = forecast.expected;
+  const auto& [runs, processor, wall] = forecast.expected;
+  const ForecastCost &least = forecast.least, &most = forecast.most;
   std::string text;
   const auto line = [&](const char* label, const std::string& value) {
     text += fmt::format("  {:<21} {}\n", label, value);
   };
-  line("time", fmt::format("about {}, and {} of processor time: {} at a time",
-                           seconds_text(cost.wall_seconds), seconds_text(cost.processor_seconds),
-                           counted(forecast.jobs, "run")));
-  line("memory", fmt::format("about {:.2g} MB", MB * forecast.memory));
-  text += fmt::format("\n  level                 {:<28} {:<20} {:>10}\n", "mesh", "method", "time");
-  for (const ForecastRun& run : cost.runs) {
-    text += fmt::format("  {:<21} {:<28} {:<20} {:>10}{}\n",
-                        run.is_beside ? "  beside it" : fmt::format("{}", run.level), run.mesh,
-                        run.method, seconds_text(run.seconds), run.is_made ? "  made just now" : "");
+  line("time", fmt::format("about {}; of the processor {}", rough(wall), rough(processor)));
+  line("memory", fmt::format("about {:.2g} MB, which suffice", MB * forecast.memory));
+  line("runs", fmt::format("{} on {}, up to {} at a time", runs.size(),
+                           counted(runs.back().level, "level"), forecast.jobs));
+  if (least.processor_seconds < certain_within * most.processor_seconds) {
+    line("range", fmt::format("{} to {} runs, {} to {}: how soon sub-impacts become certain cannot "
+                              "be foreseen",
+                              least.runs.size(), most.runs.size(), rough(least.wall_seconds),
+                              rough(most.wall_seconds)));
+  }
+  if (!forecast.first.input.scatter.empty())
+    line("without", "runs that tell what the scatter does");
+  text += fmt::format("  {:<21} {:<31} {:<20} time of the processor\n", "level", "mesh", "method");
+  int level = 0;
+  for (const ForecastRun& run : runs) {
+    const std::string role = run.is_beside        ? "  beside it"
+                             : run.level == level ? "  again, for its rows"
+                                                  : fmt::format("{}", run.level);
+    level = run.level;
+    text += fmt::format("  {:<21} {:<31} {:<20} {}{}\n", role, run.mesh, run.method,
+                        rough(run.seconds), run.is_made ? ", measured just now" : "");
   }
   return text;
 }

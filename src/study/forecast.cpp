@@ -19,8 +19,8 @@ namespace {
 constexpr double affordable = 2e8;
 // Of a level over that of its judged run.
 constexpr double with_others = 2.4;
-// Of a run that is too large to be begun, s.
-constexpr double seconds_per_work = 2e-9;
+// Bytes of its model, at most.
+constexpr double affordable_memory = 40e6;
 // Evaluations in a step of a method that is not central differences, roughly.
 constexpr double evaluations_per_step = 4.0;
 // Uncertain sub-impacts become fewer as errors of this order do, at most.
@@ -32,7 +32,7 @@ constexpr double seconds_beside = 15e-3;
 constexpr double wall_beside = 50e-3;
 constexpr double seconds_per_row = 0.4e-6;
 // With its libraries, its files and what earlier runs leave in its heap.
-constexpr double memory_beside = 24e6;
+constexpr double memory_beside = 28e6;
 constexpr double memory_of_program = 12e6;  // within ResolvedSettings::memory
 
 double processor_seconds() {
@@ -96,7 +96,11 @@ bool are_same(const Case& a, const Case& b) {
          a.output.interval == b.output.interval && a.output.shapes == b.output.shapes;
 }
 
-enum class Outlook { expected, next_is_certain, none_is_certain };
+enum class Outlook {
+  expected,
+  next_suffices,  // the first level that is not made meets the tolerance
+  none_is_certain
+};
 
 // Makes the runs of a search where they are affordable, and foresees them elsewhere.
 class Forecaster {
@@ -123,6 +127,9 @@ class Forecaster {
   void make(const Case& input, const std::vector<CaseBeside>& cases, Result& run,
             std::vector<RunBeside>& beside);
   const Sample& sample_of(const Case& input, bool is_beside);
+  const Sample* known(const Case& input) const;
+  void begin(const Case& input, bool is_beside);
+  void make_coarse(Case input);
   const Sample* finest_like(const Case& input) const;
   const Sample* half_of(const Sample& finest) const;
   Sample foreseen(const Case& input) const;
@@ -142,10 +149,14 @@ class Forecaster {
   double memory_ = 0.0;   // bytes, of runs beside one another
 };
 
-const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
+const Sample* Forecaster::known(const Case& input) const {
   const auto is_same = [&](const Sample& sample) { return are_same(sample.input, input); };
-  const auto known = std::ranges::find_if(samples_, is_same);
-  if (known != samples_.end()) return *known;
+  const auto found = std::ranges::find_if(samples_, is_same);
+  return found == samples_.end() ? nullptr : &*found;
+}
+
+const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
+  if (const Sample* const sample = known(input)) return *sample;
   const double begun = processor_seconds();
   ResolvedRun resolved = resolve(input);
   const ResolvedSettings& used = resolved.settings();
@@ -157,23 +168,40 @@ const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
   if (used.decomposition > 0.0) {
     sample.memory += sizeof(double) * std::pow(static_cast<double>(used.n_unknowns), 2);
   }
-  if (!is_beside && used.decomposition > affordable) {
-    sample.steps = used.decomposition;  // a guess
-    sample.seconds = seconds_per_work * sample.work();
-    sample.result.used = used;
-  } else {
-    StepLimit limit(input, used);
-    CountedRows rows;
-    NoRows none;
-    sample.result = is_beside ? simulate(std::move(resolved), {}, nullptr, &none)
-                              : simulate(std::move(resolved), {}, &limit, &rows);
-    sample.is_whole = sample.result.outcome.kind != OutcomeKind::stopped;
-    const double parts = sample.is_whole ? 1.0 : input.end_time / sample.result.outcome.time;
-    sample.seconds = parts * (processor_seconds() - begun + rows.seconds());
-    sample.steps = parts * (counted_work(sample.result) - sample.decomposition);
-  }
+  StepLimit limit(input, used);
+  CountedRows rows;
+  NoRows none;
+  sample.result =
+      simulate(std::move(resolved), {}, &limit, is_beside ? static_cast<RowSink*>(&none) : &rows);
+  sample.is_whole = sample.result.outcome.kind != OutcomeKind::stopped;
+  const double parts = sample.is_whole ? 1.0 : input.end_time / sample.result.outcome.time;
+  sample.seconds = parts * (processor_seconds() - begun + rows.seconds());
+  sample.steps = parts * (counted_work(sample.result) - sample.decomposition);
   samples_.push_back(std::move(sample));
   return samples_.back();
+}
+
+// Of a model that is too large to be made, those of coarser meshes.
+void Forecaster::make_coarse(Case input) {
+  const auto is_large = [](const Case& of) {
+    const ResolvedSettings& used = resolve(of).settings();
+    return used.memory > affordable_memory || used.decomposition > affordable;
+  };
+  const Case asked = input;
+  while (is_large(input)) {
+    const std::optional<RefinedRun> coarser = on_other_mesh(input, 0.5);
+    if (!coarser) return;
+    input = coarser->input;
+  }
+  if (mesh_count(input) == mesh_count(asked)) return;
+  sample_of(input, true);
+  if (const auto half = on_other_mesh(input, 0.5)) sample_of(half->input, true);
+}
+
+// Makes a run of the kind, if there is none.
+void Forecaster::begin(const Case& input, bool is_beside) {
+  if (finest_like(input) == nullptr) make_coarse(input);
+  if (finest_like(input) == nullptr) sample_of(input, is_beside);
 }
 
 const Sample* Forecaster::finest_like(const Case& input) const {
@@ -203,8 +231,8 @@ const Sample* Forecaster::half_of(const Sample& finest) const {
 
 // Work grows as from a mesh of half the size to the finest that was made, and time with the work.
 Sample Forecaster::foreseen(const Case& input) const {
-  const Sample* like = finest_like(input);
-  const Sample& finest = like != nullptr ? *like : *finest_like(*last_);
+  if (const Sample* const sample = known(input)) return *sample;
+  const Sample& finest = *finest_like(input);
   const Sample* const half = half_of(finest);
   const double ratio = size_ratio(input, finest.input);
   const auto grown = [&](double Sample::*work, double usual) {
@@ -224,8 +252,8 @@ Sample Forecaster::foreseen(const Case& input) const {
   if (half != nullptr && finest.work() > half->work()) {
     slope = (finest.seconds - half->seconds) / (finest.work() - half->work());
   }
-  run.seconds = finest.seconds +
-                std::clamp(slope, 0.5 * per_work, per_work) * (run.work() - finest.work());
+  run.seconds =
+      finest.seconds + std::clamp(slope, 0.5 * per_work, per_work) * (run.work() - finest.work());
   run.memory = finest.memory * std::pow(ratio, finest.decomposition > 0.0 ? 2.0 : 1.0);
   return run;
 }
@@ -241,7 +269,10 @@ Result Forecaster::result_of(const Sample& foreseen) const {
   run.work = {};
   run.work.right_hand_sides = std::lround(
       foreseen.work() / static_cast<double>(std::max<std::size_t>(run.used.n_unknowns, 1)));
-  if (!run.error_estimate && outlook_ == Outlook::next_is_certain) run.error_estimate.emplace();
+  if (outlook_ == Outlook::next_suffices) {
+    run.error_estimate.emplace();
+    for (SubImpact& s : run.sub_impacts) s.certain = true;
+  }
   if (!run.error_estimate || !last_) return run;
   const int order = mesh_order(foreseen.input).value_or(0);
   const double ratio = size_ratio(foreseen.input, *last_);
@@ -253,9 +284,7 @@ Result Forecaster::result_of(const Sample& foreseen) const {
   if (outlook_ == Outlook::none_is_certain) return run;
   const std::size_t n = run.sub_impacts.size();
   const auto n_uncertain = static_cast<double>(std::max<std::size_t>(n - *run.n_certain(), 1));
-  const double falls = outlook_ == Outlook::next_is_certain
-                           ? 0.0
-                           : std::pow(ratio, -std::min(order, order_of_doubt));
+  const double falls = std::pow(ratio, -std::min(order, order_of_doubt));
   const auto n_left = std::min(n, static_cast<std::size_t>(n_uncertain * falls));
   for (std::size_t i = 0; i < n; ++i) run.sub_impacts[i].certain = i + n_left < n;
   estimate.first_unresolved.reset();
@@ -282,33 +311,35 @@ void Forecaster::make(const Case& input, const std::vector<CaseBeside>& cases, R
                       std::vector<RunBeside>& beside) {
   const double begun = processor_seconds();
   const std::size_t first = cost_.runs.size();
-  const bool is_affordable =
-      finest_like(input) == nullptr || with_others * foreseen(input).work() <= affordable;
-  const Sample* const sample = is_affordable ? &sample_of(input, false) : nullptr;
-  if (sample != nullptr && sample->is_whole) {
-    run = sample->result;
-    add(*sample, false);
+  begin(input, false);
+  const Sample expected = foreseen(input);
+  const bool is_begun = known(input) != nullptr || (with_others * expected.work() <= affordable &&
+                                                    expected.memory <= affordable_memory);
+  bool is_made = is_begun && sample_of(input, false).is_whole;
+  for (const CaseBeside& other : cases) is_made = is_made && sample_of(other.input, true).is_whole;
+  if (is_made) {
+    run = known(input)->result;
+    add(*known(input), false);
     for (const CaseBeside& other : cases) {
-      const Sample& made = sample_of(other.input, true);
-      add(made, true);
-      beside.push_back({other, made.result});
+      beside.push_back({other, known(other.input)->result});
+      add(*known(other.input), true);
     }
     const double judged_from = processor_seconds();
     judge(input, run, beside);
     judging_ = processor_seconds() - judged_from;
   } else {
-    if (sample != nullptr) {
-      like_ = sample->result;
+    if (is_begun || !last_) {
+      like_ = finest_like(input)->result;
       like_.sub_impacts.clear();
       like_.error_estimate.reset();
     }
     const auto foresee = [&](const Case& of, bool is_beside) {
+      begin(of, is_beside);
       const Sample foretold = foreseen(of);
       add(foretold, is_beside);
       return result_of(foretold);
     };
     run = foresee(input, false);
-    if (!last_) last_ = input;
     for (const CaseBeside& other : cases) beside.push_back({other, foresee(other.input, true)});
   }
   last_ = input;
@@ -354,7 +385,7 @@ RunForecast forecast(const Case& input, const GivenKeys& given, Jobs jobs,
     options.make = make;
     simulate_within(once, *open, options);
   };
-  forecast.least = open ? forecaster.cost_of(Outlook::next_is_certain, search) : forecast.expected;
+  forecast.least = open ? forecaster.cost_of(Outlook::next_suffices, search) : forecast.expected;
   forecast.most = open ? forecaster.cost_of(Outlook::none_is_certain, search) : forecast.expected;
   forecast.memory = forecaster.memory();
   return forecast;

@@ -154,12 +154,13 @@ Foretold report_forecast(const fs::path& scene, const fs::path& place, int repet
   }
   const double ratio = processor / program.processor;
   const Foretold found{std::max(ratio, 1.0 / ratio), memory >= program.memory};
-  fmt::print("| {} | {} | {:.3g} | {:.3g} | {:.2f} | {:.3g} | {:.3g} | {:.2f} | {:.1f} | {:.1f} | "
-             "{:.2f} | {:.2g} | {}{} |\n",
-             scene.stem().string(), n_runs, processor, program.processor, ratio, wall, program.wall,
-             wall / program.wall, 1e-6 * memory, 1e-6 * program.memory, memory / program.memory,
-             explained.processor, found.off <= most_off ? "holds" : "**time is off**",
-             found.memory_suffices ? "" : ", **memory is too small**");
+  fmt::print(
+      "| {} | {} | {:.3g} | {:.3g} | {:.2f} | {:.3g} | {:.3g} | {:.2f} | {:.1f} | {:.1f} | "
+      "{:.2f} | {:.2g} | {}{} |\n",
+      scene.stem().string(), n_runs, processor, program.processor, ratio, wall, program.wall,
+      wall / program.wall, 1e-6 * memory, 1e-6 * program.memory, memory / program.memory,
+      explained.processor, found.off <= most_off ? "holds" : "**time is off**",
+      found.memory_suffices ? "" : ", **memory is too small**");
   std::fflush(stdout);
   return found;
 }

@@ -32,8 +32,8 @@ struct RunForecast {
   ChosenModel first;  ///< first_run()
   Jobs jobs = 1;
   ForecastCost expected;
-  /// If all sub-impacts become certain on the first level that is not made for the forecast, and if
-  /// no others become certain before the limit of work.
+  /// If the first level that is not made for the forecast meets the tolerance, and if no further
+  /// sub-impact becomes certain before the limit of work.
   ForecastCost least, most;
   double memory = 0.0;  ///< bytes, that suffice for the process
 };

@@ -55,8 +55,8 @@ std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& r
 /// strike, with a row of each in Result::strikes.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
-/// The first of the runs that run_as_asked() makes of a case, by default; without a reason where the
-/// case fixes mesh or method.
+/// The first of the runs that run_as_asked() makes of a case, by default; without a reason where
+/// the case fixes mesh or method.
 ChosenModel first_run(const Case& input, const GivenKeys& given);
 
 /// The case with the mesh, method and tolerance that run_as_asked() would choose where they are
