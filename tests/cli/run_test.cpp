@@ -229,6 +229,26 @@ TEST(Memory, OfExplainIsSmallAndThatOfTheRunIsForetold) {
   printf("explain of 20,001 cells in modes: %.0f MB\n", finished.megabytes);
 }
 
+TEST(Memory, ThatExplainForecastsSufficesForTheRun) {
+  const TemporaryDirectory directory;
+  directory.write("strike.toml",
+                  "beam = { length = 0.7112, width = 0.0163, thickness = 0.0075, density = 2600, "
+                  "youngs_modulus = 71.96e9 }\n"
+                  "striker = { mass = 0.201, nose_radius = 0.01, velocity = 15.9 }\n"
+                  "time = { end = 2e-3 }\n");
+  for (const char* jobs : {"1", "4"}) {
+    const Finished explained =
+        run_in(directory, {"explain", "strike.toml", "--json", "--jobs", jobs});
+    const auto forecast = nlohmann::json::parse(explained.output);
+    EXPECT_GT(forecast.at("expected").at("runs").size(), 4u);
+    const Finished run =
+        run_in(directory, {"run", "strike.toml", "--quiet", "--out", "here", "--jobs", jobs});
+    if (has_address_sanitizer) GTEST_SKIP() << "the address sanitizer takes memory of its own";
+    EXPECT_LT(1e6 * run.megabytes, forecast.at("memory_bytes").get<double>());
+    EXPECT_GT(3e6 * run.megabytes, forecast.at("memory_bytes").get<double>());
+  }
+}
+
 TEST(Memory, ThatARunMayNotTakeIsNamedBeforeItBegins) {
   if (has_address_sanitizer) GTEST_SKIP() << "no limit of memory with the address sanitizer";
   const TemporaryDirectory directory;
