@@ -22,7 +22,7 @@ constexpr double with_others = 2.4;
 // Bytes of its model, at most.
 constexpr double affordable_memory = 40e6;
 // Evaluations in a step of a method that is not central differences, roughly.
-constexpr double evaluations_per_step = 4.0;
+constexpr double evaluations_per_step = 10.0;
 // Uncertain sub-impacts become fewer as errors of this order do, at most.
 constexpr int order_of_doubt = 2;
 
@@ -164,15 +164,16 @@ const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
   sample.input = input;
   sample.decomposition = used.decomposition;
   sample.memory = used.memory - memory_of_program;
-  // The memory that natural modes in closed form take is twice what is stated while they are made.
-  if (used.decomposition > 0.0) {
+  // Natural modes of elements take twice what is stated while they are made.
+  if (used.decomposition > 0.0 && input.model.mesh != MeshKind::cells) {
     sample.memory += sizeof(double) * std::pow(static_cast<double>(used.n_unknowns), 2);
   }
+  const bool is_unknown = finest_like(input) == nullptr;
   StepLimit limit(input, used);
   CountedRows rows;
   NoRows none;
-  sample.result =
-      simulate(std::move(resolved), {}, &limit, is_beside ? static_cast<RowSink*>(&none) : &rows);
+  sample.result = simulate(std::move(resolved), {}, is_unknown ? &limit : nullptr,
+                           is_beside ? static_cast<RowSink*>(&none) : &rows);
   sample.is_whole = sample.result.outcome.kind != OutcomeKind::stopped;
   const double parts = sample.is_whole ? 1.0 : input.end_time / sample.result.outcome.time;
   sample.seconds = parts * (processor_seconds() - begun + rows.seconds());
