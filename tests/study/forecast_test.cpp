@@ -52,13 +52,16 @@ TEST(AForecast, HasTheMeshOfTheFirstLevelThatItDoesNotMake) {
   Case input = coarse(paper_run(SectionKind::exact, 3e-3));
   input.accuracy.event_times = 1e-9;
   input.accuracy.work_limit = 1e9;
-  const ForecastCost cost = forecast(input, {}, 1).expected;
+  const RunForecast found = forecast(input, {}, 1);
+  const ForecastCost& cost = found.expected;
   const auto foreseen = std::ranges::find(cost.runs, false, &ForecastRun::is_made);
   ASSERT_GT(foreseen - cost.runs.begin(), 4);
   ASSERT_NE(foreseen, cost.runs.end());
   const auto n = static_cast<std::size_t>(foreseen - cost.runs.begin()) + 1;
   Runs made = runs_made(input), foretold = runs_foretold(cost);
   ASSERT_GE(made.size(), n);
+  EXPECT_LE(found.least.runs.size(), made.size());
+  EXPECT_GE(found.most.runs.size(), made.size());
   made.resize(n);
   foretold.resize(n);
   EXPECT_EQ(foretold, made);
