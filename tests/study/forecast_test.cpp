@@ -48,23 +48,25 @@ TEST(AForecast, OfLevelsThatAreCheapHasTheRunsThatAreMade) {
   EXPECT_TRUE(std::ranges::all_of(found.expected.runs, &ForecastRun::is_made));
 }
 
-TEST(AForecast, HasTheMeshOfTheFirstLevelThatItDoesNotMake) {
-  Case input = coarse(paper_run(SectionKind::exact, 3e-3));
+TEST(AForecast, HasTheMeshesOfLevelsThatItDoesNotMakeUpToTheLimitOfWork) {
+  Case input = coarse(paper_run(SectionKind::exact, 1e-3));
   input.accuracy.event_times = 1e-9;
   input.accuracy.work_limit = 1e9;
   const RunForecast found = forecast(input, {}, 1);
-  const ForecastCost& cost = found.expected;
-  const auto foreseen = std::ranges::find(cost.runs, false, &ForecastRun::is_made);
-  ASSERT_GT(foreseen - cost.runs.begin(), 4);
-  ASSERT_NE(foreseen, cost.runs.end());
-  const auto n = static_cast<std::size_t>(foreseen - cost.runs.begin()) + 1;
-  Runs made = runs_made(input), foretold = runs_foretold(cost);
-  ASSERT_GE(made.size(), n);
+  EXPECT_FALSE(found.expected.runs[12].is_made);  // of the fourth level
+  EXPECT_EQ(found.expected.runs.back().level, 5);
+  const Runs made = runs_made(input);
+  EXPECT_EQ(runs_foretold(found.expected), made);
   EXPECT_LE(found.least.runs.size(), made.size());
-  EXPECT_GE(found.most.runs.size(), made.size());
-  made.resize(n);
-  foretold.resize(n);
-  EXPECT_EQ(foretold, made);
+  EXPECT_LT(found.least.processor_seconds, found.most.processor_seconds);
+}
+
+TEST(AForecast, EndsWithALevelThatItDoesNotMakeWhereErrorsFallBelowTheTolerance) {
+  Case input = coarse(paper_run(SectionKind::exact, 1e-3));
+  input.accuracy.event_times = 0.2e-6;
+  const RunForecast found = forecast(input, {}, 1);
+  EXPECT_FALSE(found.expected.runs.back().is_made);
+  EXPECT_EQ(runs_foretold(found.expected), runs_made(input));
 }
 
 TEST(AForecast, FollowsTheChangeToElementsWhereNoSectionYields) {
