@@ -63,7 +63,7 @@ TEST(AForecast, HasTheMeshesOfLevelsThatItDoesNotMakeUpToTheLimitOfWork) {
 
 TEST(AForecast, EndsWithALevelThatItDoesNotMakeWhereErrorsFallBelowTheTolerance) {
   Case input = coarse(paper_run(SectionKind::exact, 1e-3));
-  input.accuracy.event_times = 0.2e-6;
+  input.accuracy.event_times = 0.1e-6;
   const RunForecast found = forecast(input, {}, 1);
   EXPECT_FALSE(found.expected.runs.at(12).is_made);  // of the fourth level
   EXPECT_EQ(runs_foretold(found.expected), runs_made(input));
