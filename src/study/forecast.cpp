@@ -42,35 +42,21 @@ double processor_seconds() {
 }
 
 // Ends a run that takes more than is affordable, wherever it then is.
-class StepLimit final : public Observer {
- public:
-  StepLimit(const Case& input, const ResolvedSettings& used) {
-    const bool is_one = input.solver.method == Method::central_difference;
-    const auto unknowns = static_cast<double>(std::max<std::size_t>(used.n_unknowns, 1));
-    left_ = affordable / with_others / unknowns / (is_one ? 1.0 : evaluations_per_step);
-  }
-  void on_step(const RunView&) override { left_ -= 1.0; }
-  bool goes_on() const override { return left_ > 0.0; }
-
- private:
-  double left_;
+struct StepLimit final : Observer {
+  explicit StepLimit(double most) : left(most) {}
+  void on_step(const RunView&) override { left -= 1.0; }
+  bool goes_on() const override { return left > 0.0; }
+  double left;
 };
 
-// Rows as they are made, to be counted alone.
-class CountedRows final : public RowSink {
- public:
-  void add(const HistoryRow&) override { n_ += 2; }  // twice as long
-  void add(const SectionRow&) override { ++n_; }
-  void add(const PointRow&) override { ++n_; }
-  void add(const ShapeRow&) override { ++n_; }
-  double seconds() const { return seconds_per_row * static_cast<double>(n_); }
-
- private:
-  long n_ = 0;
+// Has all rows made, and keeps none.
+struct AllRows final : RowSink {
+  void add(const HistoryRow&) override {}
+  void add(const SectionRow&) override {}
 };
 
-// A run that was made for the forecast, or as much of it as was affordable; what it takes to its
-// end.
+// A run that was made for the forecast, or as much of it as was affordable, and what it takes to
+// its end.
 struct Sample {
   Case input;
   Result result;
@@ -126,16 +112,17 @@ class Forecaster {
  private:
   void make(const Case& input, const std::vector<CaseBeside>& cases, Result& run,
             std::vector<RunBeside>& beside);
-  const Sample& sample_of(const Case& input, bool is_beside);
   const Sample* known(const Case& input) const;
-  void begin(const Case& input, bool is_beside);
-  void make_coarse(Case input);
-  const Sample* finest_like(const Case& input) const;
-  const Sample* half_of(const Sample& finest) const;
+  const Sample* nearest(const Case& kind, double size, const Sample* but = nullptr) const;
+  const Sample* finest(const Case& kind) const { return nearest(kind, HUGE_VAL); }
+  const Sample& sample_of(const Case& input, bool is_beside);
+  void begin(Case input, bool is_beside);
   Sample foreseen(const Case& input) const;
   Result result_of(const Sample& foreseen) const;
-  void add(const Sample& run, bool is_beside);
-  void add_alone(double seconds);
+  void add_alone(double seconds) {
+    cost_.processor_seconds += seconds;
+    cost_.wall_seconds += seconds;
+  }
 
   Jobs jobs_;
   Outlook outlook_ = Outlook::expected;
@@ -155,99 +142,79 @@ const Sample* Forecaster::known(const Case& input) const {
   return found == samples_.end() ? nullptr : &*found;
 }
 
+// The run of the kind on a mesh nearest to one of so many parts.
+const Sample* Forecaster::nearest(const Case& kind, double size, const Sample* but) const {
+  const auto is_nearer = [&](const Sample& a, const Sample& b) {
+    const int n = mesh_count(a.input), m = mesh_count(b.input);
+    return std::isinf(size) ? n > m : std::abs(std::log(n / size)) < std::abs(std::log(m / size));
+  };
+  const Sample* best = nullptr;
+  for (const Sample& sample : samples_) {
+    if (!are_of_one_kind(sample.input, kind) || &sample == but) continue;
+    if (best == nullptr || is_nearer(sample, *best)) best = &sample;
+  }
+  return best;
+}
+
 const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
   if (const Sample* const sample = known(input)) return *sample;
   const double begun = processor_seconds();
   ResolvedRun resolved = resolve(input);
   const ResolvedSettings& used = resolved.settings();
-  Sample sample;
-  sample.input = input;
-  sample.decomposition = used.decomposition;
-  sample.memory = used.memory - memory_of_program;
+  const auto unknowns = static_cast<double>(std::max<std::size_t>(used.n_unknowns, 1));
+  Sample sample{input, {}, 0.0, used.decomposition, 0.0, used.memory - memory_of_program, false};
   // Natural modes of elements take twice what is stated while they are made.
   if (used.decomposition > 0.0 && input.model.mesh != MeshKind::cells) {
-    sample.memory += sizeof(double) * std::pow(static_cast<double>(used.n_unknowns), 2);
+    sample.memory += sizeof(double) * unknowns * unknowns;
   }
-  const bool is_unknown = finest_like(input) == nullptr;
-  StepLimit limit(input, used);
-  CountedRows rows;
+  const bool is_one = input.solver.method == Method::central_difference;
+  StepLimit limit(affordable / with_others / unknowns / (is_one ? 1.0 : evaluations_per_step));
+  AllRows all;
   NoRows none;
-  sample.result = simulate(std::move(resolved), {}, is_unknown ? &limit : nullptr,
-                           is_beside ? static_cast<RowSink*>(&none) : &rows);
-  sample.is_whole = sample.result.outcome.kind != OutcomeKind::stopped;
-  const double parts = sample.is_whole ? 1.0 : input.end_time / sample.result.outcome.time;
-  sample.seconds = parts * (processor_seconds() - begun + rows.seconds());
-  sample.steps = parts * (counted_work(sample.result) - sample.decomposition);
+  sample.result = simulate(std::move(resolved), {}, finest(input) == nullptr ? &limit : nullptr,
+                           is_beside ? static_cast<RowSink*>(&none) : &all);
+  const Result& result = sample.result;
+  sample.is_whole = result.outcome.kind != OutcomeKind::stopped;
+  const double parts = sample.is_whole ? 1.0 : input.end_time / result.outcome.time;
+  sample.seconds = processor_seconds() - begun;
+  if (!is_beside) {
+    sample.seconds +=
+        seconds_per_row * static_cast<double>(result.n_shape_rows + 2 * result.n_history_rows);
+  }
+  sample.seconds *= parts;
+  sample.steps = parts * (counted_work(result) - sample.decomposition);
   samples_.push_back(std::move(sample));
   return samples_.back();
 }
 
-// Of a model that is too large to be made, those of coarser meshes.
-void Forecaster::make_coarse(Case input) {
+// Makes a run of the kind if there is none: of a model that is too large, on coarser meshes.
+void Forecaster::begin(Case input, bool is_beside) {
+  if (finest(input) != nullptr) return;
   const auto is_large = [](const Case& of) {
-    const ResolvedSettings& used = resolve(of).settings();
-    return used.memory > affordable_memory || used.decomposition > affordable;
+    const ResolvedRun run = resolve(of);
+    return run.settings().memory > affordable_memory || run.settings().decomposition > affordable;
   };
-  const Case asked = input;
-  while (is_large(input)) {
-    const std::optional<RefinedRun> coarser = on_other_mesh(input, 0.5);
-    if (!coarser) return;
-    input = coarser->input;
-  }
-  if (mesh_count(input) == mesh_count(asked)) return;
-  sample_of(input, true);
-  if (const auto half = on_other_mesh(input, 0.5)) sample_of(half->input, true);
-}
-
-// Makes a run of the kind, if there is none.
-void Forecaster::begin(const Case& input, bool is_beside) {
-  if (finest_like(input) == nullptr) make_coarse(input);
-  if (finest_like(input) == nullptr) sample_of(input, is_beside);
-}
-
-const Sample* Forecaster::finest_like(const Case& input) const {
-  const Sample* finest = nullptr;
-  for (const Sample& sample : samples_) {
-    if (!are_of_one_kind(sample.input, input)) continue;
-    if (finest == nullptr || size_ratio(sample.input, finest->input) > 1.0) finest = &sample;
-  }
-  return finest;
-}
-
-// A whole run on a mesh of about half the size.
-const Sample* Forecaster::half_of(const Sample& finest) const {
-  const Sample* half = nullptr;
-  const auto distance = [&](const Sample& sample) {
-    return std::abs(std::log2(size_ratio(finest.input, sample.input)) - 1.0);
-  };
-  for (const Sample& sample : samples_) {
-    if (!finest.is_whole || !sample.is_whole || !are_of_one_kind(sample.input, finest.input) ||
-        size_ratio(finest.input, sample.input) <= 1.0) {
-      continue;
-    }
-    if (half == nullptr || distance(sample) < distance(*half)) half = &sample;
-  }
-  return half;
+  std::optional<RefinedRun> coarser;
+  while (is_large(input) && (coarser = on_other_mesh(input, 0.5))) input = coarser->input;
+  sample_of(input, is_beside || coarser);
+  if (coarser && (coarser = on_other_mesh(input, 0.5))) sample_of(coarser->input, true);
 }
 
 // Work grows as from a mesh of half the size to the finest that was made, and time with the work.
 Sample Forecaster::foreseen(const Case& input) const {
   if (const Sample* const sample = known(input)) return *sample;
-  const Sample& finest = *finest_like(input);
-  const Sample* const half = half_of(finest);
+  const Sample& finest = *this->finest(input);
+  const Sample* half = nearest(input, 0.5 * mesh_count(finest.input), &finest);
+  if (half != nullptr && size_ratio(finest.input, half->input) <= 1.0) half = nullptr;
   const double ratio = size_ratio(input, finest.input);
-  const auto grown = [&](double Sample::*work, double usual) {
-    double exponent = usual;
+  const auto grown = [&](double Sample::*work, double exponent) {
     if (half != nullptr && half->*work > 0.0) {
       exponent =
           std::log(finest.*work / half->*work) / std::log(size_ratio(finest.input, half->input));
     }
     return finest.*work * std::pow(ratio, std::clamp(exponent, 0.5, 4.0));
   };
-  Sample run;
-  run.input = input;
-  run.steps = grown(&Sample::steps, usual_growth);
-  run.decomposition = grown(&Sample::decomposition, 3.0);
+  Sample run{input, {}, grown(&Sample::steps, usual_growth), grown(&Sample::decomposition, 3.0)};
   const double per_work = finest.seconds / finest.work();
   double slope = per_work;
   if (half != nullptr && finest.work() > half->work()) {
@@ -270,86 +237,64 @@ Result Forecaster::result_of(const Sample& foreseen) const {
   run.work = {};
   run.work.right_hand_sides = std::lround(
       foreseen.work() / static_cast<double>(std::max<std::size_t>(run.used.n_unknowns, 1)));
+  const std::size_t n = run.sub_impacts.size();
+  std::size_t n_left = 0;
   if (outlook_ == Outlook::next_suffices) {
     run.error_estimate.emplace();
-    for (SubImpact& s : run.sub_impacts) s.certain = true;
-  }
-  if (!run.error_estimate || !last_) return run;
-  const int order = mesh_order(foreseen.input).value_or(0);
-  const double ratio = size_ratio(foreseen.input, *last_);
-  ErrorEstimate& estimate = *run.error_estimate;
-  if (!estimate.first_unresolved) {
-    estimate.largest_error *= std::pow(ratio, -order);
+  } else if (!run.error_estimate || !last_) {
     return run;
+  } else {
+    const int order = mesh_order(foreseen.input).value_or(0);
+    const double ratio = size_ratio(foreseen.input, *last_);
+    if (run.all_certain()) run.error_estimate->largest_error *= std::pow(ratio, -order);
+    if (run.all_certain() || outlook_ == Outlook::none_is_certain) return run;
+    const auto n_uncertain = static_cast<double>(std::max<std::size_t>(n - *run.n_certain(), 1));
+    n_left = std::min(n, static_cast<std::size_t>(
+                             n_uncertain * std::pow(ratio, -std::min(order, order_of_doubt))));
   }
-  if (outlook_ == Outlook::none_is_certain) return run;
-  const std::size_t n = run.sub_impacts.size();
-  const auto n_uncertain = static_cast<double>(std::max<std::size_t>(n - *run.n_certain(), 1));
-  const double falls = std::pow(ratio, -std::min(order, order_of_doubt));
-  const auto n_left = std::min(n, static_cast<std::size_t>(n_uncertain * falls));
   for (std::size_t i = 0; i < n; ++i) run.sub_impacts[i].certain = i + n_left < n;
-  estimate.first_unresolved.reset();
-  if (n_left > 0) estimate.first_unresolved = n - n_left;
+  run.error_estimate->first_unresolved.reset();
+  if (n_left > 0) run.error_estimate->first_unresolved = n - n_left;
   return run;
-}
-
-void Forecaster::add(const Sample& run, bool is_beside) {
-  const bool is_next =
-      last_ && !(are_of_one_kind(*last_, run.input) && mesh_count(*last_) == mesh_count(run.input));
-  const int level = cost_.runs.empty() ? 1 : cost_.runs.back().level;
-  cost_.runs.push_back({level + (is_next && !is_beside ? 1 : 0), is_beside, mesh_words(run.input),
-                        descriptor_of(run.input.solver.method).name, run.seconds, run.memory,
-                        run.is_whole});
-  cost_.processor_seconds += run.seconds;
-}
-
-void Forecaster::add_alone(double seconds) {
-  cost_.processor_seconds += seconds;
-  cost_.wall_seconds += seconds;
 }
 
 void Forecaster::make(const Case& input, const std::vector<CaseBeside>& cases, Result& run,
                       std::vector<RunBeside>& beside) {
   const double begun = processor_seconds();
-  const std::size_t first = cost_.runs.size();
   begin(input, false);
   const Sample expected = foreseen(input);
   const bool is_begun = known(input) != nullptr || (with_others * expected.work() <= affordable &&
                                                     expected.memory <= affordable_memory);
   bool is_made = is_begun && sample_of(input, false).is_whole;
   for (const CaseBeside& other : cases) is_made = is_made && sample_of(other.input, true).is_whole;
+  if (!is_made && (is_begun || !last_)) {
+    like_ = finest(input)->result;
+    like_.sub_impacts.clear();
+    like_.error_estimate.reset();
+  }
+  const bool is_next =
+      last_ && !(are_of_one_kind(*last_, input) && size_ratio(*last_, input) == 1.0);
+  const int level = cost_.runs.empty() ? 1 : cost_.runs.back().level + (is_next ? 1 : 0);
+  std::vector<double> seconds, memory;
+  const auto take = [&](const Case& of, bool is_beside) {
+    begin(of, is_beside);
+    const Sample sample = foreseen(of);
+    cost_.runs.push_back({level, is_beside, mesh_words(of), descriptor_of(of.solver.method).name,
+                          sample.seconds, sample.is_whole});
+    cost_.processor_seconds += sample.seconds;
+    seconds.push_back(sample.seconds);
+    memory.push_back(sample.memory);
+    return is_made ? sample.result : result_of(sample);
+  };
+  run = take(input, false);
+  for (const CaseBeside& other : cases) beside.push_back({other, take(other.input, true)});
   if (is_made) {
-    run = known(input)->result;
-    add(*known(input), false);
-    for (const CaseBeside& other : cases) {
-      beside.push_back({other, known(other.input)->result});
-      add(*known(other.input), true);
-    }
-    const double judged_from = processor_seconds();
+    const double from = processor_seconds();
     judge(input, run, beside);
-    judging_ = processor_seconds() - judged_from;
-  } else {
-    if (is_begun || !last_) {
-      like_ = finest_like(input)->result;
-      like_.sub_impacts.clear();
-      like_.error_estimate.reset();
-    }
-    const auto foresee = [&](const Case& of, bool is_beside) {
-      begin(of, is_beside);
-      const Sample foretold = foreseen(of);
-      add(foretold, is_beside);
-      return result_of(foretold);
-    };
-    run = foresee(input, false);
-    for (const CaseBeside& other : cases) beside.push_back({other, foresee(other.input, true)});
+    judging_ = processor_seconds() - from;
   }
   last_ = input;
   like_ = run;
-  std::vector<double> seconds, memory;
-  for (std::size_t i = first; i < cost_.runs.size(); ++i) {
-    seconds.push_back(cost_.runs[i].seconds);
-    memory.push_back(cost_.runs[i].memory);
-  }
   cost_.wall_seconds += wall_seconds(seconds, jobs_);
   add_alone(judging_);
   std::ranges::sort(memory, std::greater());

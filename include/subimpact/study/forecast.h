@@ -17,7 +17,6 @@ struct ForecastRun {
   std::string mesh;        ///< "257 cells"
   std::string method;      ///< as in case files
   double seconds = 0.0;    ///< of a processor
-  double memory = 0.0;     ///< bytes, of its model
   bool is_made = false;    ///< for the forecast: its time is measured
 };
 
