@@ -6,10 +6,16 @@
 namespace subimpact::app {
 namespace {
 
-int explain(CaseOptions& options) {
+struct ExplainOptions : CaseOptions {
+  Jobs jobs = n_processors();
+  bool as_json = false;
+};
+
+int explain(ExplainOptions& options) {
   const LoadedCase loaded = options.load();
   with_places(loaded, [&] {
-    const std::string text = explanation(loaded.value, loaded.given);
+    const RunForecast found = forecast(loaded.value, loaded.given, options.jobs);
+    const std::string text = options.as_json ? forecast_json(found) : explanation(found);
     print_doubts(loaded);
     print("{}", text);
   });
@@ -45,12 +51,16 @@ int print_keys(ListingOptions& options) {
 void add_explain(CLI::App& program, int& status) {
   auto [command, options] = add_command(
       program, status, "explain",
-      "Show how a case will be modelled and what it will cost, without running it", explain);
+      "Show what a run of a case will take, the runs that it makes and how it will be modelled",
+      explain);
   options.add_to(command);
   options.add_within_to(command);
+  add_jobs_option(command, options.jobs);
+  command.add_flag("--json", options.as_json, "Print the forecast alone, as JSON in SI units");
   command.footer(
       "Examples:\n"
       "  subimpact explain case.toml\n"
+      "  subimpact explain case.toml --within 1us --json\n"
       "  subimpact explain case.toml --method central-difference --set model.segments=1001\n"
       "Exit status: 0 done; 2 bad command line or case file.");
 }

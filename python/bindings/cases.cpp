@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <string>
+#include <thread>
 #include <tuple>
 
 #include "bindings.h"
@@ -72,7 +73,9 @@ LoadedCase load(const std::string& text, const std::string& name,
 }
 
 std::string explain(const LoadedCase& loaded) {
-  return with_places(loaded, [&] { return explanation(loaded.value, loaded.given); });
+  return with_places(loaded, [&] {
+    return explanation(forecast(loaded.value, loaded.given, std::thread::hardware_concurrency()));
+  });
 }
 
 // The summary of a run that has not begun: settings given and used.

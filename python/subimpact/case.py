@@ -229,7 +229,7 @@ class Case:
         return self._load().doubts()
 
     def explain(self) -> str:
-        """How the case will be modelled and what it will cost, as `subimpact explain` prints it."""
+        """What a run will take and how the case will be modelled, as `subimpact explain` prints it."""
         return self._load().explain()
 
     def resolve(self) -> dict[str, Any]:

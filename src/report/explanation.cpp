@@ -12,7 +12,6 @@
 #include "subimpact/io/results.h"
 #include "subimpact/report/text.h"
 #include "subimpact/simulate/options.h"
-#include "subimpact/study/run_as_asked.h"
 
 namespace subimpact {
 namespace {
@@ -158,7 +157,7 @@ std::string files_text(const Case& input, const ResolvedSettings& used) {
 }
 
 std::string description(const Case& input, const ResolvedSettings& used,
-                        const std::optional<CostEstimate>& cost) {
+                        const RunForecast& forecast) {
   const Scene& scene = input.scene;
   std::string text;
   const auto head = [&](const char* title) { text += fmt::format("{}\n", title); };
@@ -166,6 +165,8 @@ std::string description(const Case& input, const ResolvedSettings& used,
     text += fmt::format("  {:<21} {}\n", label, value);
   };
   head(input.title.empty() ? "untitled case" : input.title.c_str());
+  head("Forecast of `subimpact run`");
+  text += forecast_text(forecast);
   head("Scene");
   line("beam", fmt::format("{:.6g} kg; ends {}; theory {}", scene.beam.mass(),
                            key_text(input, "beam.ends"), key_text(input, "beam.theory")));
@@ -227,33 +228,15 @@ std::string description(const Case& input, const ResolvedSettings& used,
                                "energy",
                                used.energy_tolerance));
   line("end", duration_text(input.end_time));
-  head("Expected cost (rough: yielding and repeated contact cannot be predicted)");
-  if (cost) {
-    line("steps", count_text(cost->steps));
-    line("right-hand sides",
-         fmt::format("{}, at {:.3g} us each while elastic, timed just now",
-                     count_text(cost->right_hand_sides), cost->seconds_per_right_hand_side * us));
-    line("time", "about " + duration_text(cost->seconds));
-  } else {
-    line("steps", "not predicted for this method and mesh");
-  }
-  line("memory", fmt::format("about {:.2g} MB", MB * used.memory));
   line("files", files_text(input, used));
   return text;
 }
 
 }  // namespace
 
-std::string explanation(const Case& input, const GivenKeys& given) {
-  const FirstRun first = first_run(input, given);
-  ResolvedRun run = resolve(first.input);
-  ResolvedSettings settings = run.settings();
-  settings.memory += first.memory_beside;
-  std::string text = description(first.input, settings, estimate_cost(run));
-  text += fmt::format("Runs\n  {:<21} {}\n", "beside this one",
-                      first.beside.empty()
-                          ? "none"
-                          : fmt::format("{}, which judge it", fmt::join(first.beside, "; ")));
+std::string explanation(const RunForecast& forecast) {
+  const ChosenModel& first = forecast.first;
+  std::string text = description(first.input, resolve(first.input).settings(), forecast);
   if (first.reason.empty()) return text;
   return text + fmt::format("Choice (of the first run; finer ones follow)\n  {}\n", first.reason);
 }

@@ -19,10 +19,6 @@ constexpr int usual_adams_order = 12;
 // and below do not take; there order 5 is 20 times as accurate as order 2 at a quarter of the cost.
 constexpr int usual_bdf_order = 5;
 
-// A Nystroem evaluation advances a step twice as far as one of a Runge-Kutta method.
-constexpr double erk_radians = 0.11;
-constexpr double nystrom_radians = 0.22;
-
 // Where the beam may yield only free flight has a closed form; nystrom does the rest.
 IntegratorPointer make_exponential(StruckBeam& beam, const IntegratorOptions& options) {
   if (beam.sections().can_yield()) {
@@ -59,7 +55,6 @@ std::vector<MethodDescriptor> make_descriptors() {
        .sundials = true,
        .modes = Modes::where_cheaper,
        .damping = Damping::any,
-       .radians_per_evaluation = erk_radians,
        .tables = explicit_tables,
        .make = make_arkode_erk},
       {.kind = Method::nystrom,
@@ -67,7 +62,6 @@ std::vector<MethodDescriptor> make_descriptors() {
        .note = "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of "
                "its cost",
        .modes = Modes::where_cheaper,
-       .radians_per_evaluation = nystrom_radians,
        .tables =
            [] {
              const auto& tables = nystrom_tables();

@@ -58,10 +58,6 @@ struct MethodDescriptor {
   };
   std::optional<Order> order = {};  ///< of multistep methods
 
-  /// Radians of the highest frequency per evaluation that an adaptive step at rtol 1e-8 advances
-  /// by, a fit to the paper's example; 0: no fit.
-  double radians_per_evaluation = 0.0;
-
   /// Coefficients that solver.table may name, the default first; none for a method without tables.
   std::function<std::vector<CoefficientTable>()> tables = {};
   std::function<std::unique_ptr<Integrator>(StruckBeam&, const IntegratorOptions&)> make = {};

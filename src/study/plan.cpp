@@ -50,15 +50,6 @@ std::vector<Family> families_of(const Case& input) {
   return families;
 }
 
-std::string mesh_words(const Case& input) {
-  const auto& refinement = *descriptor_of(input.model.mesh).refinement;
-  std::string words = fmt::format("{} {}", mesh_count(input), refinement.parts);
-  if (input.model.strike_refinement != 1.0) {
-    words += fmt::format(", {:g} times as fine at the strike", input.model.strike_refinement);
-  }
-  return words;
-}
-
 // The reference, its leading sub-impacts that are certain and within its own tolerance, and the
 // horizon in the middle of the separation that follows.
 void find_reference(Plan& plan, const Case& input, const WithinOptions& how) {

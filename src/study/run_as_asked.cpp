@@ -53,8 +53,10 @@ Result simulate_as_given(const Case& input, RunRequest& request) {
     return simulate(std::move(*request.resolved), request.progress, nullptr, rows);
   }
   resolve(input);  // whatever is wrong with the case itself
-  return simulate_judged(input, cases_asked_for(input, request), request.jobs, request.progress,
-                         rows);
+  Result run;
+  std::vector<RunBeside> beside;
+  maker_of(request)(input, cases_asked_for(input, request), rows, run, beside);
+  return run;
 }
 
 // The contact with shear is looked for up to this many times the end of that without.
@@ -191,15 +193,9 @@ WithinRun run_as_asked(const Case& input, const GivenKeys& given, RunRequest req
   return run_once(input, given, request);
 }
 
-FirstRun first_run(const Case& input, const GivenKeys& given) {
+ChosenModel first_run(const Case& input, const GivenKeys& given) {
   const std::optional<OpenChoices> open = choices_left(input, given, std::nullopt);
-  FirstRun run{open ? first_choice(input, *open) : ChosenModel{input, {}}, 0.0, {}};
-  for (const CaseBeside& beside :
-       open ? cases_beside(run.input) : cases_beside_on_given_mesh(run.input)) {
-    run.memory_beside += resolve(beside.input).settings().memory;
-    run.beside.push_back(beside.description);
-  }
-  return run;
+  return open ? first_choice(input, *open) : ChosenModel{input, {}};
 }
 
 Case case_as_chosen(const Case& input, const GivenKeys& given, Jobs jobs,

@@ -57,6 +57,7 @@ class Search {
  public:
   Search(const Case& input, const OpenChoices& open, const WithinOptions& options)
       : input_(input), open_(open), options_(options) {
+    options_.make = maker_of(options);
     choose(may_yield(input));
     const std::optional<double>& tolerance = input.accuracy.event_times;
     tolerance_ = tolerance.value_or(default_tolerance(*refinement_));
@@ -104,11 +105,9 @@ class Search {
     Level level{input, {}, {}};
     if (!keeps_rows) level.input.output.keep_no_rows();
     has_rows_ = keeps_rows;
-    level.beside =
-        simulate_beside(level.input, cases_beside(yields_ ? level.input : input), options_.jobs,
-                        options_.progress, rows_if(keeps_rows), level.result);
+    options_.make(level.input, cases_beside(yields_ ? level.input : input), rows_if(keeps_rows),
+                  level.result, level.beside);
     level.input.output = input.output;
-    judge(level.input, level.result, level.beside);
     work_ += counted_work(level.result);
     if (options_.finished) options_.finished(level.input, level.result);
     for (const RunBeside& other : level.beside) {
@@ -129,9 +128,9 @@ class Search {
       if (again.result.outcome.kind != OutcomeKind::stopped) best_ = std::move(again);
       return;
     }
-    Result again = simulate(best_->input, options_.progress, nullptr, rows_if(true));
+    Result again;
+    options_.make(best_->input, {}, rows_if(true), again, best_->beside);
     if (again.outcome.kind == OutcomeKind::stopped) return;
-    judge(best_->input, again, best_->beside);
     if (again.end_state && best_->result.end_state) {
       auto end = std::make_shared<RunState>(*again.end_state);
       end->beside = best_->result.end_state->beside;
@@ -288,6 +287,17 @@ class Search {
 };
 
 }  // namespace
+
+JudgedRunMaker maker_of(const WithinOptions& options) {
+  if (options.make) return options.make;
+  return [jobs = options.jobs, progress = options.progress](
+             const Case& input, const std::vector<CaseBeside>& cases, RowSink* rows, Result& run,
+             std::vector<RunBeside>& beside) {
+    std::ranges::move(simulate_beside(input, cases, jobs, progress, rows, run),
+                      std::back_inserter(beside));
+    judge(input, run, beside);
+  };
+}
 
 ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields) {
   ChosenModel chosen{input, {}};

@@ -11,6 +11,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/simulate/result.h"
 #include "subimpact/study/compare.h"
+#include "subimpact/study/forecast.h"
 #include "subimpact/study/overlay.h"
 #include "subimpact/study/sensitivity.h"
 
@@ -97,8 +98,13 @@ std::string model_table(const std::vector<ModelRun>& runs);
 /// the digits that the errors allow.
 std::string sensitivity_table(const Sensitivity& study);
 
-/// How the first run of a case will model it, why, and at what cost. Throws InvalidCase.
-std::string explanation(const Case& input, const GivenKeys& given);
+/// What a run of a case will take, the runs that it makes, and what the first of them models, why.
+/// Throws InvalidCase.
+std::string explanation(const RunForecast& forecast);
+
+/// The runs and what they take, in words and as JSON.
+std::string forecast_text(const RunForecast& forecast);
+std::string forecast_json(const RunForecast& forecast);
 
 /// All keys of a case file, with units, what they accept and their defaults.
 std::string key_listing();

@@ -52,12 +52,9 @@ std::optional<NeglectedShear> neglected_shear(const Case& input, const Result& r
 /// a row of each in Result::strikes.
 WithinRun run_as_asked(const Case& input, const GivenKeys& given = {}, RunRequest request = {});
 
-/// The first of the runs that run_as_asked() makes of a case, by default.
-struct FirstRun : ChosenModel {     ///< without a reason where the case fixes mesh or method
-  double memory_beside = 0.0;       ///< bytes, of the runs made beside it, roughly
-  std::vector<std::string> beside;  ///< those runs, in words
-};
-FirstRun first_run(const Case& input, const GivenKeys& given);
+/// The first of the runs that run_as_asked() makes of a case, by default; without a reason where
+/// the case fixes mesh or method.
+ChosenModel first_run(const Case& input, const GivenKeys& given);
 
 /// The case with the mesh, method and tolerance that run_as_asked() would choose where they are
 /// left open, for studies that stay on one mesh. Makes the runs needed for the choice. Throws

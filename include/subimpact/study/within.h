@@ -11,6 +11,12 @@
 
 namespace subimpact {
 
+/// Makes a run of `input` and adds those of `cases` to `beside`, all of which then judge it. `rows`
+/// takes the rows of the run.
+using JudgedRunMaker =
+    std::function<void(const Case& input, const std::vector<CaseBeside>& cases, RowSink* rows,
+                       Result& run, std::vector<RunBeside>& beside)>;
+
 struct WithinOptions {
   Jobs jobs = 1;
   /// Called before each run, with its description.
@@ -21,7 +27,10 @@ struct WithinOptions {
   /// Called before each run whose rows are kept; returns their destination. Rows of the previous
   /// run are to be discarded. Empty: rows stay in the result.
   std::function<RowSink*()> rows;
+  JudgedRunMaker make;  ///< in place of simulate_beside() and judge(); see maker_of()
 };
+/// WithinOptions::make, or what it stands in place of.
+JudgedRunMaker maker_of(const WithinOptions& options);
 
 /// The cost of a run: evaluations of the right-hand side times unknowns of the beam, with natural
 /// modes and the steps in them counted in the same unit.
