@@ -163,10 +163,8 @@ const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
   const ResolvedSettings& used = resolved.settings();
   const auto unknowns = static_cast<double>(std::max<std::size_t>(used.n_unknowns, 1));
   Sample sample{input, {}, 0.0, used.decomposition, 0.0, used.memory - memory_of_program, false};
-  // Natural modes of elements take twice what is stated while they are made.
-  if (used.decomposition > 0.0 && input.model.mesh != MeshKind::cells) {
-    sample.memory += sizeof(double) * unknowns * unknowns;
-  }
+  // Natural modes may take another matrix, which is not stated.
+  if (used.decomposition > 0.0) sample.memory += sizeof(double) * unknowns * unknowns;
   const bool is_one = input.solver.method == Method::central_difference;
   StepLimit limit(affordable / with_others / unknowns / (is_one ? 1.0 : evaluations_per_step));
   AllRows all;
