@@ -163,10 +163,8 @@ const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
   const ResolvedSettings& used = resolved.settings();
   const auto unknowns = static_cast<double>(std::max<std::size_t>(used.n_unknowns, 1));
   Sample sample{input, {}, 0.0, used.decomposition, 0.0, used.memory - memory_of_program, false};
-  // Natural modes of elements take twice what is stated while they are made.
-  if (used.decomposition > 0.0 && input.model.mesh != MeshKind::cells) {
-    sample.memory += sizeof(double) * unknowns * unknowns;
-  }
+  // Natural modes may take another matrix, which is not stated.
+  if (used.decomposition > 0.0) sample.memory += sizeof(double) * unknowns * unknowns;
   const bool is_one = input.solver.method == Method::central_difference;
   StepLimit limit(affordable / with_others / unknowns / (is_one ? 1.0 : evaluations_per_step));
   AllRows all;
@@ -276,18 +274,23 @@ void Forecaster::make(const Case& input, const std::vector<CaseBeside>& cases, R
       last_ && !(are_of_one_kind(*last_, input) && size_ratio(*last_, input) == 1.0);
   const int level = cost_.runs.empty() ? 1 : cost_.runs.back().level + (is_next ? 1 : 0);
   std::vector<double> seconds, memory;
-  const auto take = [&](const Case& of, bool is_beside) {
+  const auto take = [&](const Case& of, const std::string& difference) {
+    const bool is_beside = !difference.empty();
     begin(of, is_beside);
     const Sample sample = foreseen(of);
-    cost_.runs.push_back({level, is_beside, mesh_words(of), descriptor_of(of.solver.method).name,
+    std::string mesh = mesh_words(of);
+    if (!mesh.starts_with(difference)) mesh += ", " + difference;
+    cost_.runs.push_back({level, is_beside, mesh, descriptor_of(of.solver.method).name,
                           sample.seconds, sample.is_whole});
     cost_.processor_seconds += sample.seconds;
     seconds.push_back(sample.seconds);
     memory.push_back(sample.memory);
     return is_made ? sample.result : result_of(sample);
   };
-  run = take(input, false);
-  for (const CaseBeside& other : cases) beside.push_back({other, take(other.input, true)});
+  run = take(input, {});
+  for (const CaseBeside& other : cases) {
+    beside.push_back({other, take(other.input, other.description)});
+  }
   if (is_made) {
     const double from = processor_seconds();
     judge(input, run, beside);

@@ -14,7 +14,7 @@ namespace subimpact {
 struct ForecastRun {
   int level = 1;           ///< its mesh in the order of the search, from 1
   bool is_beside = false;  ///< it judges the run of its level
-  std::string mesh;        ///< "257 cells"
+  std::string mesh;        ///< "257 cells", "rigid, rtol = 1e-07"
   std::string method;      ///< as in case files
   double seconds = 0.0;    ///< of a processor
   bool is_made = false;    ///< for the forecast: its time is measured
