@@ -125,7 +125,7 @@ void structured_case(Bytes bytes) {
   ByteSource source(bytes);
   static const bool shown =
       std::getenv("SUBIMPACT_FUZZ_SHOW") != nullptr;  // to reproduce a finding
-  const bool with_cost = source.byte() % 16 == 0;     // which takes some milliseconds
+  const bool with_cost = source.byte() % 16 == 0;     // which makes runs
   std::vector<Override> settings = {{"model.elements", "10", "--set"},
                                     {"model.mesh", "cells", "--set"}};
   while (!source.at_end()) {
