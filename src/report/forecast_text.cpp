@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 
 #include "case/counted.h"
@@ -52,17 +53,15 @@ std::string forecast_text(const RunForecast& forecast) {
     text += fmt::format("  {:<21} {}\n", label, value);
   };
   line("time", fmt::format("about {}; of the processor {}", rough(wall), rough(processor)));
-  line("memory", fmt::format("about {:.2g} MB, which suffice", MB * forecast.memory));
+  line("memory", fmt::format("at most about {:.0f} MB", std::ceil(MB * forecast.memory)));
   line("runs", fmt::format("{} on {}, up to {} at a time", runs.size(),
                            counted(runs.back().level, "level"), forecast.jobs));
   if (least.processor_seconds < certain_within * most.processor_seconds) {
-    line("range", fmt::format("{} to {} runs, {} to {}: how soon sub-impacts become certain cannot "
-                              "be foreseen",
-                              least.runs.size(), most.runs.size(), rough(least.wall_seconds),
-                              rough(most.wall_seconds)));
+    line("range", fmt::format("{} to {}, the longer the fewer sub-impacts become certain",
+                              rough(least.wall_seconds), rough(most.wall_seconds)));
   }
   if (!forecast.first.input.scatter.empty())
-    line("without", "runs that tell what the scatter does");
+    line("without", "the runs that estimate the effect of scatter");
   text += fmt::format("  {:<21} {:<31} {:<20} time of the processor\n", "level", "mesh", "method");
   int level = 0;
   for (const ForecastRun& run : runs) {
