@@ -104,14 +104,15 @@ double by_two_rates(double fast, double slow, double q, double v,
   return t * sum;
 }
 
-// Integral of e^(r tau) tau^m from 0 to t, m = 0..2; |r t| is not small.
-std::array<Complex, 3> moments_of_exponential(Complex r, double t) {
+// The integral from 0 to t of z^2 e^(2 r tau) + 2 z e^(r tau) sum_m c_m tau^m; |r t| is not small.
+double integral_with(Complex z, Complex r, std::span<const double, 3> c, double t) {
+  const Complex over_r = std::conj(r) / std::norm(r);
   const Complex e = std::exp(r * t);
-  std::array<Complex, 3> result;
-  result[0] = (e - 1.0) / r;
-  result[1] = (t * e - result[0]) / r;
-  result[2] = (t * t * e - 2.0 * result[1]) / r;
-  return result;
+  const Complex moment0 = (e - 1.0) * over_r;  // of e^(r tau) tau^m
+  const Complex moment1 = (t * e - moment0) * over_r;
+  const Complex moment2 = (t * t * e - 2.0 * moment1) * over_r;
+  const Complex moments = c[0] * moment0 + c[1] * moment1 + c[2] * moment2;
+  return (z * (2.0 * moments + 0.5 * z * (e * e - 1.0) * over_r)).real();
 }
 
 }  // namespace
@@ -229,11 +230,9 @@ double integral_of_squared_velocity(double omega, double delta, double q, double
       sum += c[i] * c[m - i] * power / (m + 1);
     power *= t;
   }
-  for (const auto& [z, r] : {std::pair(z1, r1), std::pair(z2, r2)}) {
-    const auto moments = moments_of_exponential(r, t);
-    for (std::size_t m = 0; m < 3; ++m) sum += 2.0 * c[m] * (z * moments[m]).real();
-    sum += (z * z * (std::exp(2.0 * r * t) - 1.0) / (2.0 * r)).real();
-  }
+  const double first = integral_with(z1, r1, c, t);
+  // Of an underdamped oscillator the second term is the conjugate of the first.
+  sum += first + (root.real() == 0.0 ? first : integral_with(z2, r2, c, t));
   const double both = -2.0 * delta;  // r1 + r2
   const double integral = delta > 0.0 ? std::expm1(both * t) / both : t;
   return sum + 2.0 * (z1 * z2).real() * integral;
