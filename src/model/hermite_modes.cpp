@@ -224,16 +224,16 @@ std::optional<NaturalModes> hermite_chain_modes(const HermiteChain& chain) {
   const double unit = std::sqrt(chain.bending_stiffness / chain.mass_per_length) / (a * a);
   NaturalModes result;
   result.frequencies.assign(rigid.size(), 0.0);
-  result.shapes.resize(n * n);
-  double* shape = result.shapes.data();
+  result.shapes.reserve(n * n);
+  std::vector<double> shape(n);
   for (const Parity parity : rigid) {
-    shapes.write_rigid(parity, shape);
-    shape += n;
+    shapes.write_rigid(parity, shape.data());
+    result.shapes.insert(result.shapes.end(), shape.begin(), shape.end());
   }
   for (const std::size_t i : order) {
     result.frequencies.push_back(unit * std::sqrt(modes[i].waves.lambda));
-    shapes.write(modes[i], shape);
-    shape += n;
+    shapes.write(modes[i], shape.data());
+    result.shapes.insert(result.shapes.end(), shape.begin(), shape.end());
   }
   return result;
 }

@@ -204,6 +204,21 @@ SlowMotion from_all_modes(const BeamMesh& mesh, double stiffness, std::size_t n_
   return found;
 }
 
+// Where the unknowns are modes: stiffness and mass are diagonal.
+SlowMotion from_unknowns(const BeamMesh& mesh, std::size_t n_modes) {
+  const std::span<const double> stiffness = mesh.modal_stiffness();
+  SlowMotion found{{}, {}, Vector(stiffness.size(), 0.0)};
+  mesh.struck_point().add_to(found.response, 1.0);
+  for (std::size_t k = 0; k < stiffness.size(); ++k) {
+    found.response[k] = stiffness[k] > 0.0 ? found.response[k] / stiffness[k] : 0.0;
+    if (k >= n_modes) continue;
+    const double mass = mesh.mass().at(k, k);
+    found.frequencies.push_back(std::sqrt(stiffness[k] / mass));
+    found.shapes.emplace_back(stiffness.size(), 0.0)[k] = 1.0 / std::sqrt(mass);
+  }
+  return found;
+}
+
 class SlowMotionByBands {
  public:
   SlowMotionByBands(const BeamMesh& mesh, double bending_stiffness, double first_period)
@@ -288,9 +303,8 @@ class SlowMotionByBands {
 
 std::optional<SlowMotion> slow_motion(const BeamMesh& mesh, double bending_stiffness,
                                       double first_period, std::size_t n_modes) {
-  if (!mesh.modal_stiffness().empty() || mesh.n_sections() == 0) {
-    return from_all_modes(mesh, bending_stiffness, n_modes);
-  }
+  if (!mesh.modal_stiffness().empty()) return from_unknowns(mesh, n_modes);
+  if (mesh.n_sections() == 0) return from_all_modes(mesh, bending_stiffness, n_modes);
   return SlowMotionByBands(mesh, bending_stiffness, first_period).find(n_modes);
 }
 

@@ -71,8 +71,8 @@ struct SlowMotion {
 
 /// `n_modes` of them, or all if there are fewer. By subspace iteration with a banded factorisation
 /// of K + s Mass, s a part of the first frequency squared, in about n_modes n operations per
-/// unknown of the band; from the modes themselves where the unknowns are modes. `first_period`: of
-/// the beam in bending, roughly, s. Nothing if K + s Mass is not positive definite.
+/// unknown of the band; where the unknowns are modes, from these. `first_period`: of the beam in
+/// bending, roughly, s. Nothing if K + s Mass is not positive definite.
 std::optional<SlowMotion> slow_motion(const BeamMesh& mesh, double bending_stiffness,
                                       double first_period, std::size_t n_modes);
 
