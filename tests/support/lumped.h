@@ -112,6 +112,11 @@ inline Result run_two_bodies(StruckBeam& beam, const Way& way, double end_time,
   if (from.empty()) {
     loop.start();
   } else {
+    if (beam.contact().is_closed()) {
+      const Transition begins{0.0, EventKind::contact_begins, {}, beam.indentation(initial)};
+      recorder.before_event(begins, initial, beam);
+      recorder.after_event(begins, initial, beam);
+    }
     loop.start_from(initial);
   }
   while (!loop.finished()) loop.advance();
