@@ -131,7 +131,7 @@ void assign(const Record<Row>& record, const Json& list, std::vector<Row>& rows)
 template <class Row>
 void assign(const Record<Row>& record, const Json& json, std::optional<Row>& row) {
   if (json.is_null()) return row.reset();
-  if (!row) row.emplace();
+  if (!row) row = Row{};
   assign(record, json, *row);
 }
 

@@ -181,19 +181,18 @@ Json number_or_null(const std::optional<double>& value) {
 }
 
 Json sub_impacts_json(const Result& result) {
-  return list_of(result.sub_impacts,
-                 [&, index = std::size_t{0}](const SubImpact& s) mutable -> Json {
-                   return {{"start", s.start},
-                           {"end", result.end_of(s)},
-                           {"ongoing", !s.end.has_value()},
-                           {"peak_force", s.peak_force},
-                           {"peak_time", s.peak_time},
-                           {"start_error", number_or_null(s.start_error)},
-                           {"end_error", number_or_null(s.end_error)},
-                           {"start_scatter", number_or_null(s.start_scatter)},
-                           {"end_scatter", number_or_null(s.end_scatter)},
-                           {"certain", s.certain.value_or(true)}};
-                 });
+  return list_of(result.sub_impacts, [&](const SubImpact& s) -> Json {
+    return {{"start", s.start},
+            {"end", result.end_of(s)},
+            {"ongoing", !s.end.has_value()},
+            {"peak_force", s.peak_force},
+            {"peak_time", s.peak_time},
+            {"start_error", number_or_null(s.start_error)},
+            {"end_error", number_or_null(s.end_error)},
+            {"start_scatter", number_or_null(s.start_scatter)},
+            {"end_scatter", number_or_null(s.end_scatter)},
+            {"certain", s.certain.value_or(true)}};
+  });
 }
 
 Json unit_json(double end) {

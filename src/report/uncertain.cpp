@@ -48,7 +48,8 @@ Number duration_error(const SubImpact& s) {
   return s.start_error && s.end_error ? Number((*s.start_error + *s.end_error) * us) : std::nullopt;
 }
 
-template <auto member, double factor = 1.0>
+constexpr double as_it_is = 1.0;
+template <auto member, const double& factor = as_it_is>
 Number in(const SubImpact& s) {
   return scaled(s.*member, factor);
 }
