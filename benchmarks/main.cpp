@@ -40,6 +40,7 @@ std::span<const Part> all_parts() {
 
 }  // namespace subimpact::benchmarks
 
+// NOLINTNEXTLINE(bugprone-exception-escape): the exception shows what failed
 int main(int argc, char** argv) {
   using namespace subimpact::benchmarks;
   Settings settings;

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <ranges>
 #include <stdexcept>
 
 namespace subimpact::benchmarks {
@@ -66,8 +67,8 @@ Result run_to_end(const Case& input) {
 }
 
 double last_separation(const Result& result) {
-  for (auto it = result.sub_impacts.rbegin(); it != result.sub_impacts.rend(); ++it) {
-    if (it->end) return *it->end;
+  for (const SubImpact& s : result.sub_impacts | std::views::reverse) {
+    if (s.end) return *s.end;
   }
   throw std::runtime_error("no sub-impact ended");
 }

@@ -2,8 +2,9 @@
 #
 #   subimpact_library(<folder> [STUDIES] [USES <folder>...] [LINK <target>...])
 #
-# It is part of the library of studies with STUDIES, else of the core (SubimpactPackage.cmake). Its sources are all of src/<folder>. src/<folder> (private headers, included as "<folder>/x.h") and include/subimpact/<folder> (public
-# headers, included as "subimpact/<folder>/x.h") are visible to the targets that name <folder> under
+# It is part of the library of studies with STUDIES, else of the core (SubimpactPackage.cmake). Its
+# sources are all of src/<folder>. src/<folder> (private headers, included as "<folder>/x.h") and
+# include/subimpact/<folder> (public headers, included as "subimpact/<folder>/x.h") are visible to the targets that name <folder> under
 # USES, directly or through others, and to nobody else: each folder is reached through a link of its
 # own in the build tree, so an include that goes against the floors does not compile. A folder
 # without sources holds headers only.

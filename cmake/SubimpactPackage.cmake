@@ -1,9 +1,9 @@
-# The library as others see it, with the headers in include/ alone: subimpact::subimpact runs cases, reads
-# and writes them and their results; subimpact::studies has what is made of several runs (error bars, comparisons,
-# sweeps) and figures and pages. The same targets come from add_subdirectory and, installed, from
-# find_package.
+# The library as others see it, with the headers in include/ alone: subimpact::subimpact runs cases,
+# reads and writes them and their results; subimpact::studies has what is made of several runs (error
+# bars, comparisons, sweeps) and figures and pages. The same targets come from add_subdirectory and,
+# installed, from find_package.
 #
-#   subimpact_archive(<floors' property> <target> <file> <name for export>)
+#   subimpact_archive(<core or studies> <target> <file> <name for export>)
 function(subimpact_archive library target file name)
   get_property(objects GLOBAL PROPERTY SUBIMPACT_OBJECTS_${library})
   add_library(${target} STATIC ${objects})

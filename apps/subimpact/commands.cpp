@@ -147,7 +147,7 @@ std::vector<std::string> print_doubts(const LoadedCase& loaded, bool quiet) {
   if (!quiet) {
     for (const std::string& note : loaded.notes()) print_error("subimpact: note: {}\n", note);
   }
-  const std::vector<std::string> doubts = doubtful_units(loaded.value);
+  std::vector<std::string> doubts = doubtful_units(loaded.value);
   print_warnings(doubts);
   return doubts;
 }

@@ -221,7 +221,7 @@ std::optional<std::string> problem_with(const CaseKey& key, const KeyValue& valu
   if (const auto* numbers = std::get_if<std::vector<double>>(&value);
       numbers && type == KeyType::numbers) {
     for (const double number : *numbers) {
-      if (const auto problem = number_problem(key, number, value)) return problem;
+      if (auto problem = number_problem(key, number, value)) return problem;
     }
     return std::nullopt;
   }

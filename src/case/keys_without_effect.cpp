@@ -130,10 +130,6 @@ std::string setting_text(const Case& input, std::string_view name) {
   return fmt::format("{} = {}", name, value ? to_text(*value) : "(not given)");
 }
 
-bool has_any(const GivenKeys& given, std::initializer_list<const char*> keys) {
-  return std::ranges::any_of(keys, [&](const char* key) { return given.contain(key); });
-}
-
 }  // namespace
 
 std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys& given) {
@@ -146,19 +142,6 @@ std::vector<std::string> keys_without_effect(const Case& input, const GivenKeys&
                                 setting_text(input, reason)));
   }
   return notes;
-}
-
-OpenChoices open_choices(const GivenKeys& given) {
-  OpenChoices open;
-  open.size = !has_any(given, {"model.segments", "model.elements"});
-  open.mesh = open.size &&
-              !has_any(given, {"model.mesh", "model.spacing", "model.sections_per_element",
-                               "model.hinges", "model.strike_refinement", "model.refined_length"});
-  open.tolerance = !has_any(given, {"solver.rtol", "solver.step", "solver.max_step"});
-  open.method =
-      open.tolerance && !has_any(given, {"solver.method", "solver.table", "solver.max_order",
-                                         "solver.events", "solver.reversals"});
-  return open;
 }
 
 }  // namespace subimpact

@@ -92,7 +92,7 @@ double Exponential::error_of_cubic(double h) const {
   const auto c = oscillators_.displacements();
   const auto decay = oscillators_.decay_rates();
   const double h4 = h * h * h * h / 384.0;
-  // Error of interpolating e^(-rate t), which is at most 1; its interpolant: 1 + 8/27 rate h.
+  // Error of interpolating e^(-rate t): that is at most 1, its interpolant at most 1 + 8/27 rate h.
   const auto of_decay = [&](double rate) {
     return std::min(h4 * rate * rate * rate * rate, 1.0 + 8.0 / 27.0 * rate * h);
   };

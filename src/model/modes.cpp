@@ -33,8 +33,8 @@ double end_determinant(double beta, double slenderness, const std::array<EndSupp
     const EndSupport end = ends[static_cast<std::size_t>(side)];
     const int first = end == EndSupport::free ? 2 : 0;
     const int second = end == EndSupport::free ? 3 : end == EndSupport::pinned ? 2 : 1;
-    conditions.row(2 * side) = values.row(first) / std::pow(beta, first);
-    conditions.row(2 * side + 1) = values.row(second) / std::pow(beta, second);
+    conditions.row(Eigen::Index{2} * side) = values.row(first) / std::pow(beta, first);
+    conditions.row(Eigen::Index{2} * side + 1) = values.row(second) / std::pow(beta, second);
   }
   return conditions.determinant();
 }
@@ -120,9 +120,9 @@ void fill_shape(double theta, double c, double rho, bool symmetric, std::span<do
   double x = std::cos(theta * c);
   double y = std::sin(theta * c);
   double near = 1.0;
-  for (std::size_t i = 0; i < shape.size(); ++i) {
+  for (double& value : shape) {
     const double far = near > 0.0 ? full / near : 0.0;
-    shape[i] = (symmetric ? x : y) + amplitude * (near + sign * far);
+    value = (symmetric ? x : y) + amplitude * (near + sign * far);
     const double turned = x * cosine + y * sine;
     y = y * cosine - x * sine;
     x = turned;

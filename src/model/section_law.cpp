@@ -34,7 +34,7 @@ SectionBranch innermost_branch(const SectionHistory& history) {
 
 }  // namespace
 
-SectionLaw::SectionLaw(const Beam& beam, Fibres fibres)
+SectionLaw::SectionLaw(const Beam& beam, const Fibres& fibres)
     : fibres_(fibres),
       yield_curvature_(beam.yield_curvature()),
       yield_moment_(beam.yield_moment()),

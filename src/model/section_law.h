@@ -57,7 +57,7 @@ struct SectionBranch {
 class SectionLaw {
  public:
   /// `fibres` of a section of `beam`; the yield stress must be finite.
-  SectionLaw(const Beam& beam, Fibres fibres);
+  SectionLaw(const Beam& beam, const Fibres& fibres);
 
   const Fibres& fibres() const { return fibres_; }
 

@@ -64,7 +64,7 @@ std::string signed_text(double x, const char* format) {
 Json pair_row(const MatchedPair& pair, const Result& first, const Result& second) {
   const SubImpact* a = pair.first ? &first.sub_impacts[*pair.first] : nullptr;
   const SubImpact* b = pair.second ? &second.sub_impacts[*pair.second] : nullptr;
-  const SubImpact& shown = a ? *a : *b;
+  const SubImpact& shown = a ? *a : second.sub_impacts[pair.second.value()];
   const auto number = [](const std::optional<std::size_t>& index) {
     return index ? fmt::format("{}", *index + 1) : "none";
   };

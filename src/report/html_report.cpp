@@ -112,7 +112,8 @@ std::string html_report(const FinishedRun& run, const DrawnFigures& figures,
   const PageData data = page_data(run.input, result, overlay);
   const std::vector<Answer> all_answers = answers(run.input, result);
   std::string versions = run.program_version;
-  for (const auto& [name, version] : run.libraries) versions += ", " + name + " " + version;
+  for (const auto& [name, version] : run.libraries)
+    versions += fmt::format(", {} {}", name, version);
   const auto if_any = [](const auto& value, auto words) {
     return value ? in_print(words(*value)) : std::string();
   };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <regex>
 #include <stdexcept>
 #include <utility>
@@ -19,8 +20,8 @@ namespace {
 
 const Json& field(const std::vector<const Json*>& scopes, const std::string& name) {
   if (name == ".") return *scopes.back();
-  for (auto scope = scopes.rbegin(); scope != scopes.rend(); ++scope) {
-    if ((*scope)->contains(name)) return (*scope)->at(name);
+  for (const Json* scope : scopes | std::views::reverse) {
+    if (scope->contains(name)) return scope->at(name);
   }
   throw std::logic_error("a page without the field " + name);
 }
@@ -53,7 +54,7 @@ void fill(std::string& result, std::string_view page, std::vector<const Json*>& 
       const Json& value = field(scopes, name);
       if (value.is_array()) {
         for (const Json& entry : value) fill_with(entry);
-      } else if (!value.is_null() && value != false && value != "") {
+      } else if (!value.is_null() && value != false && value != Json("")) {
         fill_with(value);
       }
     } else {

@@ -130,7 +130,8 @@ void align(std::vector<std::string>& texts) {
   for (std::string& text : texts) {
     const std::size_t point = std::min(text.find('.'), text.size());
     const std::size_t trailing = is_word(text) ? 0 : after - (text.size() - point);
-    text = fmt::format("{:>{}}", text + std::string(trailing, ' '), before + after);
+    text.append(trailing, ' ');
+    text = fmt::format("{:>{}}", text, before + after);
   }
 }
 

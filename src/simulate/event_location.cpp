@@ -41,8 +41,8 @@ std::optional<Crossing> EventLocator::find_crossing_in(const IndentationStep& en
   return find_crossing(beam_.contact(), ends, {dealt_with_, double_roots, rounding});
 }
 
-StepEnd EventLocator::find_end(const StepEnds& whole, const IndentationStep& indentation) {
-  StepEnd end{whole.t1, &whole.y1};
+FoundEnd EventLocator::find_end(const StepEnds& whole, const IndentationStep& indentation) {
+  FoundEnd end{whole.t1, &whole.y1};
   for (int n_cuts = 0; n_cuts < most_cuts; ++n_cuts) {
     if (events_ == EventHandling::located) end = find_event(whole, indentation, end);
     if (events_ == EventHandling::library && n_cuts == 0) end = event_of_integrator(whole, end);
@@ -53,7 +53,7 @@ StepEnd EventLocator::find_end(const StepEnds& whole, const IndentationStep& ind
       if (!end.event) return end;
       const std::optional<double> time =
           relocate(*end.event, {whole.t0, end.t, whole.y0, *end.y}, whole.t1);
-      return time ? StepEnd{*time, &end_, end.event} : StepEnd{end.t, end.y};
+      return time ? FoundEnd{*time, &end_, end.event} : FoundEnd{end.t, end.y};
     }
     end = {correction_.valid_until, &end_};
     integrator_.state_at(end.t, end_);
@@ -62,7 +62,7 @@ StepEnd EventLocator::find_end(const StepEnds& whole, const IndentationStep& ind
                    "section events cut one step over and over, without an end");
 }
 
-StepEnd EventLocator::find_event(const StepEnds& whole, IndentationStep ends, StepEnd end) {
+FoundEnd EventLocator::find_event(const StepEnds& whole, IndentationStep ends, FoundEnd end) {
   dealt_with_.clear();
   if (whole.event_free) return end;
   const auto cut = [&] {
@@ -83,7 +83,7 @@ StepEnd EventLocator::find_event(const StepEnds& whole, IndentationStep ends, St
 }
 
 std::optional<EventFunction> EventLocator::event_of_correction(IndentationStep ends,
-                                                               const StepEnd& end) {
+                                                               const FoundEnd& end) {
   if (events_ != EventHandling::located) return std::nullopt;
   trial_ = *end.y;
   correction_.add_to(trial_);
@@ -95,7 +95,7 @@ std::optional<EventFunction> EventLocator::event_of_correction(IndentationStep e
   return crossing->function;
 }
 
-StepEnd EventLocator::event_of_integrator(const StepEnds& whole, StepEnd end) {
+FoundEnd EventLocator::event_of_integrator(const StepEnds& whole, FoundEnd end) {
   const auto root = integrator_.root();
   if (!root || whole.t1 < integrator_.time()) return end;
   end_ = whole.y1;
@@ -105,13 +105,13 @@ StepEnd EventLocator::event_of_integrator(const StepEnds& whole, StepEnd end) {
 bool EventLocator::resolve(Crossing& crossing, const StepEnds& step) {
   // The event function is largest where the indentation reverses: from growing, or from falling for
   // the end of contact.
-  EventFunction reversal{EventKind::contact_unloads};
-  if (crossing.function.kind == EventKind::contact_ends) reversal.before = Direction::falling;
+  const double sense = crossing.function.kind == EventKind::contact_ends ? -1.0 : 1.0;
   const double top = find_rise(
       [&](double t) {
         integrator_.state_at(t, trial_);
         beam_.set_time(t);
-        return beam_.evaluate(reversal, trial_);
+        const EventValue at = beam_.evaluate(EventKind::contact_unloads, trial_);
+        return EventValue{sense * at.value, sense * at.rate};
       },
       step.t0, step.t1, crossing.guess, to_rounding(step.t1));
   const double height = beam_.evaluate(crossing.function, trial_).value;

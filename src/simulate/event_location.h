@@ -10,12 +10,13 @@
 
 namespace subimpact {
 
-/// Bound of the rounding of an event function (m; of contact_unloads m/s) that vanishes at t (s).
+/// Bound of the rounding of an event function that vanishes at t (s): m, or m/s for one of the
+/// rate.
 double rounding_of(const EventFunction& function, const StruckBeam& beam, const State& y, double t,
                    const EventValue& at);
 
 /// Where a step, or its shortened part, ends.
-struct StepEnd {
+struct FoundEnd {
   double t;        ///< s
   const State* y;  ///< without the section correction
   std::optional<EventFunction> event = {};
@@ -39,18 +40,18 @@ class EventLocator {
 
   /// The first event of a step or, if there is none, its end. The state is stored in this object
   /// until the next call, unless it is that of the whole step. `indentation`: of the whole step.
-  StepEnd find_end(const StepEnds& whole, const IndentationStep& indentation);
+  FoundEnd find_end(const StepEnds& whole, const IndentationStep& indentation);
   /// The section correction of the step to the end found last, not yet added to its state.
   const SectionCorrection& correction() const { return correction_; }
 
  private:
   // The earliest event before an end of the step, or else that end. `ends`: of the whole step.
-  StepEnd find_event(const StepEnds& whole, IndentationStep ends, StepEnd end);
+  FoundEnd find_event(const StepEnds& whole, IndentationStep ends, FoundEnd end);
   // The same, of a step that the integrator's own root-finding has shortened.
-  StepEnd event_of_integrator(const StepEnds& whole, StepEnd end);
-  // An event of a step to (t1, y1) that has none before its correction is added, by which the end
-  // passes the event function. `ends`: of the whole step.
-  std::optional<EventFunction> event_of_correction(IndentationStep ends, const StepEnd& end);
+  FoundEnd event_of_integrator(const StepEnds& whole, FoundEnd end);
+  // The event of a step to `end` that appears only when the correction is added. `ends`: of the
+  // whole step.
+  std::optional<EventFunction> event_of_correction(IndentationStep ends, const FoundEnd& end);
   std::optional<Crossing> find_crossing_in(const IndentationStep& ends, const State& y1);
   // Whether the double root of a crossing exists; if so, narrows it to the first of the two.
   bool resolve(Crossing& crossing, const StepEnds& step);

@@ -121,7 +121,7 @@ void Recorder::add_rows_within(const ObservedStep& step, StruckBeam& beam) {
   }
   for (;;) {
     const double row_time = row_instants_.next();
-    const double shape_time = fields_ ? fields_->next_instant() : Instants(0.0).next();
+    const double shape_time = fields_ ? fields_->next_instant() : HUGE_VAL;
     const bool both =
         std::isfinite(row_time) && std::abs(row_time - shape_time) <= same_instant * row_time;
     const double t = both ? row_time : std::min(row_time, shape_time);

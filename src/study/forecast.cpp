@@ -55,8 +55,8 @@ struct AllRows final : RowSink {
   void add(const SectionRow&) override {}
 };
 
-// A run that was made for the forecast, or as much of it as was affordable, and what it takes to
-// its end.
+// A run made for the forecast, to its end or as far as was affordable; costs are those of the
+// whole.
 struct Sample {
   Case input;
   Result result;
@@ -192,10 +192,14 @@ void Forecaster::begin(Case input, bool is_beside) {
     const ResolvedRun run = resolve(of);
     return run.settings().memory > affordable_memory || run.settings().decomposition > affordable;
   };
-  std::optional<RefinedRun> coarser;
-  while (is_large(input) && (coarser = on_other_mesh(input, 0.5))) input = coarser->input;
-  sample_of(input, is_beside || coarser);
-  if (coarser && (coarser = on_other_mesh(input, 0.5))) sample_of(coarser->input, true);
+  bool is_coarser = false;
+  std::optional<RefinedRun> half = on_other_mesh(input, 0.5);
+  for (; half && is_large(input); half = on_other_mesh(input, 0.5)) {
+    input = half->input;
+    is_coarser = true;
+  }
+  sample_of(input, is_beside || is_coarser);
+  if (is_coarser && half) sample_of(half->input, true);
 }
 
 // Work grows as from a mesh of half the size to the finest that was made, and time with the work.

@@ -386,7 +386,9 @@ void set_first_unresolved(ErrorEstimate::Part& part, std::size_t i, const std::s
 ErrorEstimate::Part judge_part(const Case& input, Result& run, std::span<const RunBeside> beside,
                                ErrorEstimate& estimate) {
   const Judge judge(input, run, beside);
-  ErrorEstimate::Part part{beside.front().of.part, descriptions_of(beside), {}, {}, 0.0};
+  ErrorEstimate::Part part;
+  part.name = beside.front().of.part;
+  part.refined_run = descriptions_of(beside);
   double strictness = 1.0;
   for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
     SubImpact& s = run.sub_impacts[i];
@@ -493,8 +495,7 @@ void doubt_unresolved(const Case& input, bool about_mesh, Result& run, ErrorEsti
 }
 
 void set_largest_errors(Result& run, ErrorEstimate& estimate) {
-  for (std::size_t i = 0; i < run.sub_impacts.size(); ++i) {
-    SubImpact& s = run.sub_impacts[i];
+  for (SubImpact& s : run.sub_impacts) {
     if (!*s.certain) continue;
     const auto include = [](double& largest, const std::optional<double>& error) {
       largest = std::max(largest, error.value_or(0.0));

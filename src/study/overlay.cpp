@@ -216,7 +216,7 @@ class Search {
       const double centre = x;
       double best = -1.0;
       for (int k = -n / 2; k <= n / 2; ++k) {
-        const double at = centre + half * k / (n / 2);
+        const double at = centre + half * k / (0.5 * n);
         const double value = f(at);
         if (value > best) std::tie(best, x) = std::pair(value, at);
       }

@@ -224,7 +224,7 @@ class Search {
                                 "above the limit of {:.1e}",
                                 work_, work, work_limit_));
     }
-    const std::optional<Case> finer = refinement_->finer(best_->input, ratio);
+    std::optional<Case> finer = refinement_->finer(best_->input, ratio);
     if (!finer) return refuse(refinement_->size_key(), "the mesh is the finest that is allowed");
     try {
       check_memory(resolve(*finer).settings());

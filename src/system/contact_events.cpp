@@ -109,7 +109,7 @@ void ContactEventFunctions::evaluate(std::span<const double> y,
   auto result = values.begin();
   for (const EventFunction& function : contact.event_functions()) {
     const EventValue at = contact.event_function(function, lambda, rate);
-    if (function.kind == EventKind::contact_unloads) {  // its rate would need the acceleration
+    if (function.of_rate()) {  // its rate would need the acceleration
       *result++ = {at.value / velocity, std::numeric_limits<double>::quiet_NaN()};
     } else {
       *result++ = {(at.value - beam_.displacement_rounding(y)) / position,

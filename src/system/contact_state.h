@@ -17,9 +17,6 @@ enum class Evaluation {
   switching  ///< the branch follows the motion, as in schemes that do not locate events
 };
 
-/// Which way a quantity moves.
-enum class Direction { rising, falling };
-
 /// What an event function is a function of.
 enum class EventVariable {
   indentation,
@@ -31,7 +28,6 @@ enum class EventVariable {
 struct EventFunction {
   EventKind kind;
   EventVariable variable;
-  Direction before = Direction::rising;  ///< of the indentation, before contact_unloads
 
   constexpr EventFunction(EventKind kind)
       : EventFunction(kind, kind == EventKind::contact_unloads ? EventVariable::rate

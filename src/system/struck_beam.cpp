@@ -295,11 +295,7 @@ EventValue StruckBeam::evaluate(const EventFunction& function, const State& y) {
   if (!function.of_rate()) return at;
   acceleration_at(y, trial_);
   const double second = trial_[n_] - mesh_->struck_point()({trial_.data(), n_});
-  if (function.kind == EventKind::contact_unloads) {
-    const double sign = function.before == Direction::rising ? -1.0 : 1.0;
-    return {sign * rate, sign * second};
-  }
-  return {at.value, function.kind == EventKind::contact_ends ? -second : second};
+  return {at.value, function.kind == EventKind::contact_begins ? second : -second};
 }
 
 bool StruckBeam::commit(const State& y) {

@@ -161,7 +161,8 @@ TEST(ADampedBeam, IsRefusedByMethodsThatCannotTakeItsDamping) {
       {of_mass, Method::central_difference, SectionKind::elastic, "beam.damping.mass", others},
       {of_mass, Method::exponential, SectionKind::exact, "solver.reversals", "elastic"},
       {ratio, Method::bdf, SectionKind::elastic, "beam.damping.ratio", "erk, exponential"},
-      {ratio, Method::erk, SectionKind::exact, "beam.damping.ratio", "section = \"elastic\""}};
+      {ratio, Method::erk, SectionKind::exact, "beam.damping.ratio",
+       "model.section = \"elastic\""}};
   for (const auto& [damping, method, section, key, words] : refused) {
     SCOPED_TRACE(to_string(method));
     Case input = elastic_case(damping);

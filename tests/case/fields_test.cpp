@@ -196,7 +196,7 @@ double mid_span_set(const std::vector<ShapeRow>& shape, const BeamMesh& mesh, do
 
 TEST(PlasticCurvatures, OfElasticBeamsAreZeroAndNotRounding) {
   for (const MeshKind kind : {MeshKind::cells, MeshKind::hermite}) {
-    Case input = linear_case(kind, 40, 0.5 * paper_beam().length, pinned);
+    Case input = linear_case(kind, 40, third, pinned);
     input.output.shapes = 1e-5;
     input.output.interval = 1e-6;
     input.output.sections = {0.25, 0.5};

@@ -90,7 +90,7 @@ TEST(ImplicitMethods, TakeAFixedStepAboveTheCriticalOne) {
 // Fixed steps of multistep methods, root-finding of methods that are not of SUNDIALS, orders and
 // tables of other methods.
 TEST(Methods, RefuseByItsKeyWhatTheyDoNotHave) {
-  const std::string library = "\"located\"|erk, dirk, imex, adams, bdf";
+  const std::string library = "allowed: \"located\"|erk, dirk, imex, adams, bdf";
   const std::tuple<Method, const char*, KeyValue, std::string> refused[] = {
       {Method::adams, "solver.step", 1e-7, "max_step"},
       {Method::bdf, "solver.step", 1e-7, "max_step"},

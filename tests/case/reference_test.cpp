@@ -9,7 +9,6 @@ struct Table {
   const char* name;
   SectionKind section;
   double time_bound_us;  // before 2 ms
-  std::size_t count;     // over 8 ms
 };
 
 void PrintTo(const Table& table, std::ostream* out) { *out << table.name; }
@@ -19,8 +18,8 @@ class AgainstTheReference : public testing::TestWithParam<Table> {};
 TEST_P(AgainstTheReference, AllSubImpactsAreFoundAndThoseBeforeTwoMillisecondsAtTheirTimes) {
   const Table& table = GetParam();
   const Result result = completed(paper_case(table.section, 8e-3));
-  EXPECT_EQ(result.sub_impacts.size(), table.count);
   std::vector<ReferenceEvent> reference = reference_table(table.name);
+  EXPECT_EQ(result.sub_impacts.size(), reference.size());
   std::erase_if(reference, [](const ReferenceEvent& row) { return row.start_us > 2000.0; });
   ASSERT_EQ(std::ranges::count_if(result.sub_impacts,
                                   [](const SubImpact& s) { return start_us(s) <= 2000.0; }),
@@ -33,9 +32,9 @@ TEST_P(AgainstTheReference, AllSubImpactsAreFoundAndThoseBeforeTwoMillisecondsAt
   }
 }
 
-const Table tables[] = {{"seed_elastic", SectionKind::elastic, 1e-3, 26},
-                        {"seed_exact", SectionKind::exact, 2e-3, 51},
-                        {"seed_layers40", SectionKind::layers, 4e-3, 49}};
+const Table tables[] = {{"seed_elastic", SectionKind::elastic, 1e-3},
+                        {"seed_exact", SectionKind::exact, 2e-3},
+                        {"seed_layers40", SectionKind::layers, 4e-3}};
 
 INSTANTIATE_TEST_SUITE_P(, AgainstTheReference, testing::ValuesIn(tables), NamedAsPrinted{});
 
@@ -51,8 +50,8 @@ TEST_P(WithoutLocation, TheWholeStrikeHasAsManySubImpacts) {
   input.solver.table = "dormand-prince";
   input.solver.events = events;
   const Result result = completed(input);
-  EXPECT_EQ(result.sub_impacts.size(), table.count);
   const std::vector<ReferenceEvent> reference = reference_table(table.name);
+  EXPECT_EQ(result.sub_impacts.size(), reference.size());
   const auto n_early = std::ranges::count_if(
       reference, [](const ReferenceEvent& row) { return row.end_us < 2000.0; });
   const double scatter = events == EventHandling::interpolated ? 4.0 : 1.0;

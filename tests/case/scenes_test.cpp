@@ -384,6 +384,7 @@ TEST(AScene, ThatCannotBeIsRefusedWithItsReason) {
         {"solver.method", "central-difference"}}},
   };
   for (const auto& [key, words, settings] : refused) {
+    SCOPED_TRACE(words);
     Case input = elastic_case();
     input.end_time = 1e-3;
     expect_refused(changed(input, settings), key, words);

@@ -15,6 +15,7 @@ Case coarse_strike(Method method, double rtol) {
 
 // Ends before the end time, by its own account, with the interval of the first failure.
 void expect_caught(const Case& input) {
+  SCOPED_TRACE(to_string(input.solver.method));
   const Result result = simulate(input);
   const Outcome& outcome = result.outcome;
   EXPECT_TRUE(outcome.kind == OutcomeKind::inaccurate || outcome.kind == OutcomeKind::unstable ||

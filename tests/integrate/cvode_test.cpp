@@ -105,7 +105,8 @@ TEST(BdfOnTheImaginaryAxis, OrdersAboveTwoLetAFastOscillationGrow) {
       if (integrator->time() < 10.0) continue;
       largest = std::max(largest, pair.amplitude(integrator->state(), 1));
     }
-    EXPECT_TRUE(order <= 2 ? largest < 1e-3 * seed : largest > 1e3 * seed) << order << largest;
+    EXPECT_TRUE(order <= 2 ? largest < 1e-3 * seed : largest > 1e3 * seed)
+        << order << ' ' << largest;
   }
 }
 

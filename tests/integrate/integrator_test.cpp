@@ -232,7 +232,7 @@ class Order : public testing::TestWithParam<ExplicitMethod> {
  protected:
   void expect_order(KnownMotion& motion, double end, double place) {
     const double order = GetParam().order, band = GetParam().order_band;
-    expect_finest_order(order - band, order + band, {6, 39, 2e-4, 5e-12},
+    expect_finest_order(order - band, order + band, {6, 2e-4, 5e-12},
                         [&](int n) { return error_in_steps(GetParam(), motion, end, n, place); });
   }
 };

@@ -59,9 +59,9 @@ double error_in_steps(const Method& method, Motion& motion, double end, int n, d
 
 /// Where errors are neither too coarse to be asymptotic nor rounding.
 struct Asymptotic {
-  int first_third;  ///< of doublings of one step
-  std::size_t most_rows;
+  int first_third;           ///< of doublings of one step
   double largest, smallest;  ///< errors
+  std::size_t most_rows = 100;
 };
 
 /// `error_of(n)` is the error with n steps; n grows by the cube root of 2, and the order over the

@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Not of Rayleigh's free beams: see the next test.
 TEST_P(CellsOnSupports, FrequenciesConvergeAtSecondOrder) {
   const bool is_free = beam().is_free();
-  if (is_free && beam().theory == BeamTheory::rayleigh) return;
+  if (is_free && beam().theory == BeamTheory::rayleigh) GTEST_SKIP() << "see the next test";
   const auto found = [&](std::size_t n) {
     return dense_frequencies(CellMesh(beam(), 0.5, n, Extent::whole), stiffness());
   };

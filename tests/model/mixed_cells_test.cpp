@@ -119,9 +119,7 @@ class BentMixedCells : public testing::Test {
     return w;
   }
   double largest_moment() const {
-    double largest = 0.0;
-    for (const double k : sections_.elastic_curvatures()) largest = std::max(largest, std::abs(k));
-    return largest / beam_.yield_curvature();
+    return largest_of(sections_.elastic_curvatures()) / beam_.yield_curvature();
   }
 
   Beam beam_ = paper_beam();

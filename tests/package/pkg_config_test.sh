@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# pkg_config_test.sh COMPILER SOURCE PROGRAM [OPTION...]: builds a program by hand and runs it.
+# pkg_config_test.sh PACKAGE COMPILER SOURCE PROGRAM [OPTION...]: builds a program by hand and runs it.
 set -euo pipefail
-compiler=$1 source=$2 program=$3
-shift 3
-read -r -a flags <<< "$(pkg-config --cflags subimpact)"
-read -r -a libraries <<< "$(pkg-config --libs subimpact)"
-[[ $(pkg-config --modversion subimpact) =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]]
+package=$1 compiler=$2 source=$3 program=$4
+shift 4
+read -r -a flags <<< "$(pkg-config --cflags "$package")"
+read -r -a libraries <<< "$(pkg-config --libs "$package")"
+[[ $(pkg-config --modversion "$package") =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]]
 "$compiler" -std=c++20 "$@" "${flags[@]}" "$source" -o "$program" "${libraries[@]}"
 "$program"

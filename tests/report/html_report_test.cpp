@@ -192,8 +192,8 @@ TEST(HtmlReport, ListsErrorBarsByTheirSource) {
   estimate.first_unresolved = 1;
   estimate.reason = "they <part>";
   estimate.largest_error = 3e-7;
-  estimate.parts = {{"time", "rtol = 1e-7", {}, "", 2e-9},
-                    {"mesh", "43 cells", 1, "they <part>", 3e-7}};
+  estimate.parts = {{{"rtol = 1e-7", {}, "", 2e-9}, "time"},
+                    {{"43 cells", 1, "they <part>", 3e-7}, "mesh"}};
   run.result.error_estimate = estimate;
   expect_in(page_of(run), "to 0.002 µs up to 900 µs (runs beside: rtol = 1e-7)",
             "(runs beside: 43 cells)", "to 0.3 µs; sub-impact 2: they &lt;part&gt;");

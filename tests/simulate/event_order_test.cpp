@@ -117,7 +117,8 @@ TEST_P(EventTimesOfMultistepMethods, FallWithTheToleranceHoweverEventsAreFound) 
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, EventTimesOfMultistepMethods, testing::Values("adams", "bdf"));
+INSTANTIATE_TEST_SUITE_P(, EventTimesOfMultistepMethods, testing::Values("adams", "bdf"),
+                         NamedAsPrinted{});
 
 }  // namespace
 }  // namespace subimpact

@@ -58,11 +58,11 @@ void expect_one_impact(int n_scenarios, const std::vector<std::string>& methods,
                        result.transitions.front().kind == EventKind::contact_begins &&
                        result.transitions.back().kind == EventKind::contact_ends;
     if (!right) {
-      EXPECT_LT(++wrong, 5) << "and so on";
-      EXPECT_EQ(result.transitions.size(), expected)
-          << way.table << " rtol " << way.rtol << " m " << bodies.striker_mass << " M "
-          << bodies.target_mass << " K " << bodies.contact_stiffness << " v " << bodies.velocity
-          << " ls/d " << bodies.yield_indentation / elastic;
+      if (++wrong > 5) continue;  // enough to see what they have in common
+      ADD_FAILURE() << result.transitions.size() << " events in place of " << expected << ", "
+                    << way.table << " rtol " << way.rtol << " m " << bodies.striker_mass << " M "
+                    << bodies.target_mass << " K " << bodies.contact_stiffness << " v "
+                    << bodies.velocity << " ls/d " << bodies.yield_indentation / elastic;
       continue;
     }
     const SubImpact& impact = result.sub_impacts[0];
@@ -133,7 +133,7 @@ void expect_grazes_found(int n_scenarios, const std::vector<std::string>& method
     std::size_t n_begin = 0;
     std::size_t n_end = 0;
     for (const Transition& event : result.transitions) {
-      if (event.time == 0.0) continue;
+      if (from_contact && event.time == 0.0) continue;
       n_begin += event.kind == EventKind::contact_begins;
       n_end += event.kind == EventKind::contact_ends;
       const std::size_t first = from_contact ? n_end : n_begin;

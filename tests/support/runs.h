@@ -26,11 +26,11 @@ inline void expect_same_starts(const Result& a, const Result& b, double toleranc
   }
 }
 
-/// The same of their ends, where both have one.
+/// The same of their ends, which either both or neither has.
 inline void expect_same_ends(const Result& a, const Result& b, double tolerance_us) {
   ASSERT_EQ(a.sub_impacts.size(), b.sub_impacts.size());
   for (std::size_t i = 0; i < a.sub_impacts.size(); ++i) {
-    if (!a.sub_impacts[i].end || !b.sub_impacts[i].end) continue;
+    EXPECT_EQ(a.sub_impacts[i].end.has_value(), b.sub_impacts[i].end.has_value()) << i;
     EXPECT_NEAR(end_us(a.sub_impacts[i]), end_us(b.sub_impacts[i]), tolerance_us) << i;
   }
 }

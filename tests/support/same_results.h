@@ -23,6 +23,7 @@ inline void expect_same(const Result& a, const Result& b) {
     EXPECT_EQ(a.sub_impacts[i].peak_force, b.sub_impacts[i].peak_force) << i;
     EXPECT_EQ(a.sub_impacts[i].impulse, b.sub_impacts[i].impulse) << i;
     EXPECT_EQ(a.sub_impacts[i].force_integral, b.sub_impacts[i].force_integral) << i;
+    EXPECT_EQ(a.sub_impacts[i].striker_velocity, b.sub_impacts[i].striker_velocity) << i;
     EXPECT_EQ(a.sub_impacts[i].residual_indentation, b.sub_impacts[i].residual_indentation) << i;
   }
   ASSERT_EQ(a.history.size(), b.history.size());

@@ -74,8 +74,9 @@ inline Result sample_result_with_errors(std::size_t n_certain) {
     s.striker_velocity_error = first ? 6.4e-4 : 0.068;
     if (*s.certain) estimate.largest_error = error;
   }
-  estimate.parts = {{"mesh", "the same, coarser", estimate.first_unresolved, estimate.reason,
-                     estimate.largest_error}};
+  estimate.parts = {
+      {{"the same, coarser", estimate.first_unresolved, estimate.reason, estimate.largest_error},
+       "mesh"}};
   const auto count = [&](std::size_t from, std::size_t to) {  // of [from, to), uncertain ones
     const std::size_t n_before = std::clamp(n_certain, from, to);
     return Total{static_cast<double>(to - from), static_cast<double>(to - n_before)};

@@ -322,6 +322,7 @@ TEST(BeamField, KeepsAsManyStationsAsAskedForAndTheStruckOneAmongThem) {
       std::size_t struck = 0;
       while (struck < field.size() && field.position(struck) < 0.5 * scene.beam.length - 1e-9)
         ++struck;
+      ASSERT_LT(struck, field.size()) << most;
       EXPECT_NEAR(field.position(struck), 0.5 * scene.beam.length, 1e-9) << most;
     }
     EXPECT_EQ(BeamField(beam, scene.beam.length, 0).size(), 0u);

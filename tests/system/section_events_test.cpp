@@ -168,14 +168,15 @@ struct Mesh {
 std::vector<Mesh> meshes() {
   using Extent = BeamMesh::Extent;
   std::vector<Mesh> all;
-  const auto add = [&]<class Of>(const char* name, Of mesh) {
+  const auto add = [&]<class Of>(const std::string& name, Of mesh) {
     all.push_back({name, std::make_unique<Of>(std::move(mesh))});
   };
   for (const BeamTheory theory : {BeamTheory::rayleigh, BeamTheory::euler_bernoulli}) {
     const Beam beam = paper_beam(theory);
-    add("half of cells", CellMesh(beam, 0.5, 201, Extent::half));
-    add("cells, struck off centre", CellMesh(beam, 0.317, 60, Extent::whole));
-    add("half of elements", HermiteMesh(beam, 0.5, 40, 2, Extent::half));
+    const std::string of = theory == BeamTheory::rayleigh ? "Rayleigh's " : "Euler's ";
+    add(of + "half of cells", CellMesh(beam, 0.5, 201, Extent::half));
+    add(of + "cells, struck off centre", CellMesh(beam, 0.317, 60, Extent::whole));
+    add(of + "half of elements", HermiteMesh(beam, 0.5, 40, 2, Extent::half));
   }
   Beam shearing = paper_beam(BeamTheory::timoshenko);
   shearing.poisson = 0.33;

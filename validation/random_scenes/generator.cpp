@@ -12,6 +12,7 @@
 #include "random_scenes/cost.h"
 #include "random_scenes/scene_keys.h"
 #include "subimpact/case/case_keys.h"
+#include "subimpact/case/simulate.h"
 #include "subimpact/simulate/options.h"
 
 namespace subimpact::scenes {

@@ -82,7 +82,7 @@ struct Case : Options {
   /// change the run; see study/predictability.h.
   std::map<std::string, double> scatter;
   std::optional<bool> at_rest;  ///< Problem::at_rest
-  int strikes = 1;              ///< that the beam receives (study/repeated_strikes.h)
+  int strikes = 1;              ///< that the beam receives (study/run_as_asked.h)
   CaseParts parts;              ///< none: the built-in ones
 };
 

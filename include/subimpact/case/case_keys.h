@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "subimpact/case/case.h"
-#include "subimpact/case/simulate.h"
 
 namespace subimpact {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "subimpact/case/case.h"
 #include "subimpact/simulate/simulate.h"
 

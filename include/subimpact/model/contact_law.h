@@ -53,6 +53,7 @@ struct ContactScales {
 ///   - where given, the energies are the work of the force: d(recoverable)/d lambda = F on the
 ///     elastic branch; along the plastic branch recoverable + dissipated grow by F d lambda.
 ///     Dissipated never falls.
+///
 /// Forces are also evaluated slightly beyond the range of their branch, in steps that are then cut
 /// at the end of the branch: there they should continue smoothly, with either sign. One evaluation
 /// of the equations of motion evaluates one force.

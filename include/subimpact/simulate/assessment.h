@@ -1,7 +1,7 @@
 #pragma once
 
-/// What other runs of the same case, or of cases near it, show of a run: study/judgement.h and
-/// study/predictability.h compute it. Empty without such runs.
+/// What other runs of the same case, or of cases near it, show of a run. Studies fill it
+/// (study/judgement.h, study/predictability.h, study/run_as_asked.h); it is empty without them.
 
 #include <cstddef>
 #include <optional>
@@ -49,22 +49,21 @@ struct ZoneTotals {
   Total sub_impacts;  ///< their number
 };
 
-/// The judgement of a run by the runs beside it: which sub-impacts are certain, and errors.
-struct ErrorEstimate {
+/// Errors of the times of sub-impacts, from all sources or from one.
+struct ErrorOfTimes {
   std::string refined_run;  ///< the runs compared with, in words
   /// The first sub-impact (from 0) that is not certain, or that follows a flight which may hold
   /// another one; none if all are certain and no others are possible.
   std::optional<std::size_t> first_unresolved;
   std::string reason;          ///< why it is not certain
   double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
+};
 
+/// The judgement of a run by the runs beside it: which sub-impacts are certain, and errors.
+struct ErrorEstimate : ErrorOfTimes {
   /// One source of error.
-  struct Part {
-    std::string name;         ///< "time", "mesh", "layers"
-    std::string refined_run;  ///< the runs, in words
-    std::optional<std::size_t> first_unresolved;
-    std::string reason;
-    double largest_error = 0.0;  ///< s, of the times of the certain sub-impacts
+  struct Part : ErrorOfTimes {
+    std::string name;  ///< "time", "mesh", "layers"
   };
   std::vector<Part> parts;
 
@@ -124,8 +123,6 @@ struct Predictability {
 
 /// The assessment of a whole run.
 struct Assessment {
-  /// Whether it is proven, for the run and for those beside it, that no contact follows.
-  bool contact_over = false;
   std::optional<ErrorEstimate> error_estimate;    ///< with error bars
   std::optional<NeglectedShear> neglected_shear;  ///< where it was estimated
   std::optional<ToleranceOutcome> tolerance;      ///< of runs with a tolerance on event times

@@ -1,9 +1,8 @@
 #pragma once
 
-/// Sub-impacts, assembled from events, and near misses.
+/// Sub-impacts, assembled from events, their zones, near misses, and force signals.
 
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -63,7 +62,7 @@ struct ZoneSummary {
 };
 std::vector<ZoneSummary> summarise_zones(const std::vector<SubImpact>& sub_impacts);
 
-/// A force at increasing times, linear in between.
+/// A force over time, linear between its points.
 struct Signal {
   std::vector<double> times;   ///< s, not decreasing
   std::vector<double> forces;  ///< N, as many

@@ -220,7 +220,8 @@ struct ResolvedSettings {
   double shape_interval = 0.0;      ///< s between shapes; 0: none
   std::size_t n_shape_points = 0;   ///< points of a shape, along the whole beam
   double memory = 0.0;              ///< bytes that a run takes, roughly
-  /// Cost of the natural modes, in entries of right-hand sides of the same duration; 0: not needed.
+  /// Cost of the natural modes, as the number of entries of right-hand sides that take as long to
+  /// compute; 0: not needed.
   double decomposition = 0.0;
 };
 
@@ -240,7 +241,7 @@ struct ClosestApproach {
   std::optional<double> error;  ///< m, of the gap
 };
 
-/// What one run computes. Its assessment is empty until other runs are compared with it.
+/// What one run computes. Its base is what studies of several runs add.
 struct Result : Assessment {
   Outcome outcome;
   Options given;          ///< of the run, as passed by the caller
@@ -268,6 +269,8 @@ struct Result : Assessment {
   /// s: a time after which it is proven that no contact follows: the end of the run, or sooner with
   /// time.stop = "no-more-contact".
   std::optional<double> no_more_contact;
+  /// Whether it is proven, for the run and for those beside it, that no contact follows.
+  bool contact_over = false;
   /// In the flight after the last sub-impact; none if the gap only grows.
   std::optional<ClosestApproach> closest_approach;
   std::size_t n_yielded_sections = 0;  ///< of the sections modelled
