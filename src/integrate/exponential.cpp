@@ -35,7 +35,15 @@ Exponential::Exponential(std::unique_ptr<ForcedOscillators> oscillators,
       options_(options),
       n_(oscillators_.size()),
       scales_(oscillators_.scales()),
-      unit_(scales_.position / scales_.velocity) {
+      unit_(scales_.position / scales_.velocity),
+      zeros_(n_, 0.0),
+      per_square_(n_, 0.0),
+      twice_decay_(n_, 0.0) {
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double w = oscillators_.frequencies()[i];
+    if (w > 0.0) per_square_[i] = 1.0 / (w * w);
+    if (!oscillators_.decay_rates().empty()) twice_decay_[i] = 2.0 * oscillators_.decay_rates()[i];
+  }
   if (options_.fixed_step) {
     unit_ = *options_.fixed_step;
   } else if (options_.max_step) {
@@ -125,6 +133,32 @@ double Exponential::error_of_cubic(double h) const {
     }
   }
   return sum;
+}
+
+double Exponential::error_of_swings(const OscillatorStep& step) const {
+  const double* const omega = oscillators_.frequencies().data();
+  const double* const b = oscillators_.loads().data();
+  const double* const q0 = y0_.data();
+  const double* const v0 = y0_.data() + n_;
+  const bool has_loads = !step_loads_.value.empty();
+  const double* const a0 = has_loads ? step_loads_.value.data() : zeros_.data();
+  const double* const a1 = has_loads ? step_loads_.rate.data() : zeros_.data();
+  const double h = step.length();
+  const std::span<const double> force = force_.coefficients();
+  const double f0 = force[0], f1 = force[1] / h, f2 = force[2] / (h * h);
+  const double f3 = force[3] / (h * h * h);
+  // The answer to force and loads is a cubic, with the derivatives p_k at the start; the rest
+  // swings.
+  const auto speed_squared = [&](auto at) {
+    const auto w = at(omega), per = at(per_square_.data()), d = at(twice_decay_.data());
+    const auto p3 = per * at(b) * f3;
+    const auto p2 = per * (at(b) * f2 - d * p3);
+    const auto p1 = per * (at(b) * f1 + at(a1) - d * p2 - p3);
+    const auto p0 = per * (at(b) * f0 + at(a0) - d * p1 - p2);
+    const auto swing = w * (at(q0) - p0), speed = at(v0) - p1;
+    return OscillatorStep::is_fast(w, h) ? swing * swing + speed * speed : 0.0 * w;
+  };
+  return step.error_per_swing() * std::sqrt(sum_of(n_, speed_squared));
 }
 
 bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) const {
@@ -246,8 +280,10 @@ void Exponential::forced_step() {
         uncertainty =
             std::max(uncertainty, std::abs(path(gauss<n_force_nodes>.points[i]) - lambda[i]));
       }
-      if (error <= tolerance &&
-          resolves_side({lambda0, rate0, lambda1_, rate1_}, h, 2.0 * uncertainty)) {
+      const Ends ends{lambda0, rate0, lambda1_, rate1_};
+      if (error <= tolerance && resolves_side(ends, h, 2.0 * uncertainty) &&
+          (trial.error_per_swing() == 0.0 ||
+           resolves_side(ends, h, 2.0 * uncertainty + error_of_swings(trial)))) {
         if (error <= part_for_doubling * tolerance) level_ = std::max(level_ - 1, first_level_);
         return;
       }

@@ -39,6 +39,8 @@ class Exponential final : public Integrator {
              NodeForces& lambda) const;
   // Largest error (m) of the cubic through the ends of a free step from y0 of the length h.
   double error_of_cubic(double h) const;
+  // What fast modes add to the error of the cubic through the ends of a forced step under force_.
+  double error_of_swings(const OscillatorStep& step) const;
   // Whether a cubic off by up to `uncertainty` (m) shows the side of the critical displacement.
   bool resolves_side(const Ends& ends, double h, double uncertainty) const;
 
@@ -47,7 +49,8 @@ class Exponential final : public Integrator {
   IntegratorOptions options_;
   std::size_t n_;
   SecondOrderOde::Scales scales_;
-  double unit_;  // length of level 0, s
+  double unit_;                                           // length of level 0, s
+  std::vector<double> zeros_, per_square_, twice_decay_;  // 0; 1/omega^2, 0 of rigid modes; 2 delta
   std::map<int, std::unique_ptr<OscillatorStep>> tables_;
   int level_ = 0;  // of the next step; step length unit / 2^level
   int first_level_ = 0;

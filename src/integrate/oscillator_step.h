@@ -69,6 +69,12 @@ class OscillatorStep {
   double compliance(std::size_t i, std::size_t j) const { return compliance_[i][j]; }
   /// Size of the response of lambda to a constant unit force over the step, m/N.
   double constant_force_compliance() const { return constant_force_compliance_; }
+  /// Whether a mode turns so far within a step that the Gauss points do not show its swing; of one
+  /// frequency or of Lanes.
+  static auto is_fast(const auto& omega, double length) { return omega * length > 3.0; }
+  /// Bound of the error (m per m/s) of the cubic through the ends of lambda, where fast modes swing
+  /// with speeds omega A whose squares add up to 1; 0: no mode is fast.
+  double error_per_swing() const { return error_per_swing_; }
   /// The step's end under the forces, or in free motion.
   void advance(std::span<const double> y, const NodeForces& forces, std::span<double> end) const;
   void advance_freely(std::span<const double> y, std::span<double> end) const;
@@ -80,10 +86,12 @@ class OscillatorStep {
   void make_undamped(const ForcedOscillators& oscillators);
   void make_damped(const ForcedOscillators& oscillators);
   void make_loads(const ForcedOscillators& oscillators);
+  double find_error_per_swing(const ForcedOscillators& oscillators) const;
 
   std::size_t n_;
   double length_;
   double constant_force_compliance_ = 0.0;
+  double error_per_swing_ = 0.0;
   std::array<std::array<double, n_force_nodes>, n_force_nodes> compliance_{};
   using Column = std::vector<double>;
   std::array<Column, n_force_nodes> free_position_, free_velocity_;  // lambda at the Gauss points

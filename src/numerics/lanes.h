@@ -108,17 +108,25 @@ inline double dot(const double* a, const double* b, std::size_t n) {
   return total;
 }
 
-/// Sum of |a_i b_i|.
-inline double dot_of_size(const double* a, const double* b, std::size_t n) {
+/// Sum over i of a value, written with at(x) for x[i] as for assign_by_lines().
+template <class Value>
+double sum_of(std::size_t n, Value value) {
   Lanes running{};
   std::size_t i = 0;
   for (; i + n_lanes <= n; i += n_lanes) {
-    const Lanes term = lanes_at(a + i) * lanes_at(b + i);
-    running += term < 0.0 ? -term : term;
+    running += value([i](const double* x) { return lanes_at(x + i); });
   }
   double total = sum(running);
-  for (; i < n; ++i) total += std::abs(a[i] * b[i]);
+  for (; i < n; ++i) total += value([i](const double* x) { return x[i]; });
   return total;
+}
+
+/// Sum of |a_i b_i|.
+inline double dot_of_size(const double* a, const double* b, std::size_t n) {
+  return sum_of(n, [=](auto at) {
+    const auto term = at(a) * at(b);
+    return term < 0.0 ? -term : term;
+  });
 }
 
 inline bool any(const LaneMask& mask) {

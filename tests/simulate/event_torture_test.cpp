@@ -154,11 +154,10 @@ TEST(AGraze, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
                       1e-9, 0.0);
 }
 
-// Without the exponential method: its steps follow the force, which here takes 1e4 times as long as
-// the swing to change.
+// The force takes 1e4 times as long to change as the body on the spring to swing.
 TEST(AnOpening, OfANanosecondOrMoreIsFoundAndANearMissIsNotInvented) {
-  expect_grazes_found(20000, {"dop853", "dprkn8", "dprkn12"}, EventHandling::located, 1e-9, 0.0,
-                      true);
+  expect_grazes_found(20000, {"dop853", "dprkn8", "dprkn12", "exponential"}, EventHandling::located,
+                      1e-9, 0.0, true);
 }
 
 // The dense output is less accurate than the method, and a graze is as deep as the square of its
