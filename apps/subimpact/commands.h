@@ -120,6 +120,14 @@ inline CLI::Option* add_list_option(CLI::App& command, const std::string& name,
   return command.add_option(name, values, meaning)->delimiter(',');
 }
 
+/// A list of values of a key that has choices.
+inline CLI::Option* add_choices_option(CLI::App& command, const std::string& name,
+                                       std::vector<std::string>& values, const char* key,
+                                       const std::string& meaning) {
+  return add_list_option(command, name, values, meaning)
+      ->check(CLI::IsMember(find_case_key(key)->choice_names()));
+}
+
 /// Refuses methods and tables that do not exist, naming the option --methods. Throws CaseFileError.
 void check_method_names(const std::vector<std::string>& methods);
 /// The same, and throws InvalidCase for a method that cannot run the case.

@@ -91,13 +91,14 @@ void add_compare(CLI::App& program, int& status) {
   add_list_option(command, "--methods", options.methods,
                   "Methods to compare, separated by commas; a method's table after a colon, "
                   "its solver.events after a plus sign");
-  add_list_option(command, "--theories", options.theories,
-                  "Beam theories to compare instead, separated by commas: event times of each, "
-                  "with their errors, and how much later they come than by the first")
+  add_choices_option(command, "--theories", options.theories, "beam.theory",
+                     "Beam theories to compare instead, separated by commas: event times of each, "
+                     "with their errors, and how much later they come than by the first")
       ->excludes("--methods");
-  add_list_option(command, "--laws", options.laws,
-                  "Contact laws to compare instead, separated by commas, each with the constants "
-                  "that the case gives for it")
+  add_choices_option(
+      command, "--laws", options.laws, "contact.law",
+      "Contact laws to compare instead, separated by commas, each with the constants "
+      "that the case gives for it")
       ->excludes("--methods")
       ->excludes("--theories");
   add_directory_option(command, options.directory,

@@ -55,6 +55,7 @@ void add_explain(CLI::App& program, int& status) {
       explain);
   options.add_to(command);
   options.add_within_to(command);
+  options.may_repeat = true;
   add_jobs_option(command, options.jobs);
   command.add_flag("--json", options.as_json, "Print the forecast alone, as JSON in SI units");
   command.footer(

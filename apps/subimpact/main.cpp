@@ -44,11 +44,26 @@ std::optional<std::string> unknown_command(const CLI::App& program, int argc, ch
                      near.empty() ? "see subimpact --help" : "did you mean \"" + near + "\"?");
 }
 
+// CLI11's own message has the words in reverse.
+std::string unexpected_words(const CLI::App& command) {
+  const std::vector<std::string> words = command.remaining();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string word = words.front().substr(0, words.front().find('='));
+  const std::string near = subimpact::nearest_name(word, names);
+  return fmt::format("unexpected \"{}\"{}", fmt::join(words, " "),
+                     near.empty() ? "" : "; did you mean \"" + near + "\"?");
+}
+
 std::string usage_error(const CLI::App* program, const CLI::Error& error) {
-  std::string command = "subimpact";
-  for (const CLI::App* used : program->get_subcommands()) command += " " + used->get_name();
-  return subimpact::printable(
-      fmt::format("{}: {}; see {} --help\n", command, error.what(), command));
+  std::string command = "subimpact", message = error.what();
+  for (const CLI::App* used : program->get_subcommands()) {
+    command += " " + used->get_name();
+    if (!used->remaining().empty()) message = unexpected_words(*used);
+  }
+  return subimpact::printable(fmt::format("{}: {}; see {} --help\n", command, message, command));
 }
 
 // Whether standard output is a pipe whose reader has ended.

@@ -11,6 +11,7 @@ struct PlanCommand : StudyOptions {
 
 int run_plan(PlanCommand& command) {
   const LoadedCase loaded = command.input.load();
+  print_doubts(loaded);
   std::optional<OutputDirectory> directory;
   if (!command.directory.empty()) directory.emplace(command.directory, "plan");
   StudySession session;
@@ -29,9 +30,8 @@ int run_plan(PlanCommand& command) {
   }
   print("{}\n{}\n{}", title_of(loaded.value), plan_reference_table(result), plan_table(result));
   if (directory) {
-    write_plan(directory->staging(), result);
-    directory->commit();
-    print_warnings(directory->notes());
+    const auto write = [&](const std::filesystem::path& staging) { write_plan(staging, result); };
+    if (!write_after_printing(*directory, write)) return failed;
     print("reference.csv, plan.csv, plan.svg and .png in {}\n", command.directory);
   }
   return session.end(result.interrupted, done,
@@ -60,7 +60,8 @@ void add_plan(CLI::App& program, int& status) {
       "Examples:\n"
       "  subimpact plan case.toml --within 1us\n"
       "  subimpact plan case.toml --within 0.05us --set model.section=elastic --out out/plan\n"
-      "Exit status: 0 done; 2 bad command line or case file; 128 and the signal's number: stopped "
+      "Exit status: 0 done; 2 bad command line or case file; 3 results could not "
+      "be written; 128 and the signal's number: stopped "
       "(130 by Ctrl-C).");
 }
 

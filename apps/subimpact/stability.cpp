@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "commands.h"
 #include "subimpact/report/studies.h"
 
@@ -89,6 +87,7 @@ void check_beam(const Case& input, const std::vector<std::string>& parts) {
 
 int run_stability(StabilityCommand& command) {
   const LoadedCase loaded = command.input.load();
+  print_doubts(loaded);
   if (command.directory.empty()) command.directory = command.input.directory_with("-stability");
   return with_places(loaded, [&]() -> int {
     check_methods(loaded.value, command.methods);
@@ -102,7 +101,12 @@ int run_stability(StabilityCommand& command) {
       if (session.listener.interrupted()) break;
       session.status.show(part.name);
       if (!run_part(part, directory.staging(), session.status)) all_done = false;
-      directory.commit();
+      try {
+        directory.commit();
+      } catch (const OutputError& error) {
+        print_error("subimpact: {}\n", error.what());
+        return failed;
+      }
     }
     print_warnings(directory.notes());
     print("CSV files and figures in {}\n", command.directory);

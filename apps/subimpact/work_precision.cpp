@@ -78,9 +78,8 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
     std::fflush(stdout);
     if (studies.back().interrupted) break;
   }
-  draw_work_precision(directory.staging(), studies);
-  directory.commit();
-  print_warnings(directory.notes());
+  const auto write = [&](const std::filesystem::path& at) { draw_work_precision(at, studies); };
+  if (!write_after_printing(directory, write)) return failed;
   print(
       "work_precision.csv, work_precision.svg and .png, work_precision_evaluations.svg and .png in "
       "{}\n",
@@ -92,6 +91,7 @@ int run_cases(const WorkPrecisionCommand& command, const std::vector<LabelledCas
 
 int run_work_precision(WorkPrecisionCommand& command) {
   const LoadedCase loaded = command.input.load();
+  print_doubts(loaded);
   if (command.directory.empty())
     command.directory = command.input.directory_with("-work-precision");
   return with_places(loaded, [&] {
@@ -111,9 +111,9 @@ void add_work_precision(CLI::App& program, int& status) {
   add_list_option(command, "--methods", options.methods,
                   "Methods to sweep, separated by commas; a method's table after a colon, its "
                   "solver.events after a plus sign. Default: all that can run the case");
-  add_list_option(command, "--sections", options.sections,
-                  "Section laws, separated by commas, each in a panel of its own. Default: the "
-                  "case's");
+  add_choices_option(command, "--sections", options.sections, "model.section",
+                     "Section laws, separated by commas, each in a panel of its own. Default: the "
+                     "case's");
   add_directory_option(command, options.directory,
                        "Directory for CSV and figures; made if missing. Default: the case file's "
                        "name without its ending, and -work-precision, in the current directory");
@@ -129,7 +129,8 @@ void add_work_precision(CLI::App& program, int& status) {
       "  subimpact work-precision case.toml --out out/chart\n"
       "  subimpact work-precision case.toml --methods central-difference,erk:dop853,nystrom\n"
       "  subimpact work-precision case.toml --sections elastic,exact,layers --set time.end=2e-3\n"
-      "Exit status: 0 done; 2 bad command line or case file; 3 a figure could not be drawn; 130 "
+      "Exit status: 0 done; 2 bad command line or case file; 3 a figure could not be drawn, or "
+      "results written; 130 "
       "stopped by Ctrl-C.");
 }
 

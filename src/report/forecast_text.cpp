@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -62,15 +63,23 @@ std::string forecast_text(const RunForecast& forecast) {
   }
   if (!forecast.first.input.scatter.empty())
     line("without", "the runs that estimate the effect of scatter");
-  text += fmt::format("  {:<21} {:<31} {:<20} time of the processor\n", "level", "mesh", "method");
+  if (const int strikes = forecast.first.input.strikes; strikes > 1)
+    line("without", fmt::format("strikes 2 to {}, which each take about as long", strikes));
+  std::size_t width = 30;
+  for (const ForecastRun& run : runs) width = std::max(width, run.mesh.size());
+  const auto row = [&](const std::string& role, const std::string& mesh, const std::string& method,
+                       const std::string& time) {
+    text += fmt::format("  {:<21} {:<{}} {:<20} {}\n", role, mesh, width + 1, method, time);
+  };
+  row("level", "mesh", "method", "time of the processor");
   int level = 0;
   for (const ForecastRun& run : runs) {
     const std::string role = run.is_beside        ? "  beside it"
                              : run.level == level ? "  again, for its rows"
                                                   : fmt::format("{}", run.level);
     level = run.level;
-    text += fmt::format("  {:<21} {:<31} {:<20} {}{}\n", role, run.mesh, run.method,
-                        rough(run.seconds), run.is_made ? ", measured just now" : "");
+    row(role, run.mesh, run.method,
+        rough(run.seconds) + (run.is_made ? ", measured just now" : ""));
   }
   return text;
 }

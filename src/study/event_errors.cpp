@@ -64,7 +64,8 @@ void set_horizon(Reference& reference, std::size_t n, const std::string& reason)
   reference.horizon_reason = reason;
 }
 
-Reference compute_reference(const Case& input, double largest_error, const Progress& progress) {
+Reference compute_reference(const Case& input, double largest_error, const Progress& progress,
+                            Jobs jobs) {
   const bool yields = may_yield(input);
   const char* first = yields ? "nystrom" : "exponential";
   const char* second = yields ? "erk" : "nystrom";
@@ -76,7 +77,7 @@ Reference compute_reference(const Case& input, double largest_error, const Progr
   Result result;
   const std::vector<RunBeside> beside =
       simulate_beside(reference.input, {{accurate(input, second), "time", reference.description}},
-                      2, progress, nullptr, result);
+                      jobs, progress, nullptr, result);
   require_completed(result, first);
   for (const RunBeside& other : beside) require_completed(other.result, second);
   if (result.outcome.kind == OutcomeKind::stopped) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "simulate/methods.h"
+#include "study/parallel.h"
 #include "study/refinement.h"
 #include "subimpact/study/other_mesh.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 // Counted work of a level that is made for a forecast, at most: some 0.3 s.
 constexpr double affordable = 2e8;
-// Of a level over that of its judged run.
-constexpr double with_others = 2.4;
 // Bytes of its model, at most.
 constexpr double affordable_memory = 40e6;
 // Evaluations in a step of a method that is not central differences, roughly.
@@ -82,21 +81,21 @@ bool are_same(const Case& a, const Case& b) {
          a.output.interval == b.output.interval && a.output.shapes == b.output.shapes;
 }
 
-enum class Outlook {
+enum class Assumption {
   expected,
   next_suffices,  // the first level that is not made meets the tolerance
   none_is_certain
 };
 
-// Makes the runs of a search where they are affordable, and foresees them elsewhere.
+// Makes the runs of a search where they are affordable, and extrapolates them elsewhere.
 class Forecaster {
  public:
   explicit Forecaster(Jobs jobs) : jobs_(jobs) {}
 
   // What a search takes whose runs are made here.
   template <class SearchWith>
-  ForecastCost cost_of(Outlook outlook, SearchWith search) {
-    outlook_ = outlook;
+  ForecastCost cost_of(Assumption assumption, SearchWith search) {
+    assumption_ = assumption;
     cost_ = {{}, seconds_beside, wall_beside};
     last_.reset();
     in_runs_ = 0.0;
@@ -117,15 +116,15 @@ class Forecaster {
   const Sample* finest(const Case& kind) const { return nearest(kind, HUGE_VAL); }
   const Sample& sample_of(const Case& input, bool is_beside);
   void begin(Case input, bool is_beside);
-  Sample foreseen(const Case& input) const;
-  Result result_of(const Sample& foreseen) const;
+  Sample extrapolated(const Case& input) const;
+  Result result_of(const Sample& extrapolated) const;
   void add_alone(double seconds) {
     cost_.processor_seconds += seconds;
     cost_.wall_seconds += seconds;
   }
 
   Jobs jobs_;
-  Outlook outlook_ = Outlook::expected;
+  Assumption assumption_ = Assumption::expected;
   std::deque<Sample> samples_;
   std::optional<Case> last_;  // whose run was judged last
   Result like_;               // of it
@@ -166,7 +165,7 @@ const Sample& Forecaster::sample_of(const Case& input, bool is_beside) {
   // Natural modes may take another matrix, which is not stated.
   if (used.decomposition > 0.0) sample.memory += sizeof(double) * unknowns * unknowns;
   const bool is_one = input.solver.method == Method::central_difference;
-  StepLimit limit(affordable / with_others / unknowns / (is_one ? 1.0 : evaluations_per_step));
+  StepLimit limit(affordable / work_with_others / unknowns / (is_one ? 1.0 : evaluations_per_step));
   AllRows all;
   NoRows none;
   sample.result = simulate(std::move(resolved), {}, finest(input) == nullptr ? &limit : nullptr,
@@ -203,7 +202,7 @@ void Forecaster::begin(Case input, bool is_beside) {
 }
 
 // Work grows as from a mesh of half the size to the finest that was made, and time with the work.
-Sample Forecaster::foreseen(const Case& input) const {
+Sample Forecaster::extrapolated(const Case& input) const {
   if (const Sample* const sample = known(input)) return *sample;
   const Sample& finest = *this->finest(input);
   const Sample* half = nearest(input, 0.5 * mesh_count(finest.input), &finest);
@@ -230,26 +229,26 @@ Sample Forecaster::foreseen(const Case& input) const {
 
 // What the search takes for the result of a run: sub-impacts become certain, and then errors fall,
 // with the order of the mesh.
-Result Forecaster::result_of(const Sample& foreseen) const {
+Result Forecaster::result_of(const Sample& extrapolated) const {
   Result run = like_;
-  run.given = foreseen.input;
+  run.given = extrapolated.input;
   run.outcome = {};
-  run.outcome.time = foreseen.input.end_time;
+  run.outcome.time = extrapolated.input.end_time;
   run.used.decomposition = 0.0;
   run.work = {};
   run.work.right_hand_sides = std::lround(
-      foreseen.work() / static_cast<double>(std::max<std::size_t>(run.used.n_unknowns, 1)));
+      extrapolated.work() / static_cast<double>(std::max<std::size_t>(run.used.n_unknowns, 1)));
   const std::size_t n = run.sub_impacts.size();
   std::size_t n_left = 0;
-  if (outlook_ == Outlook::next_suffices) {
+  if (assumption_ == Assumption::next_suffices) {
     run.error_estimate.emplace();
   } else if (!run.error_estimate || !last_) {
     return run;
   } else {
-    const int order = mesh_order(foreseen.input).value_or(0);
-    const double ratio = size_ratio(foreseen.input, *last_);
+    const int order = mesh_order(extrapolated.input).value_or(0);
+    const double ratio = size_ratio(extrapolated.input, *last_);
     if (run.all_certain()) run.error_estimate->largest_error *= std::pow(ratio, -order);
-    if (run.all_certain() || outlook_ == Outlook::none_is_certain) return run;
+    if (run.all_certain() || assumption_ == Assumption::none_is_certain) return run;
     const auto n_uncertain = static_cast<double>(std::max<std::size_t>(n - *run.n_certain(), 1));
     n_left = std::min(n, static_cast<std::size_t>(
                              n_uncertain * std::pow(ratio, -std::min(order, order_of_doubt))));
@@ -264,9 +263,10 @@ void Forecaster::make(const Case& input, const std::vector<CaseBeside>& cases, R
                       std::vector<RunBeside>& beside) {
   const double begun = processor_seconds();
   begin(input, false);
-  const Sample expected = foreseen(input);
-  const bool is_begun = known(input) != nullptr || (with_others * expected.work() <= affordable &&
-                                                    expected.memory <= affordable_memory);
+  const Sample expected = extrapolated(input);
+  const bool is_begun =
+      known(input) != nullptr ||
+      (work_with_others * expected.work() <= affordable && expected.memory <= affordable_memory);
   bool is_made = is_begun && sample_of(input, false).is_whole;
   for (const CaseBeside& other : cases) is_made = is_made && sample_of(other.input, true).is_whole;
   if (!is_made && (is_begun || !last_)) {
@@ -281,11 +281,11 @@ void Forecaster::make(const Case& input, const std::vector<CaseBeside>& cases, R
   const auto take = [&](const Case& of, const std::string& difference) {
     const bool is_beside = !difference.empty();
     begin(of, is_beside);
-    const Sample sample = foreseen(of);
+    const Sample sample = extrapolated(of);
     std::string mesh = mesh_words(of);
     if (!mesh.starts_with(difference)) mesh += ", " + difference;
     cost_.runs.push_back({level, is_beside, mesh, descriptor_of(of.solver.method).name,
-                          sample.seconds, sample.is_whole});
+                          sample.work(), sample.seconds, sample.is_whole});
     cost_.processor_seconds += sample.seconds;
     seconds.push_back(sample.seconds);
     memory.push_back(sample.memory);
@@ -312,34 +312,28 @@ void Forecaster::make(const Case& input, const std::vector<CaseBeside>& cases, R
 
 }  // namespace
 
-double wall_seconds(const std::vector<double>& runs, Jobs jobs) {
-  std::vector<double> busy(std::max(jobs, 1u), 0.0);
-  for (const double run : runs) *std::ranges::min_element(busy) += run;
-  return *std::ranges::max_element(busy);
-}
-
-RunForecast forecast(const Case& input, const GivenKeys& given, Jobs jobs,
-                     const std::optional<ErrorBars>& error_bars) {
+RunForecast forecast(const Case& input, const GivenKeys& given, Jobs jobs) {
   RunForecast forecast;
   Case once = input;
   once.strikes = 1;
   forecast.first = first_run(once, given);
+  forecast.first.input.strikes = input.strikes;
   forecast.jobs = std::max(jobs, 1u);
   Forecaster forecaster(forecast.jobs);
-  forecast.expected = forecaster.cost_of(Outlook::expected, [&](const JudgedRunMaker& make) {
+  forecast.expected = forecaster.cost_of(Assumption::expected, [&](const JudgedRunMaker& make) {
     RunRequest request;
     request.make = make;
-    request.error_bars = error_bars;
     run_as_asked(once, given, std::move(request));
   });
-  const auto open = choices_left(input, given, error_bars);
+  const auto open = choices_left(input, given, std::nullopt);
   const auto search = [&](const JudgedRunMaker& make) {
     WithinOptions options;
     options.make = make;
     simulate_within(once, *open, options);
   };
-  forecast.least = open ? forecaster.cost_of(Outlook::next_suffices, search) : forecast.expected;
-  forecast.most = open ? forecaster.cost_of(Outlook::none_is_certain, search) : forecast.expected;
+  forecast.least = open ? forecaster.cost_of(Assumption::next_suffices, search) : forecast.expected;
+  forecast.most =
+      open ? forecaster.cost_of(Assumption::none_is_certain, search) : forecast.expected;
   forecast.memory = forecaster.memory();
   return forecast;
 }

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -13,17 +14,22 @@
 
 namespace subimpact {
 
-/// Calls task(0) to task(n - 1), `jobs` at a time (0: as many as the machine has cores), in no
-/// particular order. Not for anything that is timed. Rethrows the first exception, which stops all.
-inline void in_parallel(std::size_t n, unsigned jobs,
-                        const std::function<void(std::size_t)>& task) {
+/// Calls task(0) to task(n - 1), `jobs` at a time (0: as many as the machine has cores; fewer if it
+/// refuses threads), in no particular order. Not for anything that is timed. `progress` is called
+/// with the numbers of tasks that ended and of all, one call at a time; false: no more tasks begin.
+/// Rethrows the first exception, which stops all.
+inline void in_parallel(std::size_t n, unsigned jobs, const std::function<void(std::size_t)>& task,
+                        const std::function<bool(std::size_t, std::size_t)>& progress = {}) {
   std::atomic<std::size_t> next{0};
+  std::size_t done = 0;
   std::exception_ptr failure;
   std::mutex mutex;
   const auto work = [&] {
     for (std::size_t i = next++; i < n; i = next++) {
       try {
         task(i);
+        const std::lock_guard lock(mutex);
+        if (progress && !progress(++done, n)) next = n;
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
@@ -31,13 +37,23 @@ inline void in_parallel(std::size_t n, unsigned jobs,
       }
     }
   };
-  std::vector<std::thread> threads;
+  std::vector<std::jthread> threads;
   const std::size_t n_threads =
       std::min<std::size_t>(n, std::max(1u, jobs ? jobs : std::thread::hardware_concurrency()));
-  for (std::size_t i = 1; i < n_threads; ++i) threads.emplace_back(work);
+  try {
+    for (std::size_t i = 1; i < n_threads; ++i) threads.emplace_back(work);
+  } catch (const std::system_error&) {  // no memory for its stack, or too many of them
+  }
   work();
-  for (std::thread& thread : threads) thread.join();
+  for (std::jthread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
+}
+
+/// Time at which all of these have ended, begun in this order, `jobs` at a time.
+inline double wall_seconds(const std::vector<double>& tasks, unsigned jobs) {
+  std::vector<double> busy(std::max(jobs, 1u), 0.0);
+  for (const double seconds : tasks) *std::ranges::min_element(busy) += seconds;
+  return *std::ranges::max_element(busy);
 }
 
 /// Runs cases, `jobs` at a time. `progress` ends all; `finished`, one call at a time, counts those

@@ -11,6 +11,9 @@ inline constexpr double default_share_of_contact = 0.1;
 /// Exponent with which the work of a run grows with the number of cells or elements, usually.
 inline constexpr double usual_growth = 2.5;
 
+/// Work of a run and of those beside it over that of the run.
+inline constexpr double work_with_others = 2.4;
+
 /// A case on finer and finer meshes, with the accuracy in time that goes with each: the default
 /// step of the mesh or, where the contact limits the step, one that shrinks as the mesh does; rtol
 /// divided by ten for every doubling. What is not open stays.

@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <mutex>
 #include <optional>
 #include <span>
 
@@ -104,36 +102,27 @@ double shortest_of(const std::vector<SubImpact>& sub_impacts, double shortest) {
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods,
                        double run_seconds, Jobs jobs, const Count& progress) {
   OutcomeMap map;
-  map.reference = compute_reference(input, reference_error);
+  map.reference = compute_reference(input, reference_error, {}, jobs == 0 ? 2 : jobs);
   map.points = points_of(input, methods);
-  std::mutex mutex;
-  std::size_t done = 0;
-  bool stopped = false;
-  in_parallel(map.points.size(), jobs, [&](std::size_t i) {
-    {
-      const std::lock_guard lock(mutex);
-      if (stopped) {
-        map.points[i].message = "left out: interrupted";
-        return;
-      }
-    }
+  for (OutcomePoint& point : map.points) point.message = "left out: interrupted";
+  const auto run_point = [&](std::size_t i) {
+    map.points[i].message.clear();
     run(map.points[i], map.reference, run_seconds);
-    const std::lock_guard lock(mutex);
-    if (progress && !progress(++done, map.points.size())) stopped = true;
-  });
+  };
+  in_parallel(map.points.size(), jobs, run_point, progress);
   return map;
 }
 
 std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs, const Count& progress) {
   std::vector<MissedPairs> rows;
-  for (const double step : steps_us) rows.push_back({1e-6 * step, n_speeds, 0, 0, 0.0});
-  std::vector<std::vector<MissedPairs>> of_speed(n_speeds, rows);
-  std::atomic<std::size_t> done{0};
-  in_parallel(n_speeds, jobs, [&](std::size_t k) {
+  for (const double step : steps_us) rows.push_back({1e-6 * step, 0, 0, 0, input.end_time});
+  std::vector<std::vector<MissedPairs>> of_speed(n_speeds);
+  const auto run_speed = [&](std::size_t k) {
+    of_speed[k] = rows;
     Case scene = with_method(input, "exponential");
     scene.model.section = SectionKind::elastic;
     scene.scene.striker.velocity *= 0.5 + static_cast<double>(k) / (n_speeds - 1);
-    const Reference reference = compute_reference(scene, reference_error);
+    const Reference reference = compute_reference(scene, reference_error, {}, 1);
     scene.end_time = reference.horizon;
     for (MissedPairs& row : of_speed[k]) {
       scene.solver.step = row.step;
@@ -145,11 +134,12 @@ std::vector<MissedPairs> missed_pairs(const Case& input, Jobs jobs, const Count&
       }
       row.shortest = shortest_of(reference.sub_impacts, reference.horizon);
     }
-    if (progress) progress(++done, n_speeds);
-  });
+  };
+  in_parallel(n_speeds, jobs, run_speed, progress);
+  std::erase_if(of_speed, [](const auto& speed) { return speed.empty(); });  // interrupted
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].shortest = input.end_time;
     for (const std::vector<MissedPairs>& speed : of_speed) {
+      ++rows[i].n_runs;
       rows[i].right_with_search += speed[i].right_with_search;
       rows[i].right_without += speed[i].right_without;
       rows[i].shortest = std::min(rows[i].shortest, speed[i].shortest);
@@ -162,17 +152,19 @@ LayerStudy layers_against_exact(const Case& input, Jobs jobs, const Count& progr
   LayerStudy study;
   Case exact = input;
   exact.model.section = SectionKind::exact;
-  study.exact = compute_reference(exact, reference_error);
-  for (const int layers : layer_counts) study.points.push_back({layers, {}});
-  std::atomic<std::size_t> done{0};
-  in_parallel(study.points.size(), jobs, [&](std::size_t i) {
+  study.exact = compute_reference(exact, reference_error, {}, jobs == 0 ? 2 : jobs);
+  std::vector<std::optional<LayerPoint>> points(std::size(layer_counts));
+  const auto run_layers = [&](std::size_t i) {
     Case trial = with_method(study.exact.input, "nystrom");
     trial.solver.rtol = tolerance_of_layers;
     trial.model.section = SectionKind::layers;
-    trial.model.layers = study.points[i].layers;
-    study.points[i].errors = event_errors(simulate(trial), study.exact);
-    if (progress) progress(++done, study.points.size());
-  });
+    trial.model.layers = layer_counts[i];
+    points[i] = {layer_counts[i], event_errors(simulate(trial), study.exact)};
+  };
+  in_parallel(points.size(), jobs, run_layers, progress);
+  for (std::optional<LayerPoint>& point : points) {
+    if (point) study.points.push_back(std::move(*point));  // not interrupted
+  }
   return study;
 }
 

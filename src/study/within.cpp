@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <iterator>
 #include <utility>
 
 #include "case/meshes.h"
@@ -36,8 +36,6 @@ constexpr double largest_refinement = 4.0;  // while less than half of the sub-i
 constexpr double margin = 1.1;
 // A step that moves every mode in closed form takes as long as these evaluations.
 constexpr double evaluations_per_step_in_modes = 3.0;
-// Work of a run and of those beside it over that of the run.
-constexpr double work_with_others = 2.4;
 
 double default_tolerance(const Refinement& refinement) {
   return default_share_of_contact * refinement.contact_time();

@@ -169,7 +169,9 @@ TEST_F(ARun, OfACaseWithScatterStatesHowFarItCanBePredicted) {
           .output,
       "predictable", "standard deviations by the scatter of the case");
   const auto summary = nlohmann::json::parse(directory.read("r/summary.json"));
-  // 1.654 us by ln v.
+  // The first contact ends 1.654 us later for each unit of ln v.
+  const auto scatter = read_results(directory.path / "r").result.sub_impacts.at(0).end_scatter;
+  EXPECT_NEAR(scatter.value_or(0.0), 0.01 * 1.654e-6, 0.01 * 1e-9);
   EXPECT_NEAR(summary.at("predictability").at("zones").at(0).at("start_scatter_s"), 0.0, 1e-15);
   const std::string events = directory.read("r/events.csv");
   expect_in(events.substr(0, events.find('\n')), ",start_scatter_s,end_scatter_s,");

@@ -242,13 +242,18 @@ TEST(ErrorWords, NameTheErrorOfCertainTimesOrTheFirstDoubt) {
   const std::pair<Result, std::string> all[] = {
       {sample_result_with_errors(3), "all times to 0.3 us up to 8 ms"},
       {touch, "no event time up to 8 ms but the first touch, which is exact"},
-      {sample_result_with_errors(2), "certain ones to 0.3 us; sub-impact 3: they part"},
-      {between, "certain ones to 0.017 us; sub-impact 2: they part"},
+      {sample_result_with_errors(2),
+       "times of the certain ones to 0.3 us; sub-impact 3: they part"},
+      {between, "times of the certain ones to 0.017 us; sub-impact 2: they part"},
       {sample_result_with_an_uncertain_flight(1),
-       "certain ones to 0.3 us; after sub-impact 2: there is another one with the same, coarser"},
-      {sample_result_with_an_uncertain_flight(2), "certain ones to 0.3 us; after the last"},
-      {sample_result(), "errors are not known"}};
-  for (const auto& [result, words] : all) expect_in(error_words(result), words);
+       "times of the certain ones to 0.3 us; after sub-impact 2: there is another one with the same, "
+       "coarser"},
+      {sample_result_with_an_uncertain_flight(2),
+       "times of the certain ones to 0.3 us; after the last sub-impact: there is another one with "
+       "the same, coarser"},
+      {sample_result(),
+       "errors are not known; without --error-bars=off runs on coarser meshes estimate them"}};
+  for (const auto& [result, words] : all) EXPECT_EQ(error_words(result), words);
 }
 
 TEST(RunSummary, CountsTheSubImpactsThatAreCertain) {
@@ -440,20 +445,28 @@ TEST(AFailedCheck, IsPlacedInTimeBySummaryFailureMessageAndTable) {
   EXPECT_TRUE(sub_impact_table(sample_result()).starts_with("  "));
 }
 
-TEST(Wish, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
+TEST(Warnings, AreShownInTheSummary) {
+  Result result = sample_result();
+  result.warnings = {"beam.length is 711.2 m"};
+  EXPECT_EQ(line_of(summary_of(paper_case(), result), "warning"),
+            "  warning             beam.length is 711.2 m");
+}
+
+TEST(ATolerance, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
   const std::pair<ToleranceOutcome, std::string> all[] = {
-      {{1e-7, true, 0.3e-7, 8e-3, "", ""}, "within 0.1 us: met to the end (0.03 us reached)"},
+      {{1e-7, true, 0.3e-7, 8e-3, "", ""}, "event times within 0.1 us: met to the end (0.03 us reached)"},
       {{1e-6, true, 0.3e-6, 840e-6, "its mesh is too coarse", "model.segments"},
-       "met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: its mesh is too coarse; "
-       "free model.segments"},
+       "event times within 1 us: met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: its "
+       "mesh is too coarse; free model.segments"},
       {{1e-6, false, 2.5e-6, 8e-3, "model.segments is fixed", "model.segments"},
-       "not met; 3 us reached to the end; model.segments is fixed; free model.segments"},
+       "event times within 1 us: not met; 3 us reached to the end; model.segments is fixed; free "
+       "model.segments"},
       {{1e-6, false, std::numeric_limits<double>::infinity(), 0.0, "", ""},
-       "within 1 us: not met; the error reached is not known"}};
+       "event times within 1 us: not met; the error reached is not known"}};
   Result result = sample_result();  // ends: 0.33, 0.6 and, still open, 8 ms
   expect_not_in(summary_of(paper_case(), result), "  tolerance ");
   for (const auto& [wish, words] : all) {
-    expect_in(tolerance_words(wish, result), words);
+    EXPECT_EQ(tolerance_words(wish, result), words);
     result.tolerance = wish;
     const std::string summary = summary_of(paper_case(), result);
     expect_in(line_of(summary, "tolerance"), words);

@@ -133,12 +133,12 @@ bool report(const fs::path& scene, const fs::path& results, int repetitions) {
 }
 
 // How far a forecast of times is off, and whether its memory suffices.
-struct Foretold {
+struct Forecast {
   double off = 1.0;
   bool memory_suffices = true;
 };
 
-Foretold report_forecast(const fs::path& scene, const fs::path& place, int repetitions) {
+Forecast report_forecast(const fs::path& scene, const fs::path& place, int repetitions) {
   Cost explained, program;
   double processor = 1e9, wall = 1e9, memory = 1e18;
   std::size_t n_runs = 0;
@@ -153,7 +153,7 @@ Foretold report_forecast(const fs::path& scene, const fs::path& place, int repet
     program.join(cost_of_program("run", scene, "--out", place / "results"));
   }
   const double ratio = processor / program.processor;
-  const Foretold found{std::max(ratio, 1.0 / ratio), memory >= program.memory};
+  const Forecast found{std::max(ratio, 1.0 / ratio), memory >= program.memory};
   fmt::print(
       "| {} | {} | {:.3g} | {:.3g} | {:.2f} | {:.3g} | {:.3g} | {:.2f} | {:.1f} | {:.1f} | "
       "{:.2f} | {:.2g} | {}{} |\n",
@@ -186,13 +186,13 @@ int main(int argc, char** argv) {
   if (mkdtemp(place) == nullptr) throw std::runtime_error("no directory for results");
   if (forecast) {
     fmt::print(
-        "| scene | runs | processor time foretold, s | taken, s | ratio | wall time foretold, s | "
-        "taken, s | ratio | memory foretold, MB | taken, MB | ratio | `explain`, s | |\n"
+        "| scene | runs | processor time forecast, s | taken, s | ratio | wall time forecast, s | "
+        "taken, s | ratio | memory forecast, MB | taken, MB | ratio | `explain`, s | |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     std::size_t n_off = 0;
     bool memory_suffices = true;
     for (const std::string& scene : scenes) {
-      const Foretold found = report_forecast(scene, place, repetitions);
+      const Forecast found = report_forecast(scene, place, repetitions);
       if (found.off > most_off) ++n_off;
       memory_suffices = memory_suffices && found.memory_suffices;
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "subimpact/case/simulate.h"
+#include "subimpact/study/judgement.h"
 #include "subimpact/study/match.h"
 #include "subimpact/study/sweep.h"
 
@@ -37,7 +38,8 @@ void set_horizon(Reference& reference, std::size_t n, const std::string& reason)
 /// event. The horizon lies in the middle of the separation after the last that counts, or at the
 /// case's end if that is separation too. Throws InvalidCase if nothing counts, if either run fails,
 /// or for the case itself.
-Reference compute_reference(const Case& input, double largest_error, const Progress& progress = {});
+Reference compute_reference(const Case& input, double largest_error, const Progress& progress = {},
+                            Jobs jobs = 2);
 
 /// How far a run is from a reference. Times are those of the starts and ends of the leading
 /// sub-impacts that correspond one to one; the first start, which is given, is left out.

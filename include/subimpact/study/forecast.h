@@ -2,7 +2,6 @@
 
 /// What run_as_asked() will do with a case, without doing it.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,7 @@ struct ForecastRun {
   bool is_beside = false;  ///< it judges the run of its level
   std::string mesh;        ///< "257 cells", "rigid, rtol = 1e-07"
   std::string method;      ///< as in case files
+  double work = 0.0;       ///< counted_work()
   double seconds = 0.0;    ///< of a processor
   bool is_made = false;    ///< for the forecast: its time is measured
 };
@@ -37,14 +37,10 @@ struct RunForecast {
   double memory = 0.0;  ///< bytes, that suffice for the process
 };
 
-/// Until when runs that begin in this order take, `jobs` at a time.
-double wall_seconds(const std::vector<double>& runs, Jobs jobs);
-
-/// Makes the cheap levels of the search, with its own rules, and foresees the others: work and time
-/// grow as from mesh to mesh of those that were made, errors fall with the order of the mesh.
+/// Makes the cheap levels of the search, with its own rules, and extrapolates the others: work and
+/// time grow as from mesh to mesh of those that were made, errors fall with the order of the mesh.
 /// Whether a level is made depends on its counted work alone. Of several strikes, the first.
 /// Throws InvalidCase.
-RunForecast forecast(const Case& input, const GivenKeys& given, Jobs jobs,
-                     const std::optional<ErrorBars>& error_bars = {});
+RunForecast forecast(const Case& input, const GivenKeys& given, Jobs jobs);
 
 }  // namespace subimpact

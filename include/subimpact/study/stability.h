@@ -1,7 +1,7 @@
 #pragma once
 
 /// Where and how methods fail, as measured on the beam of a case and as predicted by theory.
-/// Nothing is timed, so `jobs` runs go at a time (0: one for each processor).
+/// Nothing is compared by time, so `jobs` runs go at a time (0: one for each processor).
 
 #include <functional>
 #include <string>
@@ -9,7 +9,6 @@
 
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/event_errors.h"
-#include "subimpact/study/judgement.h"
 
 namespace subimpact {
 
@@ -90,8 +89,9 @@ struct OutcomeMap {
 
 /// Methods against fixed steps, from far below to far beyond the stable ones, and against
 /// tolerances; backward differentiation order by order; implicit methods with steps at which high
-/// modes are damped away. A run that takes more than `run_seconds` is left out. `progress` is
-/// called with the numbers of finished and of all runs.
+/// modes are damped away. A run that takes more than `run_seconds` by the clock is left out.
+/// `progress` is called with the numbers of finished and of all runs; false: no more begin, and the
+/// result holds those that have ended.
 using Count = std::function<bool(std::size_t done, std::size_t all)>;
 OutcomeMap outcome_map(const Case& input, const std::vector<std::string>& methods = {},
                        double run_seconds = 20.0, Jobs jobs = 0, const Count& progress = {});

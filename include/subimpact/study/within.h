@@ -37,7 +37,7 @@ JudgedRunMaker maker_of(const WithinOptions& options);
 double counted_work(const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
-/// (ResolvedSettings::contact_time), and the work is limited to this: about 15 s on one core.
+/// (ResolvedSettings::contact_time), and the work is limited to this: about 5 s on one core.
 constexpr double default_work_limit = 3e9;
 
 /// If a beam bends elastically: elements (Hermite, or spectral with shear) in natural modes, by the
