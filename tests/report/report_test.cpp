@@ -246,7 +246,8 @@ TEST(ErrorWords, NameTheErrorOfCertainTimesOrTheFirstDoubt) {
        "times of the certain ones to 0.3 us; sub-impact 3: they part"},
       {between, "times of the certain ones to 0.017 us; sub-impact 2: they part"},
       {sample_result_with_an_uncertain_flight(1),
-       "times of the certain ones to 0.3 us; after sub-impact 2: there is another one with the same, "
+       "times of the certain ones to 0.3 us; after sub-impact 2: there is another one with the "
+       "same, "
        "coarser"},
       {sample_result_with_an_uncertain_flight(2),
        "times of the certain ones to 0.3 us; after the last sub-impact: there is another one with "
@@ -454,9 +455,11 @@ TEST(Warnings, AreShownInTheSummary) {
 
 TEST(ATolerance, NamesWhatIsReachedUpToWhichHorizonWithReasonAndKey) {
   const std::pair<ToleranceOutcome, std::string> all[] = {
-      {{1e-7, true, 0.3e-7, 8e-3, "", ""}, "event times within 0.1 us: met to the end (0.03 us reached)"},
+      {{1e-7, true, 0.3e-7, 8e-3, "", ""},
+       "event times within 0.1 us: met to the end (0.03 us reached)"},
       {{1e-6, true, 0.3e-6, 840e-6, "its mesh is too coarse", "model.segments"},
-       "event times within 1 us: met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: its "
+       "event times within 1 us: met up to 840 us, 2 of 3 sub-impacts (0.3 us reached); beyond: "
+       "its "
        "mesh is too coarse; free model.segments"},
       {{1e-6, false, 2.5e-6, 8e-3, "model.segments is fixed", "model.segments"},
        "event times within 1 us: not met; 3 us reached to the end; model.segments is fixed; free "
