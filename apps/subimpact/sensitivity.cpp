@@ -15,16 +15,10 @@ struct SensitivityCommand : StudyOptions {
   bool quiet = false;
 };
 
-void check_keys(const std::vector<std::string>& names) {
-  std::vector<std::string> all;
-  for (const CaseKey& key : case_keys()) all.push_back(key.name);
-  for (const std::string& name : names) {
-    if (find_case_key(name) != nullptr) continue;
-    const std::string near = nearest_name(name, all);
-    throw CaseFileError(fmt::format(
-        "--by {}: unknown key \"{}\"; allowed: numbers of the case, such as striker.velocity; {}",
-        name, name, near.empty() ? "see `subimpact keys`" : "did you mean \"" + near + "\"?"));
-  }
+void check_keys(const std::vector<std::string>& names) try {
+  for (const std::string& name : names) known_key(name);
+} catch (const InvalidCase& error) {
+  throw CaseFileError(fmt::format("--by {} {}", error.key, error.what()));
 }
 
 int run_sensitivity(SensitivityCommand& command) {

@@ -234,7 +234,7 @@ std::string usual_orders() {
 std::string default_step() {
   std::vector<std::string> fixed;
   for (const MethodDescriptor& method : methods()) {
-    if (method.steps == MethodDescriptor::Steps::fixed) fixed.emplace_back(method.name);
+    if (method.has_fixed_steps()) fixed.emplace_back(method.name);
   }
   return fmt::format("{}: {} of the critical step; others: adaptive", fmt::join(fixed, ", "),
                      default_part_of_critical);

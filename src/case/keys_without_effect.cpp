@@ -19,9 +19,7 @@ bool has_elastic_sections(const Case& c) { return c.model.section == SectionKind
 bool never_yields(const Case& c) { return std::isinf(c.scene.beam.yield_stress); }
 bool does_not_shear(const Case& c) { return !c.scene.beam.shears(); }
 
-bool is_central(const Case& c) {
-  return descriptor_of(c.solver.method).steps == MethodDescriptor::Steps::fixed;
-}
+bool is_central(const Case& c) { return descriptor_of(c.solver.method).has_fixed_steps(); }
 bool is_not_central(const Case& c) { return !is_central(c); }
 bool has_fixed_step(const Case& c) { return c.solver.step.has_value(); }
 bool interpolates_events(const Case& c) { return events_of(c) == EventHandling::interpolated; }

@@ -102,7 +102,7 @@ bool uses_symmetry(const Case& input) {
 }
 
 std::optional<double> step_of(const Case& input) {
-  const bool is_fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+  const bool is_fixed = descriptor_of(input.solver.method).has_fixed_steps();
   return is_fixed ? resolve(input).settings().step : input.solver.step;
 }
 

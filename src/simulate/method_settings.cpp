@@ -255,7 +255,7 @@ std::optional<std::string> table_used(const Options& options) {
 }
 
 std::optional<double> step_used(const Options& options, const ResolvedSettings& used) {
-  if (descriptor_of(options.solver.method).steps != MethodDescriptor::Steps::fixed) {
+  if (!descriptor_of(options.solver.method).has_fixed_steps()) {
     return options.solver.step;
   }
   if (used.natural_step) return used.natural_step;

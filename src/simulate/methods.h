@@ -25,6 +25,7 @@ struct MethodDescriptor {
     adaptive_order,  ///< step and order chosen together: no fixed step
   };
   Steps steps = Steps::adaptive;
+  bool has_fixed_steps() const { return steps == Steps::fixed; }
   bool implicit = false;  ///< solves equations to the tolerance, whatever the step
   bool sundials = false;  ///< by SUNDIALS, with its root-finding and vector operations
 

@@ -39,8 +39,7 @@ OutputOptions output_beside(const Case& input) {
 }
 
 bool has_fixed_step(const Case& input) {
-  return descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed ||
-         input.solver.step;
+  return descriptor_of(input.solver.method).has_fixed_steps() || input.solver.step;
 }
 
 std::optional<CaseBeside> on_mesh_of(double size, const Case& input) {

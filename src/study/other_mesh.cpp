@@ -60,7 +60,7 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   count = nearest(factor * mesh_count(input), any, refinement->odd_in_half);
   if (count < refinement->fewest) return {};
   refined_run.description = fmt::format("{} {}", count, refinement->parts);
-  const bool fixed = descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+  const bool fixed = descriptor_of(input.solver.method).has_fixed_steps();
   if (fixed && input.solver.step) {
     other.solver.step.reset();
     const double largest = default_part_of_critical * resolve(other).settings().critical_step;

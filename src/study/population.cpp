@@ -19,16 +19,6 @@ using Settings = std::vector<std::pair<std::string, KeyValue>>;
 
 constexpr int most_draws = 1000;  // of one number
 
-const CaseKey& known_key(const std::string& name) {
-  if (const CaseKey* key = find_case_key(name)) return *key;
-  std::vector<std::string> names;
-  for (const CaseKey& key : case_keys()) names.push_back(key.name);
-  const std::string near = nearest_name(name, names);
-  throw InvalidCase(
-      name, "is no key of a case; " + (near.empty() ? "`subimpact keys` lists them"
-                                                    : fmt::format("did you mean \"{}\"?", near)));
-}
-
 // Box and Muller's transform.
 double normal(SplitMix64& random) {
   const double r = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));

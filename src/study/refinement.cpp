@@ -27,7 +27,7 @@ Case with_count(const Case& input, double count) {
 }
 
 bool is_fixed_step(const Case& input) {
-  return descriptor_of(input.solver.method).steps == MethodDescriptor::Steps::fixed;
+  return descriptor_of(input.solver.method).has_fixed_steps();
 }
 
 double step_by_default(Case input) {

@@ -59,10 +59,9 @@ CheckRun check_run_of(const Case& base) {
 std::vector<const CaseKey*> keys_of(const Case& input, const std::vector<std::string>& names) {
   std::vector<const CaseKey*> keys;
   for (const std::string& name : names.empty() ? sensitivity_keys(input) : names) {
-    const CaseKey* key = find_case_key(name);
-    if (key == nullptr) throw InvalidCase(name, "is no key of a case; see `subimpact keys`");
-    if (const auto reason = why_not_shifted(input, *key)) throw InvalidCase(name, *reason);
-    keys.push_back(key);
+    const CaseKey& key = known_key(name);
+    if (const auto reason = why_not_shifted(input, key)) throw InvalidCase(name, *reason);
+    keys.push_back(&key);
   }
   return keys;
 }

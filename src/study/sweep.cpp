@@ -49,7 +49,7 @@ Case with_method(const Case& input, const std::string& name) {
              !descriptor_of(chosen.solver.method).sundials) {
     chosen.solver.events.reset();
   }
-  const bool fixed = descriptor_of(chosen.solver.method).steps == MethodDescriptor::Steps::fixed;
+  const bool fixed = descriptor_of(chosen.solver.method).has_fixed_steps();
   if (!fixed && chosen.solver.method != input.solver.method) chosen.solver.step.reset();
   return chosen;
 }
@@ -92,7 +92,7 @@ std::vector<Setting> settings_of(const Case& input, const std::string& method) {
   Case chosen = with_method(input, method);
   chosen.solver.step.reset();
   std::vector<Setting> settings;
-  if (descriptor_of(chosen.solver.method).steps == MethodDescriptor::Steps::fixed) {
+  if (descriptor_of(chosen.solver.method).has_fixed_steps()) {
     const double largest = default_part_of_critical * resolve(chosen).settings().critical_step;
     for (int i = 0; i <= n_halvings; ++i) {
       settings.push_back({method, true, std::ldexp(largest, -i)});
