@@ -36,12 +36,13 @@ Exponential::Exponential(std::unique_ptr<ForcedOscillators> oscillators,
       n_(oscillators_.size()),
       scales_(oscillators_.scales()),
       unit_(scales_.position / scales_.velocity),
-      zeros_(n_, 0.0),
       per_square_(n_, 0.0),
+      response_(n_, 0.0),
       twice_decay_(n_, 0.0) {
   for (std::size_t i = 0; i < n_; ++i) {
     const double w = oscillators_.frequencies()[i];
     if (w > 0.0) per_square_[i] = 1.0 / (w * w);
+    response_[i] = per_square_[i] * oscillators_.loads()[i];
     if (!oscillators_.decay_rates().empty()) twice_decay_[i] = 2.0 * oscillators_.decay_rates()[i];
   }
   if (options_.fixed_step) {
@@ -137,28 +138,41 @@ double Exponential::error_of_cubic(double h) const {
 
 double Exponential::error_of_swings(const OscillatorStep& step) const {
   const double* const omega = oscillators_.frequencies().data();
-  const double* const b = oscillators_.loads().data();
-  const double* const q0 = y0_.data();
-  const double* const v0 = y0_.data() + n_;
-  const bool has_loads = !step_loads_.value.empty();
-  const double* const a0 = has_loads ? step_loads_.value.data() : zeros_.data();
-  const double* const a1 = has_loads ? step_loads_.rate.data() : zeros_.data();
+  const double* const per_square = per_square_.data();  // 1/omega^2
+  const double* const b = response_.data();             // b/omega^2
+  const double* const d = twice_decay_.data();
+  const double* const q = y0_.data();
+  const double* const v = y0_.data() + n_;
   const double h = step.length();
   const std::span<const double> force = force_.coefficients();
   const double f0 = force[0], f1 = force[1] / h, f2 = force[2] / (h * h);
   const double f3 = force[3] / (h * h * h);
   // The answer to force and loads is a cubic, with the derivatives p_k at the start; the rest
   // swings.
-  const auto speed_squared = [&](auto at) {
-    const auto w = at(omega), per = at(per_square_.data()), d = at(twice_decay_.data());
-    const auto p3 = per * at(b) * f3;
-    const auto p2 = per * (at(b) * f2 - d * p3);
-    const auto p1 = per * (at(b) * f1 + at(a1) - d * p2 - p3);
-    const auto p0 = per * (at(b) * f0 + at(a0) - d * p1 - p2);
-    const auto swing = w * (at(q0) - p0), speed = at(v0) - p1;
-    return OscillatorStep::is_fast(w, h) ? swing * swing + speed * speed : 0.0 * w;
+  const auto speed_squared = [=](auto at, auto p0, auto p1) {
+    const auto swing = at(omega) * (at(q) - p0), speed = at(v) - p1;
+    const auto sum = swing * swing + speed * speed;
+    return OscillatorStep::is_fast(at(omega), h) ? sum : 0.0 * sum;
   };
-  return step.error_per_swing() * std::sqrt(sum_of(n_, speed_squared));
+  const auto undamped = [=](auto at) {
+    const auto per = at(per_square), share = at(b);
+    return speed_squared(at, share * f0 - per * share * f2, share * f1 - per * share * f3);
+  };
+  const auto damped = [=](auto at, auto a0, auto a1) {
+    const auto per = at(per_square), share = at(b);
+    const auto p3 = share * f3;
+    const auto p2 = share * f2 - per * at(d) * p3;
+    const auto p1 = share * f1 + per * (a1 - at(d) * p2 - p3);
+    return speed_squared(at, share * f0 + per * (a0 - at(d) * p1 - p2), p1);
+  };
+  const double* const a0 = step_loads_.value.data();
+  const double* const a1 = step_loads_.rate.data();
+  const double sum =
+      a0 != nullptr ? sum_of(n_, [=](auto at) { return damped(at, at(a0), at(a1)); })
+      : oscillators_.decay_rates().empty()
+          ? sum_of(n_, undamped)
+          : sum_of(n_, [=](auto at) { return damped(at, 0.0 * at(q), 0.0 * at(q)); });
+  return step.error_per_swing() * std::sqrt(sum);
 }
 
 bool Exponential::resolves_side(const Ends& ends, double h, double uncertainty) const {

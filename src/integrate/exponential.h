@@ -49,8 +49,9 @@ class Exponential final : public Integrator {
   IntegratorOptions options_;
   std::size_t n_;
   SecondOrderOde::Scales scales_;
-  double unit_;                                           // length of level 0, s
-  std::vector<double> zeros_, per_square_, twice_decay_;  // 0; 1/omega^2, 0 of rigid modes; 2 delta
+  double unit_;                                // length of level 0, s
+  std::vector<double> per_square_, response_;  // 1/omega^2 and b/omega^2; of rigid modes 0
+  std::vector<double> twice_decay_;            // 2 delta
   std::map<int, std::unique_ptr<OscillatorStep>> tables_;
   int level_ = 0;  // of the next step; step length unit / 2^level
   int first_level_ = 0;

@@ -97,8 +97,7 @@ class Search {
   // the last.
   Level level_of(const Case& input, bool keeps_rows) {
     if (options_.announce) {
-      options_.announce(resolve(input).settings().mesh + ", " +
-                        descriptor_of(input.solver.method).name);
+      options_.announce(mesh_words(input) + ", " + descriptor_of(input.solver.method).name);
     }
     Level level{input, {}, {}};
     if (!keeps_rows) level.input.output.keep_no_rows();
