@@ -5,6 +5,7 @@
 #include "paper_run.h"
 #include "print.h"
 #include "study/free_vibration.h"
+#include "study/parallel.h"
 
 namespace subimpact {
 namespace {
@@ -189,6 +190,38 @@ TEST(SubImpactsWithinOneStep, AreMissedWithoutTheSearchForPairs) {
   EXPECT_LT(0.25e-6, at(0.25e-6).shortest);
   EXPECT_EQ(at(0.25e-6).right_without, at(0.25e-6).right_with_search);
   EXPECT_LT(at(8e-6).right_without, at(8e-6).right_with_search - 5);
+}
+
+TEST(SubImpactsWithinOneStep, OfAnInterruptedStudyAreThoseOfTheStrikesThatEnded) {
+  std::size_t ended = 0;
+  const std::vector<MissedPairs> rows =
+      missed_pairs(elastic_case(501, 0.25e-3), 1, [&](std::size_t n, std::size_t all) {
+        EXPECT_EQ(n, ++ended);
+        EXPECT_EQ(all, 40u);
+        return n < 3;
+      });
+  EXPECT_EQ(ended, 3u);
+  for (const MissedPairs& row : rows) {
+    EXPECT_EQ(row.n_runs, 3);
+    EXPECT_LE(row.right_with_search, 3);
+  }
+}
+
+TEST(InParallel, EveryTaskRunsOnceAndIsCountedAndNoneBeginsAfterAnEnd) {
+  for (const unsigned jobs : {1u, 4u}) {
+    std::vector<int> runs(100, 0);
+    std::size_t last = 0;
+    const auto task = [&](std::size_t i) { ++runs[i]; };
+    in_parallel(runs.size(), jobs, task, [&](std::size_t n, std::size_t all) {
+      EXPECT_EQ(n, ++last);  // one call at a time
+      return all == 100;
+    });
+    EXPECT_EQ(last, 100u);
+    EXPECT_EQ(std::ranges::count(runs, 1), 100);
+    in_parallel(runs.size(), jobs, task, [](std::size_t n, std::size_t) { return n < 10; });
+    EXPECT_GE(std::ranges::count(runs, 2), 10);
+    EXPECT_LT(std::ranges::count(runs, 2), 10 + static_cast<int>(jobs));
+  }
 }
 
 TEST(Layers, TendToTheExactSectionAsTheSquareOfTheirNumberAndTooFewMiscount) {
