@@ -192,13 +192,17 @@ void Forecaster::begin(Case input, bool is_beside) {
     return run.settings().memory > affordable_memory || run.settings().decomposition > affordable;
   };
   bool is_coarser = false;
-  std::optional<RefinedRun> half = on_other_mesh(input, 0.5);
-  for (; half && is_large(input); half = on_other_mesh(input, 0.5)) {
+  while (is_large(input)) {
+    const std::optional<RefinedRun> half = on_other_mesh(input, 0.5);
+    if (!half) break;
     input = half->input;
     is_coarser = true;
   }
   sample_of(input, is_beside || is_coarser);
-  if (is_coarser && half) sample_of(half->input, true);
+  if (!is_coarser) return;
+  if (const std::optional<RefinedRun> half = on_other_mesh(input, 0.5)) {
+    sample_of(half->input, true);
+  }
 }
 
 // Work grows as from a mesh of half the size to the finest that was made, and time with the work.

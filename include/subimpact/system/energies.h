@@ -2,7 +2,7 @@
 
 namespace subimpact {
 
-/// The energies of a run (J): total(), all but `work` less `work`, is the initial energy.
+/// The energies of a run (J). Their total() is the initial energy, but for errors.
 struct Energies {
   double striker = 0.0;          ///< U_m = m v_m^2/2
   double beam_kinetic = 0.0;     ///< U_k = v^T Mass v/2
