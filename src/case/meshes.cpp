@@ -201,7 +201,15 @@ Mesh make_cell_mesh(const Case& input) {
 }
 
 Mesh make_mixed_mesh(const Case& input) {
-  return make_mesh<MixedMesh>(input, input.model.segments, extent_of<MixedMesh>(input));
+  const int cells = input.model.segments;
+  const bool in_differences = input.solver.method == Method::central_difference;
+  double ratio = in_differences ? 1.0 : 0.0;
+  if (in_differences && input.solver.step) {
+    const double natural = MixedMesh::natural_step_of(
+        input.scene.beam, input.scene.striker.position, static_cast<std::size_t>(cells));
+    ratio = std::min(*input.solver.step / natural, 1.0);  // longer ones are refused (simulate)
+  }
+  return make_mesh<MixedMesh>(input, cells, extent_of<MixedMesh>(input), ratio);
 }
 
 Mesh make_hermite_mesh(const Case& input) {
@@ -255,7 +263,7 @@ constexpr MeshDescriptor rows[] = {
                      }}}},
     {.kind = MeshKind::mixed,
      .name = "mixed",
-     .note = "cells with moments linear between nodes, fourth order while nothing flows, for "
+     .note = "cells with moments linear between nodes, fourth order while nothing flows, best by "
              "central differences at a step of their own: Rayleigh's theory, exact or elastic "
              "sections",
      .keys = keys_of_mixed,
@@ -342,6 +350,11 @@ void check_mesh(const Case& input) {
 MeshKind default_mesh(const Case& input) {
   if (!strikes_end(input) || input.model.spacing == CellSpacing::points) return MeshKind::cells;
   return input.scene.beam.shears() ? MeshKind::spectral : MeshKind::hermite;
+}
+
+bool step_follows_mesh(const Case& input) {
+  const bool chosen = !input.solver.step && input.solver.method == Method::central_difference;
+  return chosen && mesh_has_own_step(input);
 }
 
 bool mesh_has_own_step(const Case& input) {

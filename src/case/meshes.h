@@ -17,7 +17,8 @@ struct MeshDescriptor {
 
   std::span<const char* const> keys;  ///< that have an effect with this mesh and not with all
   bool bends = true;                  ///< whether sections may yield
-  /// Whether the mesh is for central differences at a step that belongs to it.
+  /// Whether the masses of the mesh depend on the step, and a step of central differences belongs
+  /// to it.
   bool has_own_step = false;
   /// Whether the mesh models beams of that theory.
   bool (*suits)(const Beam& beam) = [](const Beam&) { return true; };
@@ -53,8 +54,11 @@ void check_mesh(const Case& input);
 /// Cells, but for a strike at an end: a mesh with a node there.
 MeshKind default_mesh(const Case& input);
 
-/// Whether the step belongs to the mesh, so that neither can be changed without the other.
+/// Whether a step of central differences belongs to the mesh.
 bool mesh_has_own_step(const Case& input);
+
+/// Whether the case takes that step, so that another mesh changes it too.
+bool step_follows_mesh(const Case& input);
 
 /// Whether the mesh of a case uses a key of [model] that not all meshes use.
 bool mesh_uses(const Case& input, const char* key);

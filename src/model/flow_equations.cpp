@@ -7,7 +7,7 @@ namespace subimpact {
 namespace {
 
 constexpr auto none = SubCellSections::none;
-constexpr double tolerance = 1e-5;  // of the equations, in M_y
+constexpr double tolerance = 1e-9;  // of the equations, in M_y
 constexpr int most_iterations = 300;
 constexpr int bold_iterations = 10;
 constexpr int most_releases = 4;  // of hinges, in one solution

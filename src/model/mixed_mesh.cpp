@@ -19,7 +19,15 @@ std::size_t MixedMesh::cells_before(double position, std::size_t n_cells) {
   return static_cast<std::size_t>(std::lround(position * static_cast<double>(n_cells)));
 }
 
-MixedMesh::MixedMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent)
+double MixedMesh::natural_step_of(const Beam& beam, double position, std::size_t n_cells) {
+  const std::size_t before = cells_before(position, n_cells);
+  const double shortest = std::min(position / static_cast<double>(before),
+                                   (1.0 - position) / static_cast<double>(n_cells - before));
+  return beam.length * shortest / std::sqrt(beam.youngs_modulus / beam.density);
+}
+
+MixedMesh::MixedMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent,
+                     double step_ratio)
     : BeamMesh((extent == Extent::half ? n_cells / 2 : n_cells) + 1 -
                    (beam.ends[0] != EndSupport::free ? 1 : 0) -
                    (extent == Extent::whole && beam.ends[1] != EndSupport::free ? 1 : 0),
@@ -28,6 +36,8 @@ MixedMesh::MixedMesh(const Beam& beam, double position, std::size_t n_cells, Ext
       ends_(beam.ends),
       mass_per_length_(beam.mass_per_length()),
       rotary_inertia_(beam.rotary_inertia()),
+      share_of_links_(0.5 * (1.0 - step_ratio * step_ratio)),
+      step_(natural_step_of(beam, position, n_cells)),
       struck_node_(cells_before(position, n_cells)),
       first_unknown_(ends_[0] != EndSupport::free ? 1 : 0),
       first_moment_(ends_[0] != EndSupport::clamped ? 1 : 0) {
@@ -42,8 +52,10 @@ MixedMesh::MixedMesh(const Beam& beam, double position, std::size_t n_cells, Ext
   if (!(rotary_inertia_ > 0.0)) {
     throw std::invalid_argument("mixed mesh: the beam must have rotary inertia");
   }
+  if (!(step_ratio >= 0.0 && step_ratio <= 1.0)) {
+    throw std::invalid_argument("mixed mesh: steps must not be longer than the natural step");
+  }
   place_nodes(beam.length, position);
-  step_ = std::ranges::min(lengths_) / std::sqrt(beam.youngs_modulus / beam.density);
   struck_point_.terms = {{struck_node_ - first_unknown_, 1.0}};
   if (ends_[0] == EndSupport::free) first_end_.terms = {{0, 1.0}};
   if (beam.is_free()) translation_.assign(n_unknowns(), 1.0);
@@ -144,6 +156,7 @@ void MixedMesh::assemble_functionals() {
   if (symmetric()) return;
   std::vector<double> momenta(lengths_.begin(), lengths_.end());  // psi of a slope of 1
   slopes_->solve(momenta);
+  for (double& each : momenta) each = (1.0 - share_of_links_) * each + share_of_links_;
   moment_functional_.resize(n_unknowns());
   for (std::size_t i = 0; i < n_unknowns(); ++i) {
     const std::size_t at = i + first_unknown_;
@@ -196,7 +209,80 @@ class MixedMesh::Solver final : public MassSolver {
   mutable AlignedVector motion_, momenta_;  // work space
 };
 
+// Solves (lumped mass + a J G^T G) w'' + (1 - a) J G^T psi = f, L psi = G w'' for both: the unknowns
+// of nodes and links in turn, with a symmetric matrix of half bandwidth 2. It is not definite, but
+// has positive pivots at the nodes and negative ones at the links in any order, so that L D L^T
+// exists.
+class MixedMesh::SolverOfSharedLinks final : public MassSolver {
+ public:
+  explicit SolverOfSharedLinks(const MixedMesh& mesh)
+      : first_(mesh.first_unknown_), factor_(2 * mesh.n_kept_cells() + 1, 2), both_(factor_.size()) {
+    const double shared = mesh.copies() * mesh.rotary_inertia_ * mesh.share_of_links_;
+    const double rest = mesh.copies() * mesh.rotary_inertia_ - shared;
+    const BandedMatrix links = mesh.link_matrix(0.0);
+    const std::size_t n = mesh.n_kept_cells();
+    for (std::size_t i = 0; i <= n; ++i) factor_.at(2 * i, 2 * i) = mesh.node_masses_[i];
+    for (std::size_t c = 0; c < n; ++c) {
+      const std::size_t at = 2 * c + 1;
+      factor_.at(at, at) = -rest * links.at(c, c);
+      if (c + 1 < n) factor_.at(at + 2, at) = -rest * links.at(c + 1, c);
+      for (const std::size_t node : {at - 1, at + 1}) {
+        factor_.at(node, node) += shared * mesh.inverse_lengths_[c];
+        factor_.at(node, at) = node < at ? -rest : rest;
+      }
+      factor_.at(at + 1, at - 1) = -shared * mesh.inverse_lengths_[c];
+    }
+    for (std::size_t i = 0; i <= n; ++i) {
+      if (mesh.node(i).is_zero()) hold(2 * i);
+    }
+    decompose();
+  }
+
+  void solve(std::span<double> x) const override {
+    std::ranges::fill(both_, 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) both_[2 * (i + first_)] = x[i];
+    const std::size_t n = both_.size();
+    for (std::size_t i = 1; i < n; ++i) {
+      both_[i] -= factor_.at(i, i - 1) * both_[i - 1];
+      if (i > 1) both_[i] -= factor_.at(i, i - 2) * both_[i - 2];
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      both_[i] *= factor_.at(i, i);
+      if (i + 1 < n) both_[i] -= factor_.at(i + 1, i) * both_[i + 1];
+      if (i + 2 < n) both_[i] -= factor_.at(i + 2, i) * both_[i + 2];
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = both_[2 * (i + first_)];
+  }
+
+ private:
+  void hold(std::size_t i) {
+    for (std::size_t k = i < 2 ? 0 : i - 2; k < std::min(i + 3, factor_.size()); ++k) {
+      factor_.at(i, k) = k == i ? 1.0 : 0.0;
+    }
+  }
+
+  // Multipliers below the diagonal, and on it the inverse pivots.
+  void decompose() {
+    const std::size_t n = factor_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const double pivot = factor_.at(k, k);
+      for (std::size_t i = k + 1; i < std::min(k + 3, n); ++i) {
+        for (std::size_t j = k + 1; j <= i; ++j) {
+          factor_.at(i, j) -= factor_.at(i, k) * factor_.at(j, k) / pivot;
+        }
+      }
+      for (std::size_t i = k + 1; i < std::min(k + 3, n); ++i) factor_.at(i, k) /= pivot;
+      factor_.at(k, k) = 1.0 / pivot;
+    }
+  }
+
+  std::size_t first_;
+  BandedMatrix factor_;
+  mutable std::vector<double> both_;  // work space
+};
+
 std::unique_ptr<MassSolver> MixedMesh::make_mass_solver() const {
+  if (share_of_links_ > 0.0) return std::make_unique<SolverOfSharedLinks>(*this);
   return std::make_unique<Solver>(*this);
 }
 
@@ -218,7 +304,9 @@ double MixedMesh::kinetic_energy(std::span<const double> velocities,
   slopes_->solve(scratch);
   double rotary = 0.0;
   for (std::size_t c = 0; c < n_kept_cells(); ++c) {
-    rotary += scratch[c] * (displacement(v, c + 1) - displacement(v, c));
+    const double turn = displacement(v, c + 1) - displacement(v, c);
+    const double of_link = turn * inverse_lengths_[c];
+    rotary += ((1.0 - share_of_links_) * scratch[c] + share_of_links_ * of_link) * turn;
   }
   return 0.5 * (twice + copies() * rotary_inertia_ * rotary);
 }
@@ -343,9 +431,10 @@ std::optional<SparseFunctional> MixedMesh::rotation_at(double x) const {
 
 // Frequency of (-1, 1, -1, ..) on the infinite grid, where T is h/3 and the slopes' L is 1/3.
 double MixedMesh::highest_frequency(double bending_stiffness) const {
-  const double inverse = 12.0 / std::pow(std::ranges::min(lengths_), 2);
-  return std::sqrt(bending_stiffness * inverse * inverse / 3.0 /
-                   (mass_per_length_ + rotary_inertia_ * inverse));
+  const double square = 4.0 / std::pow(std::ranges::min(lengths_), 2);
+  const double rotary = rotary_inertia_ * (3.0 - 2.0 * share_of_links_);
+  return std::sqrt(3.0 * bending_stiffness * square * square /
+                   (mass_per_length_ + rotary * square));
 }
 
 NaturalModes MixedMesh::natural_modes(double bending_stiffness) const {

@@ -21,12 +21,13 @@ namespace subimpact {
 /// integral p of the plastic curvature weighted by them,
 ///
 ///     T M = E I (K w - p),   T_ij = integral N_i N_j dx,
-///     Mass w'' = -K^T M + S F,   Mass = diag(rho A g) + J G^T L^-1 G,
+///     Mass w'' = -K^T M + S F,   Mass = diag(rho A g) + J G^T ((1 - a) L^-1 + a) G,
 ///
 /// with the weights g (m) of a quadrature of fourth order between nodes, the slopes G w of the
-/// links and L = (1, 4, 1)/6 between links. The errors that rotary inertia leaves in space and
-/// central differences leave in time cancel at the step h/c, c^2 = E/rho, which is
-/// stable; other steps are not for this mesh.
+/// links and L = (1, 4, 1)/6 between links. Here a = (1 - s^2)/2, where s is the step of central
+/// differences over the natural step h/c, c^2 = E/rho: the errors that rotary inertia leaves in
+/// space and the step leaves in time then cancel. Methods that leave no such error take s = 0.
+/// Steps above h/c, which is stable, are not for this mesh.
 ///
 /// As a BeamMesh its sections are the nodes with a moment and its curvatures T^-1 K w, those of
 /// M/(E I) while nothing has flowed. Its weights W are the widths of the hats: moments by them are
@@ -37,15 +38,17 @@ class MixedMesh final : public BeamMesh {
   /// Cells between a strike and an end, at least.
   static constexpr std::size_t fewest_beside = 8;
 
-  /// `position` is the struck point as a fraction of the length. Throws std::invalid_argument for
-  /// too few cells, for a half model of an odd number of cells, of unlike ends or struck off
-  /// mid-span, for a beam without rotary inertia.
-  MixedMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent);
+  /// `position` is the struck point as a fraction of the length, `step_ratio` s. Throws
+  /// std::invalid_argument for too few cells, for a half model of an odd number of cells, of unlike
+  /// ends or struck off mid-span, for a beam without rotary inertia, for s not from 0 to 1.
+  MixedMesh(const Beam& beam, double position, std::size_t n_cells, Extent extent,
+            double step_ratio = 1.0);
 
   /// Cells before the strike, of `n_cells`.
   static std::size_t cells_before(double position, std::size_t n_cells);
+  /// h/c of the shorter cells, s.
+  static double natural_step_of(const Beam& beam, double position, std::size_t n_cells);
 
-  /// h/c of the shorter cells.
   std::optional<double> natural_step() const override { return step_; }
   void curvatures(std::span<const double> unknowns, std::span<double> kappa) const override;
   void bending_forces(std::span<const double> moments, std::span<double> forces) const override;
@@ -76,6 +79,7 @@ class MixedMesh final : public BeamMesh {
   double cell_length(std::size_t cell) const { return lengths_[cell]; }
   double rotary_inertia() const { return rotary_inertia_; }    ///< J, kg m
   double mass_per_length() const { return mass_per_length_; }  ///< kg/m
+  double share_of_links() const { return share_of_links_; }    ///< a
   double copies_of_part() const { return copies(); }
   std::size_t struck_node() const { return struck_node_; }
   bool is_clamped(std::size_t node) const;
@@ -85,6 +89,7 @@ class MixedMesh final : public BeamMesh {
 
  private:
   class Solver;
+  class SolverOfSharedLinks;
   void place_nodes(double length, double position);
   void weigh_nodes();
   void assemble_hats();
@@ -97,7 +102,7 @@ class MixedMesh final : public BeamMesh {
 
   std::size_t n_cells_;
   std::array<EndSupport, 2> ends_;  // the second: of the whole beam
-  double mass_per_length_, rotary_inertia_;
+  double mass_per_length_, rotary_inertia_, share_of_links_;
   double step_;
   std::size_t struck_node_;
   std::size_t first_unknown_, first_moment_;

@@ -34,6 +34,8 @@ class MixedSections {
   /// Takes unknowns that have moved without flow since the last commit to where flow takes them,
   /// w += s - s at the last commit. False if the law was not solved.
   bool settle(std::span<double> unknowns) { return solve(unknowns.data(), unknowns.data()); }
+  /// Whether anything flows on the way to the state last settled or evaluated.
+  bool flows() const { return flowed_; }
   /// Evaluates unknowns that have been settled, and does not change them.
   bool evaluate(std::span<const double> unknowns) { return solve(unknowns.data(), nullptr); }
   /// Makes the evaluated state the history; `contact_force` (N) acts on it. Returns whether

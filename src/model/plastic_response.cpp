@@ -63,7 +63,8 @@ PlasticResponse::Column PlasticResponse::make(std::size_t section) {
 }
 
 PlasticResponse::Column PlasticResponse::computed(std::size_t section) const {
-  const Response of_p = respond(section, 1.0 / 6.0, 1.0 / 12.0, 1.0);
+  const double of_links = (1.0 - mesh_.share_of_links()) / 6.0;
+  const Response of_p = respond(section, of_links, 1.0 / 12.0, 1.0);
   const Response of_b = respond(section, -1.0, -1.0, 0.0);
   const Response at_rest = respond(section, 0.0, 0.0, 1.0);
   const std::size_t n = mesh_.n_sections();

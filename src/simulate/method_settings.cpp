@@ -45,6 +45,7 @@ std::string methods_that(bool (*holds)(const MethodDescriptor&)) {
 }
 
 bool is_of_sundials(const MethodDescriptor& method) { return method.sundials; }
+bool settles(const MethodDescriptor& method) { return method.settles; }
 bool takes_any_damping(const MethodDescriptor& method) {
   return method.damping == MethodDescriptor::Damping::any;
 }
@@ -161,11 +162,13 @@ void check_beam_damping(const BeamDamping& damping, const Options& options, bool
 
 ReversalHandling reversals_used(const Problem& problem, const Options& options, bool can_yield) {
   const bool damped = problem.contact_damping > 0.0 || !problem.beam.damping.is_none();
-  if (!damped || !can_yield) return reversals_of(options);
+  const bool mixed = problem.mesh->natural_step().has_value();
+  if (!(damped || mixed) || !can_yield) return reversals_of(options);
   if (options.solver.reversals == ReversalHandling::located) {
     refuse("solver.reversals",
-           "is \"located\", but section events of a damped strike are not located; allowed: "
-           "\"step-end\"; leave it out");
+           "is \"located\", but section events {} are not located; allowed: \"step-end\"; leave it "
+           "out",
+           mixed ? "on mixed cells" : "of a damped strike");
   }
   return ReversalHandling::step_end;
 }
@@ -208,33 +211,33 @@ void check_method(const Options& options, const ResolvedSettings& used, bool can
 void check_natural_step(const Options& options, const ResolvedSettings& used) {
   const double natural = *used.natural_step;
   const auto refuse_choice = [](const char* key, const char* what, const char* allowed) {
-    refuse(
-        key,
-        "is \"{}\"; allowed with model.mesh = \"mixed\", whose step belongs to the mesh: \"{}\"; "
-        "set it, or use another mesh",
-        what, allowed);
+    refuse(key, "is \"{}\"; allowed with model.mesh = \"mixed\": {}; set it, or use another mesh",
+           what, allowed);
   };
   const MethodDescriptor& method = descriptor_of(options.solver.method);
-  if (options.solver.method != Method::central_difference) {
-    refuse_choice("solver.method", method.name, "central-difference");
+  if (!method.settles) {
+    refuse_choice("solver.method", method.name, methods_that(settles).c_str());
   }
-  if (used.events != EventHandling::interpolated) {
-    refuse_choice("solver.events", "located", "interpolated");
+  if (used.events == EventHandling::library) {
+    refuse_choice("solver.events", "library", "\"located\", \"interpolated\"");
   }
   if (options.stop == StopRule::no_more_contact) {
-    refuse_choice("time.stop", "no-more-contact", "end");
+    refuse_choice("time.stop", "no-more-contact", "\"end\"");
   }
-  if (options.solver.step) {
+  if (!method.has_fixed_steps()) return;
+  const std::optional<double>& step = options.solver.step;
+  if (step && *step > natural) {
     refuse("solver.step",
-           "is {:.6g} us, but the only step allowed is that of {:.6g} us which belongs to {}; "
-           "leave it out, or change model.segments",
-           us * *options.solver.step, us * natural, used.mesh);
+           "is {:.6g} us, longer than the step of {:.6g} us which belongs to {}; leave it out for "
+           "that one, or change model.segments",
+           us * *step, us * natural, used.mesh);
   }
-  if (natural < used.critical_step) return;
+  if (step || natural < used.critical_step) return;
   refuse(
       "model.segments",
       "gives the step of {:.6g} us that belongs to {}, above the stability limit with the contact "
-      "at its stiffest, {:.6g} us; use {:.2g} times as many segments or more, or another mesh",
+      "at its stiffest, {:.6g} us; use {:.2g} times as many segments or more, a solver.step below "
+      "that limit, or another mesh",
       us * natural, used.mesh, us * used.critical_step, 1.1 * natural / used.critical_step);
 }
 
@@ -258,8 +261,8 @@ std::optional<double> step_used(const Options& options, const ResolvedSettings& 
   if (!descriptor_of(options.solver.method).has_fixed_steps()) {
     return options.solver.step;
   }
-  if (used.natural_step) return used.natural_step;
-  const double step = options.solver.step.value_or(default_central_step(used));
+  const double step =
+      options.solver.step.value_or(used.natural_step.value_or(default_central_step(used)));
   check_central_step(options, used, step);
   return step;
 }

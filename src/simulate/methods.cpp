@@ -40,6 +40,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .name = "central-difference",
        .note = "explicit, second order, fixed step: the scheme of the published runs",
        .steps = Steps::fixed,
+       .settles = true,
        .modes = Modes::where_cheaper,
        .events = EventHandling::interpolated,
        .audit_interval = 256,
@@ -53,6 +54,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .note = "explicit Runge-Kutta with error control (ARKODE): the default, for accurate event "
                "times",
        .sundials = true,
+       .settles = true,
        .modes = Modes::where_cheaper,
        .damping = Damping::any,
        .tables = explicit_tables,
@@ -61,6 +63,7 @@ std::vector<MethodDescriptor> make_descriptors() {
        .name = "nystrom",
        .note = "explicit Runge-Kutta-Nystroem with error control: erk's accuracy at a fraction of "
                "its cost",
+       .settles = true,
        .modes = Modes::where_cheaper,
        .tables =
            [] {

@@ -108,7 +108,6 @@ void keep_states(const std::vector<CaseBeside>& cases,
 }  // namespace
 
 std::vector<CaseBeside> cases_beside_in_time(const Case& input) {
-  if (mesh_has_own_step(input)) return {};
   CaseBeside beside{input, "time", {}};
   beside.input.output = output_beside(input);
   SolverOptions& solver = beside.input.solver;
@@ -146,7 +145,7 @@ std::vector<CaseBeside> cases_beside(const Case& input) {
 }
 
 std::vector<CaseBeside> cases_beside_on_given_mesh(const Case& input) {
-  if (mesh_has_own_step(input)) return cases_beside(input);
+  if (step_follows_mesh(input)) return cases_beside(input);
   std::vector<CaseBeside> all = cases_beside_in_time(input);
   std::optional<CaseBeside> mesh = on_finer_cells(input);
   if (!mesh) mesh = in_mesh_and_time(sizes[1], input);

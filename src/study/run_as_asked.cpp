@@ -38,12 +38,6 @@ std::vector<CaseBeside> cases_asked_for(const Case& input, const RunRequest& req
   if (!request.error_bars) return cases_beside_on_given_mesh(input);
   if (request.error_bars == ErrorBars::off) return {};
   if (request.error_bars == ErrorBars::all) return cases_beside_by_part(input);
-  if (mesh_has_own_step(input)) {
-    throw InvalidCase("model.mesh",
-                      "is \"mixed\", on which the step belongs to the mesh, so that time has no "
-                      "error of its own; allowed: error bars of mesh and time together, without "
-                      "--error-bars, or by part; leave \"time\" out");
-  }
   return cases_beside_in_time(input);
 }
 

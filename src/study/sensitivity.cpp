@@ -312,12 +312,6 @@ const SensitivityRow* Sensitivity::find(EventQuantity quantity, std::size_t sub_
 std::vector<std::string> sensitivity_keys(const Case& input) { return shifted_keys(input); }
 
 Case sensitivity_case(const Case& input) {
-  if (mesh_has_own_step(input)) {
-    throw InvalidCase("model.mesh",
-                      "is \"mixed\", on which events are interpolated within steps; allowed for "
-                      "derivatives: a mesh on which they are located, \"cells\", \"hermite\" or "
-                      "\"spectral\"");
-  }
   Case base = input;
   if (events_of(input) == EventHandling::interpolated) {
     base.solver = {};

@@ -59,11 +59,12 @@ std::size_t StruckBeam::n_yielded_sections() const {
   return mixed_ ? mixed_->n_yielded() : sections_.n_yielded();
 }
 
-void StruckBeam::settle(std::span<double> positions) {
-  if (!mixed_) return;
+bool StruckBeam::settle(std::span<double> positions) {
+  if (!mixed_) return false;
   const auto unknowns = positions.first(n_);
   if (!mixed_->settle(unknowns)) fail_to_flow();
   std::ranges::copy(unknowns, mixed_is_at_.begin());
+  return mixed_->flows();
 }
 
 MixedSections& StruckBeam::bring_mixed_to(std::span<const double> unknowns) const {

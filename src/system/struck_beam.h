@@ -109,7 +109,8 @@ class StruckBeam final : public MechanicalSystem {
 
   std::size_t n_positions() const override { return n_ + 1; }
   /// On mixed cells only: adds the displacement due to flow. Throws IntegrationFailure.
-  void settle(std::span<double> positions) override;
+  bool settle(std::span<double> positions) override;
+  bool settles() const override { return mixed_ && sections_.can_yield(); }
   void acceleration(std::span<const double> positions, std::span<double> result) override;
   bool depends_on_velocity() const override { return depends_on_velocity_; }
   void acceleration_at(std::span<const double> y, std::span<double> result) override;

@@ -173,7 +173,8 @@ class BeamMesh {
   virtual void moment_weights(std::span<const double> unknowns, std::span<double> weights) const;
   /// The solver of the mass matrix, if mass() holds only a part of it; otherwise null.
   virtual std::unique_ptr<MassSolver> make_mass_solver() const;
-  /// The step (s) of central differences for which the mesh is made; otherwise none.
+  /// The step (s) of central differences that belongs to the mesh, where its masses depend on the
+  /// step: longer ones are refused. Otherwise none.
   virtual std::optional<double> natural_step() const { return {}; }
 
   /// Whether explicit methods should integrate an elastic beam in its modes, because the modes are

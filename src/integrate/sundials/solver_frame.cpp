@@ -152,9 +152,10 @@ bool SolverFrame::is_at_end(double reached) const {
   return std::abs(time - reached) <= root_tolerance();
 }
 
-void SolverFrame::read(State& y) const {
+void SolverFrame::read(State& y) {
   const auto values = entries(vector());
   y.assign(values.begin(), values.end());
+  if (ode_.settle(std::span(y).first(n_positions_))) reset(time_, y);
 }
 
 void SolverFrame::add_counts(WorkCounts& counts) const {
@@ -170,8 +171,15 @@ void SolverFrame::add_counts(WorkCounts& counts) const {
 }
 
 int SolverFrame::rate(sunrealtype t, N_Vector y, N_Vector rate, void* frame) {
-  return of(frame).write_rate(t, y, rate,
-                              [&](auto in, auto out) { of(frame).ode_.acceleration_at(in, out); });
+  SolverFrame& self = of(frame);
+  return self.write_rate(t, y, rate, [&self](std::span<const double> in, auto out) {
+    if (self.ode_.settles()) {
+      self.settled_.assign(in.begin(), in.end());
+      self.ode_.settle(std::span(self.settled_).first(self.n_positions_));
+      in = self.settled_;
+    }
+    self.ode_.acceleration_at(in, out);
+  });
 }
 
 // Weights 1/(rtol * scale) of positions and velocities, evaluated at every step; lower where

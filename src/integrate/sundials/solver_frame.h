@@ -75,7 +75,8 @@ class SolverFrame {
   void reset(double t, const State& y);
   /// One step, to its end or to the first event in it; returns the time reached.
   double step();
-  void read(State& y) const;
+  /// The state reached, settled; the library goes on from there.
+  void read(State& y);
   const std::optional<Integrator::Root>& root() const { return root_; }
   /// After a step that a root ended: clears the flag that ARKODE keeps of the root, which costs
   /// every later step evaluations for dense output. No step is taken.
@@ -165,6 +166,7 @@ class SolverFrame {
   std::optional<Integrator::Root> root_, root_at_restart_;
   ContextPointer context_;
   VectorPointer y_;
+  State settled_;  // work space
   std::unique_ptr<void, FreeMemory> memory_;
   double position_weight_, velocity_weight_;
   std::exception_ptr thrown_;
