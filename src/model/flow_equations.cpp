@@ -7,7 +7,7 @@ namespace subimpact {
 namespace {
 
 constexpr auto none = SubCellSections::none;
-constexpr double tolerance = 1e-9;  // of the equations, in M_y
+constexpr double tolerance = 1e-6;  // of the equations, in M_y
 constexpr int most_iterations = 300;
 constexpr int bold_iterations = 10;
 constexpr int most_releases = 4;  // of hinges, in one solution
@@ -258,8 +258,12 @@ void FlowEquations::find_step() {
   }
   for (std::size_t k = n; k-- > 0;) {
     const double* column = jacobian_.data() + k * stride_;
-    step_[k] /= column[k];
-    for (std::size_t i = 0; i < k; ++i) step_[i] -= step_[k] * column[i];
+    const double solved = step_[k] /= column[k];
+    const std::size_t whole = k / n_lanes * n_lanes;
+    for (std::size_t i = 0; i < whole; i += n_lanes) {
+      store(lanes_at(step_.data() + i) - solved * lanes_at(column + i), step_.data() + i);
+    }
+    for (std::size_t i = whole; i < k; ++i) step_[i] -= solved * column[i];
   }
 }
 

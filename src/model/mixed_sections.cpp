@@ -7,6 +7,11 @@ namespace {
 
 constexpr int most_rounds = 40;  // in which flow in some cells brings others to flow
 
+void add(const AlignedVector& terms, double* sum) {
+  const double* each = terms.data();
+  assign_by_lines(sum, terms.size(), [=](auto at) { return at(sum) + at(each); });
+}
+
 }  // namespace
 
 MixedSections::MixedSections(const MixedMesh& mesh, double stiffness, std::optional<SectionLaw> law)
@@ -43,7 +48,9 @@ bool MixedSections::solve(const double* unknowns, double* moved) {
     equations.add_to_moments(1.0, elastic_);
     if (!find_active()) {
       equations.read_moments(elastic_);
-      if (moved != nullptr) equations.add_to_unknowns(moved);
+      std::ranges::fill(shift_, 0.0);
+      equations.add_to_unknowns(shift_.data());
+      if (moved != nullptr) add(shift_, moved);
       return true;
     }
     equations.add_to_moments(-1.0, elastic_);  // once more, with the cells that flow too
@@ -85,11 +92,10 @@ SubCellSections::Ends MixedSections::moments_at(std::size_t cell) const {
 
 // By the mean of the forces at both ends of the step.
 void MixedSections::add_work_on_shift(double contact_force) {
-  std::ranges::fill(shift_, 0.0);
-  flow_->equations.add_to_unknowns(shift_.data());
-  for (std::size_t i = 0; i < elastic_.size(); ++i) {
-    earlier_[i] = 0.5 * (before_[i] + elastic_[i]);
-  }
+  const double* now = elastic_.data();
+  const double* before = before_.data();
+  assign_by_lines(earlier_.data(), earlier_.size(),
+                  [=](auto at) { return 0.5 * (at(before) + at(now)); });
   mesh_.forces_of(earlier_.data(), stiffness_, forces_.data());
   forces_[mesh_.struck_node() - mesh_.first_unknown()] += 0.5 * (force_before_ + contact_force);
   work_on_shift_ += dot(forces_.data(), shift_.data(), shift_.size());

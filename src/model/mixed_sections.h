@@ -89,7 +89,8 @@ class MixedSections {
   // At sections: M/(E I) now, at the last commit and the one before; between these nothing flows.
   AlignedVector elastic_, before_, earlier_, low_, high_;
   AlignedVector p_;               // at the last commit, rad
-  AlignedVector shift_, forces_;  // of unknowns, of one step; work space
+  AlignedVector shift_;           // s - s at the last commit, where anything flows
+  AlignedVector forces_;          // of unknowns; work space
   double force_before_ = 0.0;     // N
   double work_on_shift_ = 0.0;    // J
   bool flowed_ = false;
