@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace subimpact {
@@ -309,6 +310,89 @@ double MixedMesh::kinetic_energy(std::span<const double> velocities,
     rotary += ((1.0 - share_of_links_) * scratch[c] + share_of_links_ * of_link) * turn;
   }
   return 0.5 * (twice + copies() * rotary_inertia_ * rotary);
+}
+
+std::vector<MixedMesh::RigidMotion> MixedMesh::rigid_motions() const {
+  std::vector<RigidMotion> motions;
+  const bool turns_about_first = ends_[0] == EndSupport::pinned && ends_[1] == EndSupport::free;
+  const bool turns_about_last = ends_[0] == EndSupport::free && ends_[1] == EndSupport::pinned;
+  const bool is_free = ends_[0] == EndSupport::free && ends_[1] == EndSupport::free;
+  const auto include = [&](double about, double slope) {
+    RigidMotion motion{std::vector<double>(n_unknowns()), std::vector<double>(n_unknowns())};
+    for (std::size_t i = 0; i < n_unknowns(); ++i) {
+      motion.shape[i] = slope * node_positions_[i + first_unknown_] - about;
+      motion.inertia[i] = -about * momentum_functional_[i];
+      if (slope != 0.0) motion.inertia[i] += slope * moment_functional_[i];
+    }
+    const double square = dot(motion.shape.data(), motion.inertia.data(), n_unknowns());
+    for (auto* each : {&motion.shape, &motion.inertia}) {
+      for (double& value : *each) value /= std::sqrt(square);
+    }
+    motions.push_back(std::move(motion));
+  };
+  if (is_free) include(-1.0, 0.0);
+  if (symmetric()) return motions;
+  if (is_free) {
+    // About the middle of the beam's mass, where translation does not turn it.
+    const double moment =
+        std::accumulate(moment_functional_.begin(), moment_functional_.end(), 0.0);
+    include(moment / std::accumulate(momentum_functional_.begin(), momentum_functional_.end(), 0.0),
+            1.0);
+  }
+  if (turns_about_first) include(0.0, 1.0);
+  if (turns_about_last) include(node_positions_.back(), 1.0);
+  return motions;
+}
+
+double MixedMesh::product(std::span<const double> a, std::span<const double> b) const {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < n_kept_cells(); ++c) {
+    sum += lengths_[c] / 6.0 *
+           (a[c] * (2.0 * b[c] + b[c + 1]) + a[c + 1] * (b[c] + 2.0 * b[c + 1]));
+  }
+  return copies() * sum;
+}
+
+double MixedMesh::square_of(std::span<const double> moments) const {
+  std::vector<double> all(node_positions_.size(), 0.0);
+  std::ranges::copy(moments, all.begin() + static_cast<std::ptrdiff_t>(first_moment_));
+  return product(all, all);
+}
+
+// From node to node by equilibrium; the supports then fix what is linear in x, or leave it free.
+std::vector<double> MixedMesh::moments_under(std::span<const double> forces) const {
+  const std::size_t last = n_kept_cells();
+  const double length = node_positions_.back();
+  const EndSupport end = symmetric() ? EndSupport::free : ends_[1];  // as mid-span has no shear
+  const auto force = [&](std::size_t i) {
+    return node(i).is_zero() ? 0.0 : forces[i - first_unknown_] / copies();
+  };
+  std::vector<double> m(last + 1, 0.0), line(last + 1);
+  double shear = 0.0;
+  for (std::size_t c = 0; c < last; ++c) {
+    shear += force(c);
+    m[c + 1] = m[c] + shear * lengths_[c];
+  }
+  shear += force(last);
+  const auto add = [&](double amount, double at_start, double slope) {
+    for (std::size_t i = 0; i <= last; ++i) m[i] += amount * (at_start + slope * node_positions_[i]);
+  };
+  const auto relax = [&](double at_start, double slope) {
+    for (std::size_t i = 0; i <= last; ++i) line[i] = at_start + slope * node_positions_[i];
+    add(-product(m, line) / product(line, line), at_start, slope);
+  };
+  const bool clamped = ends_[0] == EndSupport::clamped;
+  if (ends_[0] != EndSupport::free) {
+    if (end == EndSupport::free) add(-shear, 0.0, 1.0);
+    if (end == EndSupport::pinned) add(-m[last] / length, 0.0, 1.0);
+    if (end == EndSupport::free && clamped && !symmetric()) add(-m[last], 1.0, 0.0);
+    if (end == EndSupport::free && clamped && symmetric()) relax(1.0, 0.0);
+    if (end == EndSupport::pinned && clamped) relax(-length, 1.0);
+    if (end == EndSupport::clamped && clamped) relax(1.0, 0.0);
+    if (end == EndSupport::clamped) relax(clamped ? -0.5 * length : 0.0, 1.0);
+  }
+  const auto first = m.begin() + static_cast<std::ptrdiff_t>(first_moment_);
+  return {first, first + static_cast<std::ptrdiff_t>(n_sections())};
 }
 
 void MixedMesh::jumps(const double* unknowns, const double* p, double* result) const {

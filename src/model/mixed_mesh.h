@@ -62,6 +62,17 @@ class MixedMesh final : public BeamMesh {
   NaturalModes natural_modes(double bending_stiffness) const override;
   std::string description() const override;
 
+  /// Rigid motions of the beam with its supports, and Mass times each; phi^T Mass phi = 1.
+  struct RigidMotion {
+    std::vector<double> shape, inertia;
+  };
+  std::vector<RigidMotion> rigid_motions() const;
+  /// Moments M (N m) with K^T M = `forces` (N), forces on the unknowns that do no work in rigid
+  /// motions; where supports leave a choice, those of the least M^T T M.
+  std::vector<double> moments_under(std::span<const double> forces) const;
+  /// sum M^T T M of moments at the nodes with a moment, of the whole beam.
+  double square_of(std::span<const double> moments) const;
+
   /// Kinetic energy, J; `scratch` of n_kept_cells() entries.
   double kinetic_energy(std::span<const double> velocities, std::span<double> scratch) const;
   /// jumps = K w - p at the nodes with a moment, rad.
@@ -90,6 +101,8 @@ class MixedMesh final : public BeamMesh {
  private:
   class Solver;
   class SolverOfSharedLinks;
+  // Of values at all nodes, linear between them: the integral of the product.
+  double product(std::span<const double> a, std::span<const double> b) const;
   void place_nodes(double length, double position);
   void weigh_nodes();
   void assemble_hats();

@@ -221,9 +221,6 @@ void check_natural_step(const Options& options, const ResolvedSettings& used) {
   if (used.events == EventHandling::library) {
     refuse_choice("solver.events", "library", "\"located\", \"interpolated\"");
   }
-  if (options.stop == StopRule::no_more_contact) {
-    refuse_choice("time.stop", "no-more-contact", "\"end\"");
-  }
   if (!method.has_fixed_steps()) return;
   const std::optional<double>& step = options.solver.step;
   if (step && *step > natural) {

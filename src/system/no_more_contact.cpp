@@ -17,6 +17,8 @@ constexpr std::size_t n_followed = 12;
 constexpr std::size_t most_rigid = 2;
 // Relative margin of the bounds for rounding.
 constexpr double rounding = 1e-5;
+// Part of the energy beyond rigid motion that mixed cells, which keep it to the order a^2, may gain.
+constexpr double of_mixed_cells = 0.01;
 
 }  // namespace
 
@@ -25,11 +27,14 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
       is_damped_(beam.depends_on_velocity()),
       rigid_motion_decays_(beam.damping().mass > 0.0),
       accounts_(beam),
-      curvatures_(beam.mesh().n_sections()),
-      moments_(beam.mesh().n_sections()) {
+      curvatures_(beam.mesh().n_sections()) {
   const BeamMesh& mesh = beam.mesh();
   const SectionField& sections = beam.sections();
-  if (mesh.natural_step()) return;  // its mass matrix is not mass()
+  if (const auto* mixed = dynamic_cast<const MixedMesh*>(&mesh)) {
+    follow_mixed(*mixed, sections.stiffness());
+    take_plastic_compliance(mesh, sections, material);
+    return;
+  }
   const auto motion = slow_motion(mesh, sections.stiffness(), first_period,
                                   sections.can_yield() ? most_rigid : n_followed);
   can_prove_ = motion.has_value();
@@ -52,6 +57,29 @@ NoMoreContact::NoMoreContact(const StruckBeam& beam, const Beam& material, doubl
     return;
   }
   mesh.curvatures(motion->response, curvatures_);
+  take_plastic_compliance(mesh, sections, material);
+}
+
+// The rigid motions, and in place of kbar M/(E I) of any moments that balance the force: what u^T K
+// w needs is equilibrium.
+void NoMoreContact::follow_mixed(const MixedMesh& mesh, double stiffness) {
+  can_prove_ = true;
+  margin_of_energy_ = of_mixed_cells;
+  std::vector<double> load(n_, 0.0);
+  mesh.struck_point().add_to(load, 1.0);
+  for (MixedMesh::RigidMotion& motion : mesh.rigid_motions()) {
+    const double share = mesh.struck_point()(motion.shape);
+    for (std::size_t i = 0; i < n_; ++i) load[i] -= share * motion.inertia[i];
+    modes_.push_back({0.0, share, std::move(motion.shape), std::move(motion.inertia)});
+  }
+  curvatures_ = mesh.moments_under(load);
+  for (double& curvature : curvatures_) curvature /= stiffness;
+  compliance_ = stiffness * mesh.square_of(curvatures_);
+}
+
+void NoMoreContact::take_plastic_compliance(const BeamMesh& mesh, const SectionField& sections,
+                                            const Beam& material) {
+  if (!sections.can_yield()) return;
   double largest = 0.0;
   for (std::size_t i = 0; i < curvatures_.size(); ++i) {
     largest = std::max(largest, std::abs(curvatures_[i]));
@@ -120,15 +148,13 @@ bool NoMoreContact::is_proven(const StruckBeam& beam, const State& y) {
   }
   if (!(rates[0] <= 0.0)) return false;
   if (rigid_motion_decays_ && y.back() > 0.0) return false;
-  energy = std::max(energy, 0.0);
+  energy = std::max(energy, 0.0) * (1.0 + margin_of_energy_);
 
   double plastic = 0.0;
   if (!bar_.empty()) {
-    const SectionField& sections = beam.sections();
-    beam.mesh().curvatures(w, curvatures_);
-    sections.moments(curvatures_, moments_);
+    const auto [curvatures, moments] = accounts_.bending(y);
     for (std::size_t i = 0; i < bar_.size(); ++i) {
-      plastic += bar_[i] * (sections.stiffness() * curvatures_[i] - moments_[i]);
+      plastic += bar_[i] * (beam.sections().stiffness() * curvatures[i] - moments[i]);
     }
   }
   const double a = plastic_compliance_;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "model/mixed_mesh.h"
 #include "numerics/event_free_horizon.h"
 #include "system/accounts.h"
 
@@ -37,7 +38,8 @@ namespace subimpact {
 /// bracket is below the residual indentation, they never meet. Rigorous for the discrete beam,
 /// whatever its section law and ends. Damping of the beam takes energy, as plastic work does, and
 /// leaves the rigid motion alone, but for damping by mass: R' then falls to zero, and v_m <= 0 is
-/// needed too.
+/// needed too. Mixed cells have kbar = M/(E I) of moments that balance the force, and E with a
+/// margin for the order to which they keep energy.
 ///
 /// Under loads that stay as they are, bodies that these press together meet again, and nothing is
 /// proven. Gravity on a beam that nothing holds moves both bodies alike and leaves all of the above
@@ -63,6 +65,11 @@ class NoMoreContact {
     std::vector<double> shape;    // phi
     std::vector<double> inertia;  // Mass phi
   };
+  // The rigid motions of mixed cells, kbar (curvatures_) and its compliance.
+  void follow_mixed(const MixedMesh& mesh, double stiffness);
+  // From kbar in curvatures_, of sections that can yield.
+  void take_plastic_compliance(const BeamMesh& mesh, const SectionField& sections,
+                               const Beam& material);
   // Whether loads leave room for a proof; about_ is then the state of rest.
   bool allow_loads(const StruckBeam& beam);
   // Whether z0 + rate0 t - sum share z_k(t) stays below a limit (m) for all t.
@@ -82,7 +89,8 @@ class NoMoreContact {
   double plastic_compliance_ = 0.0;          // a, m/J
   std::optional<EventFreeHorizon> horizon_;  // of elastic beams
   Accounts accounts_;
-  std::vector<double> curvatures_, moments_;
+  double margin_of_energy_ = 0.0;
+  std::vector<double> curvatures_;  // kbar
 };
 
 }  // namespace subimpact
