@@ -210,14 +210,16 @@ class MixedMesh::Solver final : public MassSolver {
   mutable AlignedVector motion_, momenta_;  // work space
 };
 
-// Solves (lumped mass + a J G^T G) w'' + (1 - a) J G^T psi = f, L psi = G w'' for both: the unknowns
-// of nodes and links in turn, with a symmetric matrix of half bandwidth 2. It is not definite, but
-// has positive pivots at the nodes and negative ones at the links in any order, so that L D L^T
-// exists.
+// Solves (lumped mass + a J G^T G) w'' + (1 - a) J G^T psi = f, L psi = G w'' for both: the
+// unknowns of nodes and links in turn, with a symmetric matrix of half bandwidth 2. It is not
+// definite, but has positive pivots at the nodes and negative ones at the links in any order, so
+// that L D L^T exists.
 class MixedMesh::SolverOfSharedLinks final : public MassSolver {
  public:
   explicit SolverOfSharedLinks(const MixedMesh& mesh)
-      : first_(mesh.first_unknown_), factor_(2 * mesh.n_kept_cells() + 1, 2), both_(factor_.size()) {
+      : first_(mesh.first_unknown_),
+        factor_(2 * mesh.n_kept_cells() + 1, 2),
+        both_(factor_.size()) {
     const double shared = mesh.copies() * mesh.rotary_inertia_ * mesh.share_of_links_;
     const double rest = mesh.copies() * mesh.rotary_inertia_ - shared;
     const BandedMatrix links = mesh.link_matrix(0.0);
@@ -347,8 +349,8 @@ std::vector<MixedMesh::RigidMotion> MixedMesh::rigid_motions() const {
 double MixedMesh::product(std::span<const double> a, std::span<const double> b) const {
   double sum = 0.0;
   for (std::size_t c = 0; c < n_kept_cells(); ++c) {
-    sum += lengths_[c] / 6.0 *
-           (a[c] * (2.0 * b[c] + b[c + 1]) + a[c + 1] * (b[c] + 2.0 * b[c + 1]));
+    sum +=
+        lengths_[c] / 6.0 * (a[c] * (2.0 * b[c] + b[c + 1]) + a[c + 1] * (b[c] + 2.0 * b[c + 1]));
   }
   return copies() * sum;
 }
@@ -375,7 +377,8 @@ std::vector<double> MixedMesh::moments_under(std::span<const double> forces) con
   }
   shear += force(last);
   const auto add = [&](double amount, double at_start, double slope) {
-    for (std::size_t i = 0; i <= last; ++i) m[i] += amount * (at_start + slope * node_positions_[i]);
+    for (std::size_t i = 0; i <= last; ++i)
+      m[i] += amount * (at_start + slope * node_positions_[i]);
   };
   const auto relax = [&](double at_start, double slope) {
     for (std::size_t i = 0; i <= last; ++i) line[i] = at_start + slope * node_positions_[i];

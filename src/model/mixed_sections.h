@@ -88,11 +88,11 @@ class MixedSections {
   std::unique_ptr<Flow> flow_;
   // At sections: M/(E I) now, at the last commit and the one before; between these nothing flows.
   AlignedVector elastic_, before_, earlier_, low_, high_;
-  AlignedVector p_;               // at the last commit, rad
-  AlignedVector shift_;           // s - s at the last commit, where anything flows
-  AlignedVector forces_;          // of unknowns; work space
-  double force_before_ = 0.0;     // N
-  double work_on_shift_ = 0.0;    // J
+  AlignedVector p_;             // at the last commit, rad
+  AlignedVector shift_;         // s - s at the last commit, where anything flows
+  AlignedVector forces_;        // of unknowns; work space
+  double force_before_ = 0.0;   // N
+  double work_on_shift_ = 0.0;  // J
   bool flowed_ = false;
   std::vector<std::size_t> active_, flowing_;  // cells: in the equations; those of the last commit
   mutable std::vector<double> scratch_;

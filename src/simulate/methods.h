@@ -29,7 +29,7 @@ struct MethodDescriptor {
   bool implicit = false;  ///< solves equations to the tolerance, whatever the step
   bool sundials = false;  ///< by SUNDIALS, with its root-finding and vector operations
 
-  bool settles = false;   ///< calls SecondOrderOde::settle(), which mixed cells need
+  bool settles = false;  ///< calls SecondOrderOde::settle(), which mixed cells need
 
   /// Whether an elastic beam is integrated in its natural modes.
   enum class Modes {

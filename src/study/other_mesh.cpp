@@ -63,8 +63,10 @@ std::optional<RefinedRun> on_other_mesh(const Case& input, double factor) {
   const bool fixed = descriptor_of(input.solver.method).has_fixed_steps();
   if (fixed && input.solver.step) {
     other.solver.step.reset();
-    const double largest = default_part_of_critical * resolve(other).settings().critical_step;
-    other.solver.step = std::min(*input.solver.step, largest);
+    const ResolvedSettings used = resolve(other).settings();
+    const double largest = default_part_of_critical * used.critical_step;
+    other.solver.step =
+        std::min({*input.solver.step, largest, used.natural_step.value_or(largest)});
     if (*other.solver.step < *input.solver.step) {
       refined_run.description += fmt::format(" and a step of {:.6g} us", 1e6 * *other.solver.step);
     }

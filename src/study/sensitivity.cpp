@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "case/meshes.h"
+#include "case/problem.h"
 #include "case/shifted_case.h"
 #include "numerics/median.h"
 #include "simulate/methods.h"
@@ -312,6 +313,12 @@ const SensitivityRow* Sensitivity::find(EventQuantity quantity, std::size_t sub_
 std::vector<std::string> sensitivity_keys(const Case& input) { return shifted_keys(input); }
 
 Case sensitivity_case(const Case& input) {
+  if (mesh_has_own_step(input) && may_yield(input)) {
+    throw InvalidCase("model.mesh",
+                      "is \"mixed\", on which section events are not located, so that times "
+                      "scatter with the steps; allowed for derivatives where the beam may yield: a "
+                      "mesh on which they are, \"cells\" or \"hermite\"");
+  }
   Case base = input;
   if (events_of(input) == EventHandling::interpolated) {
     base.solver = {};

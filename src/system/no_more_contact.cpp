@@ -17,7 +17,8 @@ constexpr std::size_t n_followed = 12;
 constexpr std::size_t most_rigid = 2;
 // Relative margin of the bounds for rounding.
 constexpr double rounding = 1e-5;
-// Part of the energy beyond rigid motion that mixed cells, which keep it to the order a^2, may gain.
+// Part of the energy beyond rigid motion that mixed cells, which keep it to the order a^2, may
+// gain.
 constexpr double of_mixed_cells = 0.01;
 
 }  // namespace

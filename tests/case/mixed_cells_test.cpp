@@ -48,6 +48,50 @@ TEST(MixedCells, FindElasticTimesAtAnOrderNearThree) {
   EXPECT_LT(order, 4.5);
 }
 
+// Without an error of the step, the order of the mesh is what is left.
+TEST(MixedCells, FindElasticTimesAtAnOrderAboveThreeByNystrom) {
+  const std::vector<ReferenceEvent> reference = reference_table("mesh_limit_elastic");
+  const auto error = [&](int cells) {
+    Case input = mixed_case(SectionKind::elastic, cells);
+    input.solver.method = Method::nystrom;
+    return root_of_squares(errors_us(simulate(input), reference, 9)) / std::sqrt(17.0);
+  };
+  const double coarse = error(126), fine = error(500);
+  EXPECT_LT(fine, 0.002);
+  EXPECT_GT(std::log(coarse / fine) / std::log(500.0 / 126.0), 3.5);
+}
+
+class MixedCellsBy : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(, MixedCellsBy, testing::Values(Method::nystrom, Method::erk));
+
+TEST_P(MixedCellsBy, AMethodThatControlsItsErrorFindEverySubImpact) {
+  Case input = mixed_case(SectionKind::exact, 400);
+  input.solver.method = GetParam();
+  input.solver.rtol = 1e-6;
+  const Result result = completed(input);
+  EXPECT_EQ(result.used.events, EventHandling::located);
+  EXPECT_LT(std::ranges::max(errors_us(result, yielding_limit(), 9)), 0.25);
+  EXPECT_LT(*result.max_momentum_error, 1e-13);
+  EXPECT_LT(result.max_energy_error, 1e-5);
+}
+
+// On fine meshes, with less inertia of the links than the true one, the law has no solution.
+TEST_P(MixedCellsBy, AMethodThatControlsItsErrorSolveTheLawOnFineMeshes) {
+  Case input = mixed_case(SectionKind::exact, 1120, 0.2e-3);
+  input.solver.method = GetParam();
+  input.solver.rtol = 1e-5;
+  completed(input);
+}
+
+TEST(MixedCells, TakeStepsShorterThanTheirOwn) {
+  Case input = mixed_case(SectionKind::exact, 400);
+  const double own = *simulate(input).used.step;
+  for (const double part : {0.7, 0.25}) {
+    input.solver.step = part * own;
+    EXPECT_LT(std::ranges::max(errors_us(completed(input), yielding_limit(), 9)), 0.2) << part;
+  }
+}
+
 TEST(MixedCells, KeepEnergyToSecondOrderInTheirLength) {
   const auto error = [](int cells) {
     return completed(mixed_case(SectionKind::exact, cells)).max_energy_error;
@@ -163,10 +207,11 @@ TEST(MixedCells, RefuseWhatTheyDoNotCarryAndSayWhatToDo) {
       {"model.mesh", {{"beam.theory", "timoshenko"}, {"beam.poisson", 0.3}}},
       {"model.section", {{"model.section", "layers"}}},
       {"beam.damping.mass", {{"beam.damping.mass", 1.0}}},
-      {"solver.method", {{"solver.method", "nystrom"}}},
-      {"solver.step", {{"solver.step", 1e-7}}},
+      {"solver.method", {{"solver.method", "dirk"}}},
+      {"solver.step", {{"solver.step", 1e-6}}},
       {"solver.events", {{"solver.events", "located"}}},
-      {"time.stop", {{"time.stop", "no-more-contact"}}},
+      {"solver.events", {{"solver.method", "erk"}, {"solver.events", "library"}}},
+      {"solver.reversals", {{"solver.method", "nystrom"}, {"solver.reversals", "located"}}},
       {"striker.position", {{"striker.position", 0.01}}},
       {"model.segments", {{"model.segments", 201}}},
       {"model.segments", {{"contact.law", "linear"}, {"contact.stiffness", 1e12}}}};

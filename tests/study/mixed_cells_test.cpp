@@ -4,6 +4,7 @@
 #include "subimpact/case/simulate.h"
 #include "subimpact/study/judgement.h"
 #include "subimpact/study/run_as_asked.h"
+#include "subimpact/study/sensitivity.h"
 #include "testing.h"
 
 namespace subimpact {
@@ -43,11 +44,31 @@ TEST(MixedCells, HaveNothingBesideThemThatIsRefused) {
   for (const CaseBeside& other : beside) EXPECT_NO_THROW(resolve(other.input));
 }
 
-TEST(MixedCells, HaveNoErrorOfTimeAlone) {
-  EXPECT_TRUE(cases_beside_in_time(mixed_case()).empty());
+TEST(MixedCells, HaveAnErrorOfTimeFromAShorterStep) {
+  const std::vector<CaseBeside> beside = cases_beside_in_time(mixed_case());
+  ASSERT_EQ(beside.size(), 1u);
+  EXPECT_LT(*beside.front().input.solver.step, *resolve(mixed_case()).settings().step);
   RunRequest request;
   request.error_bars = ErrorBars::time;
-  EXPECT_THROW(run_as_asked(mixed_case(), {}, std::move(request)), InvalidCase);
+  const WithinRun run = run_as_asked(mixed_case(), {}, std::move(request));
+  ASSERT_TRUE(run.result.error_estimate);
+  EXPECT_GT(run.result.error_estimate->largest_error, 0.0);
+  EXPECT_LT(run.result.error_estimate->largest_error, 0.5e-6);
+}
+
+TEST(MixedCells, AreJudgedWithTheStepThatACaseGives) {
+  Case input = mixed_case();
+  input.solver.step = 0.5 * *resolve(input).settings().step;
+  for (const CaseBeside& other : cases_beside_on_given_mesh(input)) {
+    EXPECT_NO_THROW(resolve(other.input)) << other.description;
+  }
+}
+
+TEST(MixedCells, HaveDerivativesWhileTheBeamStaysElastic) {
+  Case input = mixed_case();
+  EXPECT_THROW(sensitivity_case(input), InvalidCase);
+  input.model.section = SectionKind::elastic;
+  EXPECT_EQ(sensitivity_case(input).solver.method, Method::nystrom);
 }
 
 }  // namespace
