@@ -45,7 +45,10 @@ constexpr Strike strikes[] = {
      SectionKind::exact},
 };
 
-Case example(const Strike& strike, MeshKind mesh, int count) {
+constexpr double tolerance = 1e-6;  // of nystrom
+
+Case example(const Strike& strike, MeshKind mesh, int count,
+             Method method = Method::central_difference) {
   Case input;
   input.scene.beam = {.length = 0.7112,
                       .width = 0.0163,
@@ -61,7 +64,8 @@ Case example(const Strike& strike, MeshKind mesh, int count) {
   input.model.mesh = mesh;
   input.model.segments = count;
   input.model.section = strike.section;
-  input.solver.method = Method::central_difference;
+  input.solver.method = method;
+  input.solver.rtol = tolerance;
   input.output.interval = 0.0;
   input.output.shapes = 0.0;
   input.end_time = 0.84e-3;
@@ -76,17 +80,19 @@ struct Point {
   double error, median, seconds;  // s
 };
 
-Point point_of(const Strike& strike, MeshKind mesh, int count,
+Point point_of(const Strike& strike, MeshKind mesh, int count, Method method,
                const std::vector<SubImpact>& limit) {
   Result result;
   double seconds = HUGE_VAL;
   for (int i = 0; i < repetitions; ++i) {
-    result = simulate(example(strike, mesh, count));
+    result = simulate(example(strike, mesh, count, method));
     seconds = std::min(seconds, result.work.wall_seconds);
   }
   const EventErrors errors = event_errors(result.sub_impacts, limit);
   return {strike.name,
-          mesh == MeshKind::mixed ? "mixed" : "cells",
+          method == Method::nystrom ? "mixed by nystrom"
+          : mesh == MeshKind::mixed ? "mixed"
+                                    : "cells",
           count,
           result.used.n_unknowns,
           result.work.steps,
@@ -116,15 +122,20 @@ std::vector<Point> converge(const Strike& strike) {
   fmt::print("{}: 3000 mixed cells are within {:.3f} us of the limit of cells\n", strike.name,
              us * event_errors(finest.sub_impacts, limit).overall());
   std::vector<Point> points;
-  const auto add = [&](MeshKind mesh, int count) {
-    points.push_back(point_of(strike, mesh, count, limit));
+  const auto add = [&](MeshKind mesh, int count, Method method = Method::central_difference) {
+    points.push_back(point_of(strike, mesh, count, method, limit));
     const Point& p = points.back();
-    fmt::print("{:18} {:6} {:6} {:6} {:8} {:10.4f} {:10.4f} {:10.2f}\n", p.strike, p.mesh, p.count,
+    fmt::print("{:18} {:16} {:6} {:6} {:8} {:10.4f} {:10.4f} {:10.2f}\n", p.strike, p.mesh, p.count,
                p.unknowns, p.steps, p.error * us, p.median * us, 1e3 * p.seconds);
     std::fflush(stdout);
   };
   for (const int n : {140, 200, 260, 320, 400, 500, 700, 1000}) add(MeshKind::mixed, n);
   for (const int n : {501, 701, 901, 1201, 1601, 1901, 2401, 3201}) add(MeshKind::cells, n);
+  if (&strike == strikes || strike.section == SectionKind::elastic) {
+    for (const int n : {200, 260, 400, 500, 700, 1000}) {
+      add(MeshKind::mixed, n, Method::nystrom);
+    }
+  }
   return points;
 }
 
@@ -141,10 +152,8 @@ double seconds_within(const std::vector<Point>& points, const std::string& mesh,
 
 void print_ratios(const std::vector<Point>& points) {
   for (const double wanted : {1e-6, 3e-7, 1e-7}) {
-    std::vector<Point> of_mesh[2];
-    for (const Point& p : points) of_mesh[p.mesh == "mixed" ? 0 : 1].push_back(p);
-    const double mixed = seconds_within(of_mesh[0], "mixed", wanted);
-    const double cells = seconds_within(of_mesh[1], "cells", wanted);
+    const double mixed = seconds_within(points, "mixed", wanted);
+    const double cells = seconds_within(points, "cells", wanted);
     fmt::print("{:18} within {:.1f} us: mixed {:.2f} ms, cells {:.2f} ms, ratio {:.1f}\n",
                points.front().strike, us * wanted, 1e3 * mixed, 1e3 * cells, cells / mixed);
   }
