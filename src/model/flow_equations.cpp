@@ -21,6 +21,11 @@ constexpr double shortest_hold = 1e-14;
 constexpr double longest_hold = 1.0;
 constexpr int most_bisections = 100;
 
+// Measured on scenes of 400 to 3000 cells: costs of a cell's sections in one iteration, and of an
+// elimination for n nodes over n^3, in accelerations of a cell.
+constexpr double work_of_cell = 95.0;
+constexpr double work_of_elimination = 0.011;
+
 }  // namespace
 
 FlowEquations::FlowEquations(const MixedMesh& mesh, SubCellSections& cells, double yield_curvature)
@@ -183,6 +188,7 @@ void FlowEquations::subtract_response(std::size_t node, double p, double b, doub
 // p and b at the present moments. Returns the largest error of the equations.
 double FlowEquations::evaluate() {
   const std::size_t n = nodes_.size();
+  work_ += work_of_cell * static_cast<double>(local_cells_.size());
   std::ranges::fill(p_, 0.0);
   std::ranges::fill(b_, 0.0);
   for (LocalCell& cell : local_cells_) {
@@ -232,6 +238,7 @@ void FlowEquations::assemble() {
 void FlowEquations::find_step() {
   assemble();
   const std::size_t n = nodes_.size();
+  work_ += work_of_elimination * static_cast<double>(n * n * n);
   for (std::size_t i = 0; i < n; ++i) step_[i] = -error_[i];
   const auto subtract = [this](double factor, const double* from, double* column,
                                std::size_t first) {

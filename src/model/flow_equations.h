@@ -42,6 +42,8 @@ class FlowEquations {
   void commit(std::vector<std::size_t>& flowed);
   /// commit() for a state in which nothing has flowed.
   void commit_rest();
+  /// The cost of all solutions so far, in evaluations of a cell's acceleration.
+  double work() const { return work_; }
   /// M_p times the rotation of all hinges, either way, over M_y kappa_y m.
   double hinge_work() const;
   /// The hinges, where nothing has flowed since the last commit.
@@ -100,6 +102,7 @@ class FlowEquations {
   const MixedMesh& mesh_;
   SubCellSections& cells_;
   double yield_curvature_;
+  double work_ = 0.0;
   PlasticResponse response_;
   std::vector<Hinge> hinges_;
   // What the equations were gathered for, and their nodes, as sections of the mesh.

@@ -65,6 +65,8 @@ class MixedSections {
   double kinetic_energy(std::span<const double> velocities) const {
     return mesh_.kinetic_energy(velocities, scratch_) + work_on_shift_;
   }
+  /// The cost of flow so far, in evaluations of a cell's acceleration.
+  double flow_work() const { return flow_ ? flow_->equations.work() : 0.0; }
   /// Sections of the mesh in whose hats something has flowed.
   std::size_t n_yielded() const;
 

@@ -34,8 +34,10 @@ constexpr double usual_refinement = 2.0;
 constexpr double largest_refinement = 4.0;  // while less than half of the sub-impacts are certain
 // Factor on the refinement that follows from the stated error.
 constexpr double margin = 1.1;
-// A step that moves every mode in closed form takes as long as these evaluations.
+// A step that moves every mode in closed form takes as long as these evaluations, and an evaluation
+// on mixed cells while nothing flows as these on cells.
 constexpr double evaluations_per_step_in_modes = 3.0;
+constexpr double evaluations_on_mixed_cells = 2.0;
 
 double default_tolerance(const Refinement& refinement) {
   return default_share_of_contact * refinement.contact_time();
@@ -342,8 +344,9 @@ double counted_work(const Result& result) {
     evaluations +=
         evaluations_per_step_in_modes * static_cast<double>(work.steps + work.rejected_steps);
   }
+  if (result.used.natural_step) evaluations *= evaluations_on_mixed_cells;
   return evaluations * static_cast<double>(std::max<std::size_t>(result.used.n_unknowns, 1)) +
-         result.used.decomposition;
+         work.flow + result.used.decomposition;
 }
 
 ChosenModel first_choice(const Case& input, const OpenChoices& open) {

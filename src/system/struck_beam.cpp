@@ -59,6 +59,8 @@ std::size_t StruckBeam::n_yielded_sections() const {
   return mixed_ ? mixed_->n_yielded() : sections_.n_yielded();
 }
 
+double StruckBeam::flow_work() const { return mixed_ ? mixed_->flow_work() : 0.0; }
+
 bool StruckBeam::settle(std::span<double> positions) {
   if (!mixed_) return false;
   const auto unknowns = positions.first(n_);

@@ -222,6 +222,7 @@ class StruckBeam final : public MechanicalSystem {
   long n_accelerations() const { return n_accelerations_; }
   /// Evaluations of the bending forces alone or with the contact force, without a mass solve.
   long n_forces() const { return n_forces_; }
+  double flow_work() const;  ///< of mixed cells, in evaluations of a cell's acceleration
 
  private:
   MixedSections& bring_mixed_to(std::span<const double> unknowns) const;

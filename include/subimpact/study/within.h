@@ -33,7 +33,7 @@ struct WithinOptions {
 JudgedRunMaker maker_of(const WithinOptions& options);
 
 /// The cost of a run: evaluations of the right-hand side times unknowns of the beam, with natural
-/// modes and the steps in them counted in the same unit.
+/// modes, the steps in them and flow on mixed cells counted in the same unit.
 double counted_work(const Result& result);
 
 /// Without accuracy.event_times the tolerance is a tenth of the time scale of the shortest contacts
