@@ -32,6 +32,16 @@ TEST(MixedCells, AreJudgedByCoarserMixedCellsAtTheirOwnSteps) {
   EXPECT_LT(result.error_estimate->largest_error, 1e-6);
 }
 
+// Errors of neighbouring meshes are alike: of order 2 they would be taken for a third of that
+// difference, and fewer than two in three of a long strike's times would be covered.
+TEST(MixedCells, AreOffByTheWholeDifferenceToHalfAsManyWhereTheyYield) {
+  Case input = mixed_case();
+  EXPECT_NEAR(cases_beside(input).back().gain, 1.0, 1e-12);
+  EXPECT_LT(cases_beside(input).front().gain, 1.0);
+  input.model.section = SectionKind::elastic;
+  EXPECT_NEAR(cases_beside(input).back().gain, 1.0 / 3.0, 1e-12);
+}
+
 // A stiff contact: coarser meshes, whose natural steps are longer, are refused.
 TEST(MixedCells, HaveNothingBesideThemThatIsRefused) {
   Case input = mixed_case();
