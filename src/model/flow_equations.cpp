@@ -11,6 +11,9 @@ constexpr double tolerance = 1e-6;  // of the equations, in M_y
 constexpr int most_iterations = 300;
 constexpr int bold_iterations = 10;
 constexpr int most_releases = 4;  // of hinges, in one solution
+// Responses that are smaller beside that of a node to itself, of nodes farther away, are left out
+// of the matrix: steps then err by as little, and errors of the equations do not.
+constexpr double least_in_matrix = 1e-5;
 // Distance from M_p, in M_y, where a hinge that stops turning is left, and within which one begins
 // to turn, at first and after one has stopped.
 constexpr double off_hinge = 1e-4;
@@ -79,12 +82,27 @@ void FlowEquations::read_responses() {
   for (auto* each : {&of_p_, &of_b_}) each->assign(n * stride_, 0.0);
   jacobian_.resize(n * stride_);
   const auto of_p = coupled_ ? PlasticResponse::curvature_of_p : PlasticResponse::curvature_at_rest;
+  band_ = 0;
   for (std::size_t j = 0; j < n; ++j) {
     const PlasticResponse::Column& column = response_.column(nodes_[j]);
-    for (std::size_t i = 0; i < n; ++i) {
-      of_p_[j * stride_ + i] = column.at(of_p, nodes_[i]);
-      if (coupled_) of_b_[j * stride_ + i] = column.at(PlasticResponse::curvature_of_b, nodes_[i]);
-    }
+    const auto read = [&](PlasticResponse::Kind kind, AlignedVector& into) {
+      const double* values = column.of(kind);
+      double* result = into.data() + j * stride_;
+      std::size_t i = 0;
+      while (nodes_[i] < column.first) ++i;
+      for (; i < n && nodes_[i] < column.first + column.size; ++i) {
+        result[i] = values[nodes_[i] - column.first];
+      }
+    };
+    read(of_p, of_p_);
+    if (coupled_) read(PlasticResponse::curvature_of_b, of_b_);
+    const double* own = of_p_.data() + j * stride_;
+    const double least = least_in_matrix * std::abs(own[j]);
+    const auto counts = [&](std::size_t i) { return std::abs(own[i]) > least; };
+    std::size_t last = n - 1, first = 0;  // responses change their sign on the way
+    while (last > j + band_ && !counts(last)) --last;
+    while (first + band_ < j && !counts(first)) ++first;
+    band_ = std::max({band_, last - std::min(last, j), j - std::min(first, j)});
   }
 }
 
@@ -176,11 +194,12 @@ SubCellSections::Ends FlowEquations::at_ends(const LocalCell& cell,
   return {at(cell.nodes[0]), at(cell.nodes[1])};
 }
 
-// column -= (response to a node's p) p + (that to its b) b.
-void FlowEquations::subtract_response(std::size_t node, double p, double b, double* column) const {
+// column -= (response to a node's p) p + (that to its b) b, in the rows of a range.
+void FlowEquations::subtract_response(std::size_t node, double p, double b, Rows rows,
+                                      double* column) const {
   const double* of_p = of_p_.data() + node * stride_;
   const double* of_b = of_b_.data() + node * stride_;
-  for (std::size_t i = 0; i < stride_; i += n_lanes) {
+  for (std::size_t i = rows.begin; i < rows.end; i += n_lanes) {
     store(lanes_at(column + i) - (p * lanes_at(of_p + i) + b * lanes_at(of_b + i)), column + i);
   }
 }
@@ -204,7 +223,9 @@ double FlowEquations::evaluate() {
   }
   for (std::size_t i = 0; i < n; ++i) error_[i] = moments_[i] - without_flow_[i];
   for (std::size_t j = 0; j < n; ++j) {
-    if (p_[j] != 0.0 || b_[j] != 0.0) subtract_response(j, p_[j], b_[j], error_.data());
+    if (p_[j] != 0.0 || b_[j] != 0.0) {
+      subtract_response(j, p_[j], b_[j], {0, stride_}, error_.data());
+    }
   }
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -214,23 +235,44 @@ double FlowEquations::evaluate() {
   return largest;
 }
 
+// Whole lanes that hold the rows of a column within the band.
+FlowEquations::Rows FlowEquations::rows_of(std::size_t column) const {
+  const std::size_t first = column - std::min(column, band_);
+  const std::size_t end = std::min(column + band_ + n_lanes, stride_);
+  return {first / n_lanes * n_lanes, end / n_lanes * n_lanes};
+}
+
+// What lies outside the band, in these lanes, is zero.
 void FlowEquations::assemble() {
-  std::ranges::fill(jacobian_, 0.0);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) jacobian_[i * stride_ + i] = 1.0;
+  const std::size_t n = nodes_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double* column = jacobian_.data() + i * stride_;
+    const Rows rows = rows_of(i);
+    std::fill(column + rows.begin, column + rows.end, 0.0);
+    column[i] = 1.0;
+  }
   for (const LocalCell& cell : local_cells_) {
     for (std::size_t l = 0; l < 2; ++l) {
       if (cell.nodes[l] == none) continue;
       double* column = jacobian_.data() + cell.nodes[l] * stride_;
       for (std::size_t k = 0; k < 2; ++k) {
         const double p = cell.flow.p_slope[k][l], b = cell.flow.b_slope[k][l];
-        if (cell.nodes[k] != none && p != 0.0) subtract_response(cell.nodes[k], p, b, column);
+        if (cell.nodes[k] == none || p == 0.0) continue;
+        subtract_response(cell.nodes[k], p, b, rows_of(cell.nodes[l]), column);
       }
     }
   }
   for (const Hinge& hinge : hinges_) {
     if (!hinge.turns()) continue;
+    const Rows rows = rows_of(hinge.local);
     const std::size_t column = hinge.local * stride_;
-    for (std::size_t i = column; i < column + stride_; ++i) jacobian_[i] = -of_p_[i];
+    for (std::size_t i = rows.begin; i < rows.end; ++i) jacobian_[column + i] = -of_p_[column + i];
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    double* column = jacobian_.data() + j * stride_;
+    const Rows rows = rows_of(j);
+    std::fill(column + rows.begin, column + std::max(rows.begin, j - std::min(j, band_)), 0.0);
+    std::fill(column + std::min(j + band_ + 1, rows.end), column + rows.end, 0.0);
   }
 }
 
@@ -238,11 +280,11 @@ void FlowEquations::assemble() {
 void FlowEquations::find_step() {
   assemble();
   const std::size_t n = nodes_.size();
-  work_ += work_of_elimination * static_cast<double>(n * n * n);
+  const auto width = static_cast<double>(std::min(n, band_ + 1));
+  work_ += work_of_elimination * static_cast<double>(n) * width * width;
   for (std::size_t i = 0; i < n; ++i) step_[i] = -error_[i];
-  const auto subtract = [this](double factor, const double* from, double* column,
-                               std::size_t first) {
-    for (std::size_t i = first; i < stride_; i += n_lanes) {
+  const auto subtract = [](double factor, const double* from, double* column, Rows rows) {
+    for (std::size_t i = rows.begin; i < rows.end; i += n_lanes) {
       store(lanes_at(column + i) - factor * lanes_at(from + i), column + i);
     }
   };
@@ -250,27 +292,25 @@ void FlowEquations::find_step() {
     double* pivot = jacobian_.data() + k * stride_;
     const double inverse = 1.0 / pivot[k];
     // Below the diagonal the multipliers; above it and on it zeros, so that whole lanes will do.
-    const std::size_t first = k / n_lanes * n_lanes;
-    for (std::size_t i = first; i <= k; ++i) {
+    const Rows rows{k / n_lanes * n_lanes, rows_of(k).end};
+    for (std::size_t i = rows.begin; i <= k; ++i) {
       above_[i] = pivot[i];
       pivot[i] = 0.0;
     }
-    for (std::size_t i = k + 1; i < n; ++i) pivot[i] *= inverse;
-    for (std::size_t j = k + 1; j < n; ++j) {
+    for (std::size_t i = k + 1; i < rows.end; ++i) pivot[i] *= inverse;
+    for (std::size_t j = k + 1; j < std::min(n, k + band_ + 1); ++j) {
       double* column = jacobian_.data() + j * stride_;
-      if (column[k] != 0.0) subtract(column[k], pivot, column, first);
+      if (column[k] != 0.0) subtract(column[k], pivot, column, rows);
     }
-    subtract(step_[k], pivot, step_.data(), first);
-    for (std::size_t i = first; i <= k; ++i) pivot[i] = above_[i];
+    subtract(step_[k], pivot, step_.data(), rows);
+    for (std::size_t i = rows.begin; i <= k; ++i) pivot[i] = above_[i];
   }
   for (std::size_t k = n; k-- > 0;) {
     const double* column = jacobian_.data() + k * stride_;
     const double solved = step_[k] /= column[k];
-    const std::size_t whole = k / n_lanes * n_lanes;
-    for (std::size_t i = 0; i < whole; i += n_lanes) {
-      store(lanes_at(step_.data() + i) - solved * lanes_at(column + i), step_.data() + i);
-    }
-    for (std::size_t i = whole; i < k; ++i) step_[i] -= solved * column[i];
+    const Rows rows{rows_of(k).begin, k / n_lanes * n_lanes};
+    subtract(solved, column, step_.data(), rows);
+    for (std::size_t i = rows.end; i < k; ++i) step_[i] -= solved * column[i];
   }
 }
 

@@ -88,7 +88,11 @@ class FlowEquations {
   // back at M_p and would turn again wherever it is freed.
   bool hold(Hinge& hinge);
   double evaluate();
-  void subtract_response(std::size_t node, double p, double b, double* column) const;
+  struct Rows {
+    std::size_t begin, end;
+  };
+  Rows rows_of(std::size_t column) const;
+  void subtract_response(std::size_t node, double p, double b, Rows rows, double* column) const;
   void find_step();
   void assemble();
   void advance();
@@ -112,6 +116,7 @@ class FlowEquations {
   std::vector<std::size_t> nodes_;
   // One entry per node, and more up to a whole number of lanes, stride_, that do not count.
   std::size_t stride_ = 0;
+  std::size_t band_ = 0;  // of the matrix: half its width in nodes
   AlignedVector moments_, without_flow_, p_, b_, error_, step_, part_, tried_, tried_turn_, above_;
   // Columns of stride_ entries: m of all nodes for a unit of one node's p or b.
   AlignedVector of_p_, of_b_, jacobian_;

@@ -1,6 +1,7 @@
 #include "model/mixed_sections.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace subimpact {
 namespace {
@@ -35,11 +36,11 @@ bool MixedSections::solve(const double* unknowns, double* moved) {
   flowed_ = false;
   if (!flow_) return true;
   flow_->equations.forget();
+  is_active_.resize(std::max(is_active_.size(), flow_->cells.n_made()));
+  for (const std::size_t index : active_) is_active_[index] = 0;
   active_.clear();
   if (!find_active()) return true;
-  for (const std::size_t index : flowing_) {
-    if (std::ranges::find(active_, index) == active_.end()) active_.push_back(index);
-  }
+  for (const std::size_t index : flowing_) activate(index);
   flowed_ = true;
   FlowEquations& equations = flow_->equations;
   for (int round = 0; round < most_rounds; ++round) {
@@ -74,11 +75,15 @@ bool MixedSections::find_active() {
     for (const std::size_t cell : {node - 1, node}) {
       if (cell >= mesh_.n_kept_cells()) continue;
       const std::size_t index = flow_->cells.make(cell);
-      if (std::ranges::find(active_, index) != active_.end()) continue;
-      if (flow_->cells.flows(index, moments_at(cell))) active_.push_back(index);
+      is_active_.resize(std::max(is_active_.size(), index + 1));
+      if (is_active_[index] == 0 && flow_->cells.flows(index, moments_at(cell))) activate(index);
     }
   });
   return active_.size() > n_before;
+}
+
+void MixedSections::activate(std::size_t index) {
+  if (std::exchange(is_active_[index], 1) == 0) active_.push_back(index);
 }
 
 // In M_y; zero at an end without a moment.

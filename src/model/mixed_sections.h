@@ -80,6 +80,7 @@ class MixedSections {
   };
   bool solve(const double* unknowns, double* moved);
   bool find_active();
+  void activate(std::size_t index);
   SubCellSections::Ends moments_at(std::size_t cell) const;
   void narrow_windows(std::size_t cell);
   void add_work_on_shift(double contact_force);
@@ -97,6 +98,7 @@ class MixedSections {
   double work_on_shift_ = 0.0;  // J
   bool flowed_ = false;
   std::vector<std::size_t> active_, flowing_;  // cells: in the equations; those of the last commit
+  std::vector<char> is_active_;                // of each cell made
   mutable std::vector<double> scratch_;
 };
 
