@@ -27,9 +27,10 @@ INSTANTIATE_TEST_SUITE_P(Ends, MixedCellsOnSupports,
 // which may be shorter than the natural one, or so short that they do not matter.
 TEST_P(MixedCellsOnSupports, MoveAtFrequenciesOfFourthOrderInTheStepTheyAreMadeFor) {
   const std::vector<double> exact = flexural_frequencies(beam(), 5);
-  // What free ends leave, of higher order, changes the sign of the higher modes' errors.
+  // What free ends leave, of higher order, changes the sign of the higher modes' errors; of other
+  // ends, rounding would show in the first mode.
   const std::vector<std::size_t> modes =
-      beam().is_free() ? std::vector<std::size_t>{0} : std::vector<std::size_t>{0, 2, 4};
+      beam().is_free() ? std::vector<std::size_t>{0} : std::vector<std::size_t>{1, 2, 4};
   for (const double ratio : {1.0, 0.3, 0.0}) {
     for (const std::size_t mode : modes) {
       OrderTable table("step ratio " + std::to_string(ratio) + ", mode " +
