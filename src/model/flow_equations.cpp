@@ -11,8 +11,9 @@ constexpr double tolerance = 1e-6;  // of the equations, in M_y
 constexpr int most_iterations = 300;
 constexpr int bold_iterations = 10;
 constexpr int most_releases = 4;  // of hinges, in one solution
-// Responses that are smaller beside that of a node to itself, of nodes farther away, are left out
-// of the matrix: steps then err by as little, and errors of the equations do not.
+// Responses that are smaller beside that of a node to itself, those of nodes far away, are left out
+// of the matrix in bold iterations: steps then err by as little, and errors of the equations do
+// not.
 constexpr double least_in_matrix = 1e-5;
 // Distance from M_p, in M_y, where a hinge that stops turning is left, and within which one begins
 // to turn, at first and after one has stopped.
@@ -133,6 +134,7 @@ bool FlowEquations::converge(int bold, double within) {
     const double error = evaluate();
     if (!std::isfinite(error)) return false;
     if (error < tolerance) return true;
+    if (k == bold) band_ = nodes_.size();
     find_step();
     if (k < bold) {
       advance();

@@ -18,6 +18,8 @@ namespace subimpact {
 namespace {
 
 constexpr double tolerance_of_rigid_bodies = 1e-10;
+constexpr const char* kinks_bound_the_error =
+    "sections yield, so that kinks, not the order of a method, bound the error";
 
 // Why elements, and mostly natural modes, suit a beam of which no section yields.
 std::string elastic_reason(const Case& chosen) {
@@ -38,6 +40,25 @@ constexpr double margin = 1.1;
 // on mixed cells while nothing flows as these on cells.
 constexpr double evaluations_per_step_in_modes = 3.0;
 constexpr double evaluations_on_mixed_cells = 2.0;
+
+// The case on mixed cells, if it has a clamped end, and they and coarser ones carry it.
+std::optional<Case> on_mixed_cells(Case input, const OpenChoices& open) {
+  const auto& ends = input.scene.beam.ends;
+  if (std::ranges::count(ends, EndSupport::clamped) == 0 || !open.all()) return {};
+  if (input.parts.mesh || input.model.spacing != ModelOptions{}.spacing) return {};
+  input.model.mesh = MeshKind::mixed;
+  input.solver.method = Method::central_difference;
+  try {
+    const Case first = Refinement(input, open).first();
+    const auto is_coarser = [&](const CaseBeside& beside) {
+      return mesh_count(beside.input) < mesh_count(first);
+    };
+    if (!std::ranges::all_of(cases_beside(first), is_coarser)) return {};
+  } catch (const InvalidCase&) {
+    return {};
+  }
+  return input;
+}
 
 double default_tolerance(const Refinement& refinement) {
   return default_share_of_contact * refinement.contact_time();
@@ -69,6 +90,10 @@ class Search {
     while (next) {
       Level level = level_of(*next, is_last(*next));
       if (level.result.outcome.kind == OutcomeKind::stopped) return ended_early(std::move(level));
+      if (level.result.outcome.kind != OutcomeKind::stopped && give_up_mixed_cells(level)) {
+        next = refinement_->first();
+        continue;
+      }
       if (!level.result.outcome.completed() && best_) {
         obstacle_ = "the run on the next mesh failed (" + level.result.outcome.message + ")";
         break;
@@ -90,8 +115,20 @@ class Search {
  private:
   void choose(bool yields) {
     yields_ = yields;
-    model_ = choose_model(input_, open_, yields);
+    model_ = choose_model(input_, open_, yields, takes_mixed_);
     refinement_.emplace(model_.input, open_);
+  }
+
+  // On cells from the first level on, if mixed cells that the program has chosen fail.
+  bool give_up_mixed_cells(const Level& level) {
+    const bool are_chosen = open_.mesh && level.input.model.mesh == MeshKind::mixed;
+    if (!are_chosen || level.result.outcome.completed()) return false;
+    takes_mixed_ = false;
+    choose(true);
+    model_.reason += "; mixed cells failed: " + level.result.outcome.message;
+    best_.reset();
+    work_ = 0.0;
+    return true;
   }
 
   // `keeps_rows`: whether no level after this one is to be expected. Where no section yields, which
@@ -276,6 +313,7 @@ class Search {
   double work_limit_ = 0.0;
   bool yields_ = false;
   bool may_change_model_ = true;
+  bool takes_mixed_ = true;
   bool has_rows_ = false;  // the last run
   ChosenModel model_;
   std::optional<Refinement> refinement_;
@@ -298,7 +336,11 @@ JudgedRunMaker maker_of(const WithinOptions& options) {
   };
 }
 
-ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields) {
+ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields,
+                         bool mixed_cells) {
+  if (const auto mixed = yields && mixed_cells ? on_mixed_cells(input, open) : std::nullopt) {
+    return {*mixed, kinks_bound_the_error};
+  }
   ChosenModel chosen{input, {}};
   ModelOptions& model = chosen.input.model;
   SolverOptions& solver = chosen.input.solver;
@@ -330,10 +372,9 @@ ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields
   if (open.method) solver.method = method_for_damping(input, solver.method);
   if (open.method && mesh_has_own_step(chosen.input)) solver.method = Method::central_difference;
   const bool fixed = !open.method && !open.mesh;
-  chosen.reason = fixed ? "the case fixes mesh and method"
-                  : yields
-                      ? "sections yield, so that kinks, not the order of a method, bound the error"
-                      : elastic_reason(chosen.input);
+  chosen.reason = fixed    ? "the case fixes mesh and method"
+                  : yields ? kinks_bound_the_error
+                           : elastic_reason(chosen.input);
   return chosen;
 }
 

@@ -46,6 +46,33 @@ TEST(AChoice, IsModesWhereTheBeamIsElasticAndCentralDifferencesWhereItYields) {
   EXPECT_EQ(yielding.input.solver.method, Method::central_difference);
 }
 
+TEST(AChoice, IsMixedCellsWhereAClampedEndMayYieldAndTheyCarryTheCase) {
+  Case input = paper_run(SectionKind::exact, 1e-3);
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::free};
+  const auto mesh_of = [](const Case& of) { return choose_model(of, {}, true).input.model.mesh; };
+  EXPECT_EQ(mesh_of(input), MeshKind::mixed);
+  EXPECT_EQ(choose_model(input, {}, true, false).input.model.mesh, MeshKind::cells);
+  Case loaded = input;
+  loaded.scene.beam.load = 1.0;
+  EXPECT_EQ(mesh_of(loaded), MeshKind::cells);
+  Case near_end = input;  // less than eight mixed cells from it
+  near_end.scene.striker.position = 0.999;
+  EXPECT_NE(mesh_of(near_end), MeshKind::mixed);
+  OpenChoices sized;
+  sized.size = sized.mesh = false;
+  EXPECT_EQ(choose_model(input, sized, true).input.model.mesh, MeshKind::cells);
+}
+
+TEST(AChoice, GoesOnOnCellsWhereMixedCellsFail) {
+  Case input = paper_run(SectionKind::exact, 0.1e-3);
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  input.accuracy.energy = 2e-5;  // which the first mixed cells miss by a third
+  const WithinRun run = simulate_within(input, {});
+  EXPECT_TRUE(run.result.outcome.completed());
+  EXPECT_EQ(run.input.model.mesh, MeshKind::cells);
+  expect_in(run.result.choice, "mixed cells failed: the energy is off");
+}
+
 TEST(AChoice, SaysThatContactIsIntegratedWhereSectionsMightYield) {
   expect_in(choose_model(paper_run(SectionKind::exact, 1e-3), {}, false).reason, "nystrom");
   expect_not_in(choose_model(paper_run(SectionKind::elastic, 1e-3), {}, false).reason, "nystrom");

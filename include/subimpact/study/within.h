@@ -42,13 +42,14 @@ constexpr double default_work_limit = 3e9;
 
 /// If a beam bends elastically: elements (Hermite, or spectral with shear) in natural modes, by the
 /// exponential method (fourth order in the mesh, almost no error in time). If sections yield: cells
-/// by central differences, the cheapest known at any error above 1e-3 us. Settings that the case
-/// fixes are kept.
+/// by central differences; with a clamped end, where a hinge may form that cells smear, mixed
+/// cells, if these carry the case and have not failed. Settings that the case fixes are kept.
 struct ChosenModel {
   Case input;
   std::string reason;  ///< in words
 };
-ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields);
+ChosenModel choose_model(const Case& input, const OpenChoices& open, bool yields,
+                         bool mixed_cells = true);
 
 /// Mesh and method of a case's first run, and in words how the search continues from there.
 ChosenModel first_choice(const Case& input, const OpenChoices& open);
