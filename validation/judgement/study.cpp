@@ -1,8 +1,8 @@
 // What runs call certain, and the errors they state, beside what finer meshes have, on random
 // scenes.
 //
-//   subimpact_judgement [--seed S] [--scenes N] [--first K] [--budget seconds] [--shear]
-//   [--verbose] [--case] [--hammer FILE] [--cost FILE...] [--strike FILE [--within seconds]]
+//   subimpact_judgement [--seed S] [--scenes N] [--first K] [--budget seconds] [--shear] [--mixed]
+//   [--verbose] [--case] [--hammer FILE] [--cost FILE...] [--strike FILE [--set KEY=VALUE]...]
 
 #include <fmt/format.h>
 
@@ -247,9 +247,10 @@ Findings study(const DrawnScene& scene) {
 }
 
 // A case as the program runs it, beside 13001 and 26001 cells.
-Findings study_strike(const std::string& path, std::optional<double> within) {
-  LoadedCase loaded = read_case_file(path);
-  if (within) loaded.value.accuracy.event_times = within;
+Findings study_strike(const std::string& path, const std::vector<std::string>& settings) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : settings) overrides.push_back(parse_override(setting));
+  const LoadedCase loaded = read_case_file(path, overrides);
   DrawnScene scene{loaded.value, {}};
   for (const int cells : {13001, 26001}) {
     Case& finer = scene.finer.emplace_back(loaded.value);
@@ -345,9 +346,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> costs;
   app.add_option("--cost", costs, "what these cases and three elastic scenes cost");
   std::string strike;
-  std::optional<double> within;
+  std::vector<std::string> settings;
   app.add_option("--strike", strike, "this case as the program runs it, instead of scenes");
-  app.add_option("--within", within, "with this accuracy.event_times, s")->needs("--strike");
+  app.add_option("--set", settings, "with these settings of its case file")->needs("--strike");
   CLI11_PARSE(app, argc, argv);
   if (!costs.empty()) {
     judgement::study_cost(costs);
@@ -358,7 +359,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (!strike.empty()) {
-    const Findings found = study_strike(strike, within);
+    const Findings found = study_strike(strike, settings);
     print(found, 1);
     fmt::print("{}\n", found.details);
     return 0;
