@@ -90,7 +90,7 @@ class Search {
     while (next) {
       Level level = level_of(*next, is_last(*next));
       if (level.result.outcome.kind == OutcomeKind::stopped) return ended_early(std::move(level));
-      if (level.result.outcome.kind != OutcomeKind::stopped && give_up_mixed_cells(level)) {
+      if (give_up_mixed_cells(level)) {
         next = refinement_->first();
         continue;
       }
