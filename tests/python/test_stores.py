@@ -2,6 +2,7 @@
 
 import os
 import random
+import re
 import sqlite3
 
 import pytest
@@ -15,7 +16,7 @@ from subimpact.sweep.worker import COLUMNS, Row
 
 def rows(n):
     cells = "," * (len(COLUMNS) - 1)
-    return [Row(f"{i:032x}", "completed", f"{i}{cells}", bytes(str(i) * 300, "ascii")) for i in range(n)]
+    return [Row(f"{i:032x}", "completed", f"{i}{cells}", str(i) * 300) for i in range(n)]
 
 
 def test_rows_come_back_as_they_were(tmp_path):
@@ -24,7 +25,8 @@ def test_rows_come_back_as_they_were(tmp_path):
         store.add(rows(60))  # again, and more
     with Store(tmp_path) as store:
         assert sorted(store.rows()) == sorted(rows(60))
-        assert store.get("nothing") is None
+        last, first = rows(60)[-1], rows(60)[0]
+        assert list(store.rows_of([last.identity, "nothing", first.identity])) == [last, None, first]
         assert store.notes == []
 
 
@@ -56,12 +58,29 @@ def test_a_damaged_store_is_recovered_or_refused(tmp_path, seed):
         assert str(path) in str(error)
         return
     with store:
-        for row in store.rows():
+        found = list(store.rows())
+        for row in found:
             assert right[row.identity] == row
+        assert list(store.rows_of([row.identity for row in found])) == found
         store.add(rows(200))
         assert len(store.outcomes()) == 200
     with Store(tmp_path) as store:
         assert sorted(store.rows()) == sorted(rows(200))
+
+
+def test_a_wrong_index_hides_no_row(tmp_path):
+    with Store(tmp_path) as store:
+        store.add(rows(200))
+    path = tmp_path / FILE
+    content = path.read_bytes()
+    identity = rows(200)[70].identity.encode()
+    places = [found.start() for found in re.finditer(identity, content)]
+    in_index = [place for place in places if not content[place + len(identity):].startswith(b"completed")]
+    assert len(places) == 2 and len(in_index) == 1
+    path.write_bytes(content[:in_index[0]] + b"x" + content[in_index[0] + 1:])
+    with Store(tmp_path) as store:
+        assert list(store.rows_of([row.identity for row in rows(200)])) == rows(200)
+        assert "200 of its rows" in store.notes[0]
 
 
 def test_a_sweep_runs_again_what_was_damaged(population, tmp_path):

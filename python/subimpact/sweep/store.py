@@ -11,7 +11,7 @@ import os
 import sqlite3
 import stat
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -23,23 +23,23 @@ from .worker import COLUMNS, Row
 FILE = "sweep.sqlite"
 KIND = "sweep"  # of results, in manifest.json
 SECONDS_OF_THE_DYING = 2.0  # for which workers of a killed sweep may hold its lock
-_LAYOUT = 2
+_LAYOUT = 3
+_READ_AT_ONCE = 500
 _APPLICATION = 0x53554249  # "SUBI"
 _MAGIC = b"SQLite format 3\0"
 _ALL = "SELECT identity, outcome, cells, sub_impacts, checksum FROM rows"
 _TABLE = (
     "CREATE TABLE rows (identity TEXT PRIMARY KEY, outcome TEXT NOT NULL, cells TEXT NOT NULL, "
-    "sub_impacts BLOB NOT NULL, checksum INTEGER NOT NULL) WITHOUT ROWID"
+    "sub_impacts TEXT NOT NULL, checksum INTEGER NOT NULL)"
 )
 
 
 def checksum(row: Row) -> int:
     """Of all that is stored of a row."""
-    text = "\n".join((row.identity, row.outcome, row.cells))
-    return zlib.crc32(row.sub_impacts, zlib.crc32(text.encode()))
+    return zlib.crc32("\n".join(row).encode())
 
 
-def _checked(values: tuple[str, str, str, bytes, int]) -> Row | None:
+def _checked(values: tuple[str, str, str, str, int]) -> Row | None:
     """The row, if it is as it was written."""
     try:
         row = Row(*values[:4])
@@ -127,7 +127,7 @@ class Store:
         connection = self._connected()
         try:
             self._check_layout(connection)
-            damage = connection.execute("PRAGMA quick_check(1)").fetchone()[0]
+            damage = connection.execute("PRAGMA integrity_check(1)").fetchone()[0]
             wrong = sum(_checked(values) is None for values in connection.execute(_ALL))
             if damage == "ok" and not wrong:
                 return connection
@@ -189,7 +189,7 @@ class Store:
         found: dict[str, Row] = {}
         for order in ("ASC", "DESC"):
             try:
-                for values in connection.execute(f"{_ALL} ORDER BY identity {order}"):
+                for values in connection.execute(f"{_ALL} ORDER BY rowid {order}"):
                     row = _checked(values)
                     if row is not None:
                         found[row.identity] = row
@@ -238,10 +238,14 @@ class Store:
         """The outcome of every row by its identity."""
         return dict(self._connection.execute("SELECT identity, outcome FROM rows"))
 
-    def get(self, identity: str) -> Row | None:
-        """A row; None if there is none."""
-        values = self._connection.execute(f"{_ALL} WHERE identity = ?", (identity,)).fetchone()
-        return Row(*values[:4]) if values is not None else None
+    def rows_of(self, identities: Sequence[str]) -> Iterator[Row | None]:
+        """The rows with these identities, in their order; None for those there are not."""
+        for start in range(0, len(identities), _READ_AT_ONCE):
+            part = identities[start : start + _READ_AT_ONCE]
+            marks = ",".join("?" * len(part))
+            found = self._connection.execute(f"{_ALL} WHERE identity IN ({marks})", part)
+            rows = {values[0]: Row(*values[:4]) for values in found}
+            yield from map(rows.get, part)
 
     def drop(self, outcomes: Iterable[str]) -> None:
         """Removes the rows with these outcomes. Raises OutputError."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import zlib
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
@@ -54,8 +53,9 @@ def _write_rows(
     outcomes: Counter[str] = Counter()
     runs.write(",".join(["run", *keys, *COLUMNS, "message"]) + "\n")
     sub_impacts.write("run," + events_heading() + "\n")
-    for number, identity in sorted(identities.items()):
-        row = store.get(identity)
+    numbers = sorted(identities)
+    rows = store.rows_of([identities[number] for number in numbers])
+    for number, row in zip(numbers, rows, strict=True):
         if row is None:
             continue
         outcome = cell(row.outcome)
@@ -63,8 +63,9 @@ def _write_rows(
         values = dict(plan.settings(number))
         cells = [str(number), *(cell(values[key]) for key in keys), outcome, one_line(row.cells)]
         runs.write(",".join(cells) + "\n")
-        lines = zlib.decompress(row.sub_impacts).decode().splitlines(keepends=True)
-        sub_impacts.write("".join(f"{number},{line}" for line in lines))
+        if row.sub_impacts:
+            lines = row.sub_impacts.removesuffix("\n").replace("\n", f"\n{number},")
+            sub_impacts.write(f"{number},{lines}\n")
     return outcomes
 
 
