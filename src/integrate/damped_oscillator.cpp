@@ -18,6 +18,15 @@ constexpr double small_angle = 1.0;
 constexpr double most_decay_of_series = 2.0;
 constexpr int n_terms = 40;
 constexpr double negligible = 1e-18;
+constexpr auto inverse_factorials = [] {
+  std::array<double, n_terms + n_powers + 2> inverse{};
+  double factorial = 1.0;
+  for (std::size_t j = 0; j < inverse.size(); ++j) {
+    inverse[j] = 1.0 / factorial;
+    factorial *= static_cast<double>(j + 1);
+  }
+  return inverse;
+}();
 
 // Panels of a five-point rule, exact for the square of a polynomial of degree 4, per radian; the
 // rule's error is then below 1e-12 of the integral.
@@ -127,19 +136,14 @@ DampedOscillator::DampedOscillator(double omega, double delta, double t) {
     // response = sum_j a_j t/(j + 1)!, a_j = -2 d a_(j-1) - y^2 a_(j-2).
     double before = 0.0;
     double a = 1.0;
-    double factorial = 1.0;  // j!
     double sums[n_powers + 2] = {};
     for (int j = 0; j < n_terms; ++j) {
-      double over = factorial;
-      for (int k = 0; k < n_powers + 2; ++k) {
-        sums[k] += a / over;  // a_j/(j + k)!
-        over *= j + k + 1;
-      }
-      if (std::abs(a) + std::abs(before) < negligible * factorial) break;
+      const double* const inverse = inverse_factorials.data() + j;
+      for (int k = 0; k < n_powers + 2; ++k) sums[k] += a * inverse[k];  // a_j/(j + k)!
+      if ((std::abs(a) + std::abs(before)) * inverse[0] < negligible) break;
       const double next = -2.0 * d * a - y * y * before;
       before = a;
       a = next;
-      factorial *= j + 1;
     }
     slope = sums[0];
     response = t * sums[1];
