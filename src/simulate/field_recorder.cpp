@@ -19,7 +19,7 @@ constexpr double most_followed = 4000.0;
 constexpr double envelope_tolerance = 1e-8;
 
 // States in modes whose fields are read at once.
-constexpr std::size_t most_waiting = 16;
+constexpr std::size_t most_waiting = 64;
 
 // Plastic curvature in units of the yield curvature below which it is rounding.
 constexpr double least_plastic = 1e-9;
@@ -89,15 +89,7 @@ void FieldRecorder::read_at(double time, const State& y, Accounts& accounts, boo
   if (!(time > last_shape_time_)) return;
   last_shape_time_ = last_followed_time_ = time;
   if (!std::ranges::all_of(y, [](double x) { return std::isfinite(x); })) return;
-  if (!shape || !rows_.takes_shapes()) return take(time, y, accounts, regular);
-  take_waiting();
-  field_.read(y, accounts);
-  field_.read_motion(y);
-  widen(time, regular);
-  for (std::size_t i = 0; i < field_.size(); ++i) add_row(time, field_.position(i), 1.0, i);
-  for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
-    add_row(time, field_.mirrored_position(i), -1.0, i);
-  }
+  take({time, regular, shape && rows_.takes_shapes()}, y, accounts);
 }
 
 void FieldRecorder::add_row(double time, double position, double sense, std::size_t station) {
@@ -112,30 +104,51 @@ void FieldRecorder::follow(double time, const State& y, Accounts& accounts) {
   if (!has_shapes()) return;
   if (time - last_followed_time_ < end_time_ / most_followed) return;
   last_followed_time_ = time;
-  take(time, y, accounts, false);
+  take({time, false, false}, y, accounts);
 }
 
-void FieldRecorder::take(double time, const State& y, Accounts& accounts, bool regular) {
+void FieldRecorder::take(const Instant& instant, const State& y, Accounts& accounts) {
   if (!field_.in_modes()) {
     field_.read(y, accounts);
-    widen(time, regular);
-    return;
+    if (instant.shape) field_.read_motion(y);
+    return take_field(instant);
   }
-  const auto positions = beam_.beam_positions(y);
-  waiting_positions_.insert(waiting_positions_.end(), positions.begin(), positions.end());
-  waiting_.push_back({time, regular});
+  const auto add = [](std::span<const double> values, std::vector<double>& to) {
+    to.insert(to.end(), values.begin(), values.end());
+  };
+  add(beam_.beam_positions(y), (instant.shape ? shapes_waiting_ : others_waiting_).positions);
+  if (instant.shape) add(beam_.beam_velocities(y), shapes_waiting_.velocities);
+  waiting_.push_back(instant);
   if (waiting_.size() == most_waiting) take_waiting();
 }
 
 void FieldRecorder::take_waiting() {
   if (waiting_.empty()) return;
-  field_.read_modes(waiting_positions_, envelope_tolerance);
-  for (std::size_t k = 0; k < waiting_.size(); ++k) {
-    field_.show(static_cast<Eigen::Index>(k));
-    widen(waiting_[k].time, waiting_[k].regular);
+  field_.read(shapes_waiting_, 0.0);
+  field_.read(others_waiting_, envelope_tolerance);
+  Eigen::Index n_shapes = 0, n_others = 0;
+  for (const Instant& instant : waiting_) {
+    if (instant.shape) {
+      field_.show(shapes_waiting_, n_shapes++);
+    } else {
+      field_.show(others_waiting_, n_others++);
+    }
+    take_field(instant);
   }
   waiting_.clear();
-  waiting_positions_.clear();
+  for (auto* values :
+       {&shapes_waiting_.positions, &shapes_waiting_.velocities, &others_waiting_.positions}) {
+    values->clear();
+  }
+}
+
+void FieldRecorder::take_field(const Instant& instant) {
+  widen(instant.time, instant.regular);
+  if (!instant.shape) return;
+  for (std::size_t i = 0; i < field_.size(); ++i) add_row(instant.time, field_.position(i), 1.0, i);
+  for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
+    add_row(instant.time, field_.mirrored_position(i), -1.0, i);
+  }
 }
 
 void FieldRecorder::add_points(double time, const State& y) {

@@ -87,10 +87,16 @@ class FieldRecorder {
  private:
   bool has_shapes() const { return field_.size() > 0 && shapes_.exist(); }
   void add_points(double time, const State& y);
-  // Widens the envelope, and at a `regular` instant or an event the extremes that runs beside one
-  // another share, by a state: at once, or with others that wait.
-  void take(double time, const State& y, Accounts& accounts, bool regular);
+  struct Instant {
+    double time;
+    bool regular;  // of the extremes that runs beside one another share; so are events
+    bool shape;    // whether the rows of a shape are due
+  };
+  // Takes a state into the envelope and the shapes: at once, or with others that wait.
+  void take(const Instant& instant, const State& y, Accounts& accounts);
   void take_waiting();
+  // Takes the state that the field holds.
+  void take_field(const Instant& instant);
   void widen(double time, bool regular);
   void read_at(double time, const State& y, Accounts& accounts, bool shape, bool regular);
   void add_row(double time, double position, double sense, std::size_t station);
@@ -111,14 +117,10 @@ class FieldRecorder {
   std::optional<SupportReactions> reactions_;  // of a beam with supports
   std::vector<Point> points_;
   std::vector<EnvelopeRow> envelope_;  // of the stations
-  struct Instant {
-    double time;
-    bool regular;
-  };
   std::vector<Instant> waiting_;
-  std::vector<double> waiting_positions_;  // of those instants, one after another
-  double last_shape_time_ = -1.0;          // s
-  double last_followed_time_ = -1.0;       // s
+  BeamField::States shapes_waiting_, others_waiting_;  // of those instants
+  double last_shape_time_ = -1.0;                      // s
+  double last_followed_time_ = -1.0;                   // s
 };
 
 }  // namespace subimpact

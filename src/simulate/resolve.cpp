@@ -163,7 +163,7 @@ ResolvedSettings settings_of(const Problem& problem, const Options& options,
   used.shape_interval = shape_interval(options, beam.mesh());
   if (used.shape_interval > 0.0) {
     const auto most = static_cast<std::size_t>(options.output.shape_points);
-    used.n_shape_points = BeamField(beam, problem.beam.length, most).whole_size();
+    used.n_shape_points = BeamField::whole_size(beam.mesh(), problem.beam.length, most);
   }
   used.memory = memory_of(options, beam);
   used.decomposition = decomposition_of(options, beam);

@@ -34,31 +34,15 @@ BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_sta
       bending_stiffness_(beam.sections().stiffness()),
       in_modes_(!beam.modal_stiffness().empty()) {
   const BeamMesh& mesh = beam.mesh();
-  if (most_stations == 0 || !is_available(mesh)) return;
-  const auto positions = mesh.section_positions();
-  const std::size_t last = mesh.n_sections() - 1;
-  const double end = end_of_part(mesh, length);
-  const double tolerance = same_place * length;
-  const std::size_t most =
-      std::max<std::size_t>(mesh.symmetric() ? most_stations / 2 + 1 : most_stations, 5);
-  const std::size_t stride = std::max<std::size_t>((last + most - 4) / (most - 4), 1);
-  if (positions[0] > tolerance) add_end(0.0, 0, std::min<std::size_t>(1, last));
-  for (std::size_t i = 0; i <= last; ++i) {
-    const bool chosen = i % stride == mesh.struck_section() % stride;
-    if (chosen || i == 0 || i == last) add_station(positions[i], i);
-  }
-  if (positions[last] < end - tolerance) add_end(end, last, last > 0 ? last - 1 : 0);
-  if (mesh.symmetric()) {
-    n_mirrored_ = static_cast<std::size_t>(
-        std::count_if(stations_.begin(), stations_.end(),
-                      [&](const Station& s) { return s.position < end - tolerance; }));
-  }
+  const std::vector<Place> places = places_of(mesh, length, most_stations);
+  for (const Place& place : places) stations_.push_back(station_at(place));
+  n_mirrored_ = count_mirrored(mesh, length, places);
   for (auto* values : {&displacements_, &curvatures_, &moments_, &velocities_, &rotations_}) {
     values->resize(size());
   }
-  if (!in_modes_) return;
+  if (!in_modes_ || places.empty()) return;
   const auto n = static_cast<Eigen::Index>(size());
-  by_mode_.setZero(2 * n, static_cast<Eigen::Index>(mesh.n_unknowns()));
+  by_mode_.setZero(3 * n, static_cast<Eigen::Index>(mesh.n_unknowns()));
   const auto put = [&](const SparseFunctional& value, Eigen::Index row) {
     if (!value.is_zero()) {
       by_mode_.row(row) = Eigen::Map<const Eigen::RowVectorXd>(value.dense.data(), by_mode_.cols());
@@ -68,9 +52,43 @@ BeamField::BeamField(const StruckBeam& beam, double length, std::size_t most_sta
     const Station& station = stations_[static_cast<std::size_t>(i)];
     put(station.displacement, i);
     put(curvature_in_modes(station), n + i);
+    put(station.rotation, 2 * n + i);
   }
   displacement_shares_ = by_mode_.topRows(n).cwiseAbs().colwise().maxCoeff();
-  curvature_shares_ = by_mode_.bottomRows(n).cwiseAbs().colwise().maxCoeff();
+  curvature_shares_ = by_mode_.middleRows(n, n).cwiseAbs().colwise().maxCoeff();
+}
+
+std::vector<BeamField::Place> BeamField::places_of(const BeamMesh& mesh, double length,
+                                                   std::size_t most_stations) {
+  std::vector<Place> places;
+  if (most_stations == 0 || !is_available(mesh)) return places;
+  const auto positions = mesh.section_positions();
+  const std::size_t last = mesh.n_sections() - 1;
+  const double end = end_of_part(mesh, length);
+  const double tolerance = same_place * length;
+  const std::size_t most =
+      std::max<std::size_t>(mesh.symmetric() ? most_stations / 2 + 1 : most_stations, 5);
+  const std::size_t stride = std::max<std::size_t>((last + most - 4) / (most - 4), 1);
+  if (positions[0] > tolerance) places.push_back({0.0, 0, std::min<std::size_t>(1, last)});
+  for (std::size_t i = 0; i <= last; ++i) {
+    const bool chosen = i % stride == mesh.struck_section() % stride;
+    if (chosen || i == 0 || i == last) places.push_back({positions[i], i});
+  }
+  if (positions[last] < end - tolerance) places.push_back({end, last, last > 0 ? last - 1 : 0});
+  return places;
+}
+
+std::size_t BeamField::count_mirrored(const BeamMesh& mesh, double length,
+                                      const std::vector<Place>& places) {
+  if (!mesh.symmetric()) return 0;
+  const double before = end_of_part(mesh, length) - same_place * length;
+  const auto n = std::ranges::count_if(places, [&](const Place& p) { return p.x < before; });
+  return static_cast<std::size_t>(n);
+}
+
+std::size_t BeamField::whole_size(const BeamMesh& mesh, double length, std::size_t most_stations) {
+  const std::vector<Place> places = places_of(mesh, length, most_stations);
+  return places.size() + count_mirrored(mesh, length, places);
 }
 
 Eigen::Index BeamField::n_modes_needed(const double* positions, double tolerance) const {
@@ -88,26 +106,21 @@ Eigen::Index BeamField::n_modes_needed(const double* positions, double tolerance
   return n;
 }
 
-void BeamField::add_station(double x, std::size_t section) {
+BeamField::Station BeamField::station_at(const Place& place) const {
   const BeamMesh& mesh = beam_.mesh();
-  stations_.push_back(
-      {x, *mesh.displacement_at(x), *mesh.rotation_at(x), section, section, 1.0, 0.0});
-}
-
-void BeamField::add_end(double x, std::size_t nearest, std::size_t next) {
-  const BeamMesh& mesh = beam_.mesh();
-  add_station(x, nearest);
-  Station& station = stations_.back();
+  const auto [x, section, next] = place;
+  Station station{x, *mesh.displacement_at(x), *mesh.rotation_at(x), section, section, 1.0, 0.0};
+  if (!next) return station;
   const bool at_mid_span = mesh.symmetric() && x > 0.0;
-  const auto positions = mesh.section_positions();
-  if (at_mid_span || support_at(mesh, x) == EndSupport::clamped) {
-    if (nearest == next) return;
-    station.next = next;
-    station.next_share = (x - positions[nearest]) / (positions[next] - positions[nearest]);
-    station.share = 1.0 - station.next_share;
-  } else {
+  if (!at_mid_span && support_at(mesh, x) != EndSupport::clamped) {
     station.share = 0.0;
+  } else if (*next != section) {
+    const auto positions = mesh.section_positions();
+    station.next = *next;
+    station.next_share = (x - positions[section]) / (positions[*next] - positions[section]);
+    station.share = 1.0 - station.next_share;
   }
+  return station;
 }
 
 SparseFunctional BeamField::curvature_in_modes(const Station& station) const {
@@ -120,25 +133,36 @@ SparseFunctional BeamField::curvature_in_modes(const Station& station) const {
   return curvature;
 }
 
-void BeamField::read_modes(std::span<const double> positions, double tolerance) {
-  const Eigen::Index n_states = static_cast<Eigen::Index>(positions.size()) / by_mode_.cols();
-  const Eigen::Map<const Eigen::MatrixXd> states(positions.data(), by_mode_.cols(), n_states);
+void BeamField::read(States& states, double tolerance) const {
+  using Columns = Eigen::Map<const Eigen::MatrixXd>;
+  const Eigen::Index n_states =
+      static_cast<Eigen::Index>(states.positions.size()) / by_mode_.cols();
+  const auto n_stations = static_cast<Eigen::Index>(size());
+  const Columns positions(states.positions.data(), by_mode_.cols(), n_states);
   Eigen::Index n = 0;
   for (Eigen::Index k = 0; k < n_states; ++k) {
-    n = std::max(n, n_modes_needed(states.col(k).data(), tolerance));
+    n = std::max(n, n_modes_needed(positions.col(k).data(), tolerance));
   }
-  if (values_.cols() < n_states) values_.resize(by_mode_.rows(), n_states);
-  values_.leftCols(n_states).noalias() = by_mode_.leftCols(n) * states.topRows(n);
+  const bool moves = !states.velocities.empty();
+  const auto fields = by_mode_.topRows((moves ? 3 : 2) * n_stations);
+  states.values.noalias() = fields.leftCols(n) * positions.topRows(n);
+  if (!moves) return;
+  const Columns velocities(states.velocities.data(), by_mode_.cols(), n_states);
+  states.motion.noalias() = by_mode_.topRows(n_stations) * velocities;
 }
 
-void BeamField::show(Eigen::Index state) {
+void BeamField::show(const States& states, Eigen::Index state) {
   const auto n = static_cast<Eigen::Index>(size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    displacements_[i] = values_(static_cast<Eigen::Index>(i), state);
-    curvatures_[i] = values_(n + static_cast<Eigen::Index>(i), state);
-    moments_[i] = bending_stiffness_ * curvatures_[i];
-    largest_displacement_ = std::max(largest_displacement_, std::abs(displacements_[i]));
-    largest_curvature_ = std::max(largest_curvature_, std::abs(curvatures_[i]));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto station = static_cast<std::size_t>(i);
+    displacements_[station] = states.values(i, state);
+    curvatures_[station] = states.values(n + i, state);
+    moments_[station] = bending_stiffness_ * curvatures_[station];
+    largest_displacement_ = std::max(largest_displacement_, std::abs(displacements_[station]));
+    largest_curvature_ = std::max(largest_curvature_, std::abs(curvatures_[station]));
+    if (states.velocities.empty()) continue;
+    rotations_[station] = states.values(2 * n + i, state);
+    velocities_[station] = states.motion(i, state);
   }
 }
 
@@ -151,11 +175,6 @@ void BeamField::read_motion(const State& y) {
 
 void BeamField::read(const State& y, Accounts& accounts) {
   const auto unknowns = beam_.beam_positions(y);
-  if (in_modes_) {  // elastic
-    read_modes(unknowns, 0.0);
-    show(0);
-    return;
-  }
   const Accounts::Bending bending = accounts.bending(y);
   for (std::size_t i = 0; i < size(); ++i) {
     const Station& here = stations_[i];

@@ -37,24 +37,32 @@ class BeamField {
   }
 
   std::size_t size() const { return stations_.size(); }
-  /// Stations of the whole beam: the same, and the mirrored ones.
-  std::size_t whole_size() const { return size() + n_mirrored(); }
+  /// Stations of the whole beam, the mirrored ones too, of such a field.
+  static std::size_t whole_size(const BeamMesh& mesh, double length, std::size_t most_stations);
   /// Number of stations (x < l - x) of the part modelled that have a mirror image at l - x.
   std::size_t n_mirrored() const { return n_mirrored_; }
   double position(std::size_t station) const { return stations_[station].position; }
   double mirrored_position(std::size_t station) const { return length_ - position(station); }
 
-  /// Displacements, curvatures and moments of a state.
+  /// Displacements, curvatures and moments of a state; not where the unknowns are modes.
   void read(const State& y, Accounts& accounts);
-  /// Velocities and rotations of a state as well.
+  /// Velocities and rotations of that state as well.
   void read_motion(const State& y);
-  /// Whether the unknowns are natural modes of an elastic beam, so that read_modes() serves.
+
+  /// Whether the unknowns are natural modes of an elastic beam.
   bool in_modes() const { return in_modes_; }
-  /// Reads the positions of several states, one after another, which take a product of matrices;
-  /// show(k) then gives those of one. `tolerance`: of displacements and curvatures, relative to the
-  /// largest that were read so far; modes that move nothing by more are left out.
-  void read_modes(std::span<const double> positions, double tolerance);
-  void show(Eigen::Index state);
+  /// States in modes, whose fields products of matrices give at once.
+  struct States {
+    std::vector<double> positions;   // of one state after another
+    std::vector<double> velocities;  // likewise; empty: velocities and rotations are not read
+    // A column per state: displacements, curvatures and rotations of the stations; velocities.
+    Eigen::MatrixXd values, motion = {};
+  };
+  /// `tolerance`: of displacements and curvatures, relative to the largest that were shown so far;
+  /// modes that move nothing by more are left out.
+  void read(States& states, double tolerance) const;
+  /// Makes one of the states that were read that of displacement() and the others.
+  void show(const States& states, Eigen::Index state);
 
   double displacement(std::size_t i) const { return displacements_[i]; }
   double curvature(std::size_t i) const { return curvatures_[i]; }
@@ -74,8 +82,16 @@ class BeamField {
     std::size_t section, next;
     double share, next_share;
   };
-  void add_station(double x, std::size_t section);
-  void add_end(double x, std::size_t nearest, std::size_t next);
+  // Where a station is, with the section there; at an end without one, the two nearest sections.
+  struct Place {
+    double x;
+    std::size_t section;
+    std::optional<std::size_t> next = {};
+  };
+  static std::vector<Place> places_of(const BeamMesh& mesh, double length, std::size_t most);
+  static std::size_t count_mirrored(const BeamMesh& mesh, double length,
+                                    const std::vector<Place>& places);
+  Station station_at(const Place& place) const;
   SparseFunctional curvature_in_modes(const Station& station) const;
   // The slowest ones, without which no station is off by more than the tolerance.
   Eigen::Index n_modes_needed(const double* positions, double tolerance) const;
@@ -87,12 +103,11 @@ class BeamField {
   std::vector<Station> stations_;
   std::size_t n_mirrored_ = 0;
   std::vector<double> displacements_, curvatures_, moments_, velocities_, rotations_;
-  // Where the unknowns are modes: displacements and then curvatures of the stations by mode, the
-  // largest share of each mode in either, and the values of the states that were read.
+  // Where the unknowns are modes: displacements, curvatures and rotations of the stations by mode,
+  // and the largest share of each mode in the first and in the second.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_mode_;
   Eigen::VectorXd displacement_shares_, curvature_shares_;
-  Eigen::MatrixXd values_;
-  double largest_displacement_ = 0.0, largest_curvature_ = 0.0;  // that were read
+  double largest_displacement_ = 0.0, largest_curvature_ = 0.0;  // that were shown
 };
 
 /// A section of the whole beam, with its share of the length.

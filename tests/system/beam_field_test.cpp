@@ -316,8 +316,10 @@ TEST(BeamField, KeepsAsManyStationsAsAskedForAndTheStruckOneAmongThem) {
         scene, mesh, SectionField(mesh->n_sections(), scene.beam.bending_stiffness()));
     for (const std::size_t most : {5u, 51u, 101u, 400u, 100000u}) {
       const BeamField field(beam, scene.beam.length, most);
-      EXPECT_LE(field.whole_size(), std::min<std::size_t>(most + 2, 2001u)) << most;
-      EXPECT_GE(field.whole_size(), std::min<std::size_t>(most / 2, 2001u)) << most;
+      const std::size_t n = BeamField::whole_size(*mesh, scene.beam.length, most);
+      EXPECT_EQ(n, field.size() + field.n_mirrored()) << most;
+      EXPECT_LE(n, std::min<std::size_t>(most + 2, 2001u)) << most;
+      EXPECT_GE(n, std::min<std::size_t>(most / 2, 2001u)) << most;
       EXPECT_EQ(field.position(0), 0.0);
       std::size_t struck = 0;
       while (struck < field.size() && field.position(struck) < 0.5 * scene.beam.length - 1e-9)
