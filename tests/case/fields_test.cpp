@@ -108,6 +108,42 @@ TEST(AShape, ShowsBothHalvesOfABeamOfWhichOneIsModelled) {
   }
 }
 
+// In modes the fields of many states are computed at once.
+TEST(Shapes, AreTheSameInModesAndAtNodes) {
+  Case input = linear_case(MeshKind::hermite, 24, third, pinned);
+  input.output.interval = input.end_time / 300.0;
+  input.output.shapes = input.end_time / 110.0;
+  const Result in_modes = simulate(input);
+  EXPECT_NE(in_modes.used.mesh.find("in natural modes"), std::string::npos);
+  input.study.mass_solver = MassSolverKind::klu;
+  const Result at_nodes = simulate(input);
+  EXPECT_EQ(at_nodes.used.mesh.find("in natural modes"), std::string::npos);
+  const auto regular = [&](const Result& run) {
+    auto shapes = shapes_of(run);
+    std::erase_if(shapes, [&](const auto& shape) {
+      const double interval = shape.first / *input.output.shapes;
+      return std::abs(interval - std::round(interval)) > 1e-9;
+    });
+    return shapes;
+  };
+  const auto a = regular(in_modes), b = regular(at_nodes);
+  ASSERT_EQ(a.size(), 111u);
+  ASSERT_EQ(b.size(), a.size());
+  for (const auto member : {&ShapeRow::position, &ShapeRow::displacement, &ShapeRow::velocity,
+                            &ShapeRow::rotation, &ShapeRow::curvature, &ShapeRow::moment}) {
+    double largest = 0.0, difference = 0.0;
+    for (auto one = a.begin(), other = b.begin(); one != a.end(); ++one, ++other) {
+      for (std::size_t i = 0; i < one->second.size(); ++i) {
+        largest = std::max(largest, std::abs(one->second[i].*member));
+        difference =
+            std::max(difference, std::abs(one->second[i].*member - other->second.at(i).*member));
+      }
+    }
+    EXPECT_GT(largest, 0.0);
+    EXPECT_LT(difference, 1e-6 * largest);
+  }
+}
+
 TEST(Shapes, AreOfRegularInstantsOfEveryEventAndOfTheEnd) {
   Case input = paper_case(SectionKind::exact, 0.6e-3, 101);
   input.output.interval = 1e-6;
