@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <concepts>
@@ -38,15 +39,38 @@ Cell to_cell(const std::optional<Value>& value) {
   return value ? to_cell(*value) : Cell();
 }
 
-inline void append_real(std::string& text, double value, int digits) {
-  std::array<char, 32> number;  // holds 17 digits, sign, point and exponent
-  const auto end = std::to_chars(number.data(), number.data() + number.size(), value,
-                                 std::chars_format::general, digits);
-  text.append(number.data(), end.ptr);
-}
+/// Writes numbers, with the texts of those written last at hand: rows repeat times, places, zeros
+/// and what symmetry gives.
+class NumberWriter {
+ public:
+  void append(std::string& text, double value, int digits) {
+    const double magnitude = std::abs(value);
+    const auto bits = std::bit_cast<std::uint64_t>(magnitude);
+    Entry& entry = entries_[(bits * 0x9E3779B97F4A7C15u) >> (64 - n_bits)];  // Fibonacci hashing
+    if (entry.bits != bits || entry.digits != digits) {
+      const auto end = std::to_chars(entry.text.begin(), entry.text.end(), magnitude,
+                                     std::chars_format::general, digits);
+      entry.bits = bits;
+      entry.digits = digits;
+      entry.size = static_cast<std::size_t>(end.ptr - entry.text.begin());
+    }
+    if (std::signbit(value)) text.push_back('-');
+    text.append(entry.text.data(), entry.size);
+  }
 
-inline void append_cell(std::string& text, const Cell& cell, int digits) {
-  if (const auto* real = std::get_if<double>(&cell)) append_real(text, *real, digits);
+ private:
+  static constexpr int n_bits = 9;
+  struct Entry {
+    std::uint64_t bits = 0;
+    int digits = 0;  // 0: none yet
+    std::size_t size = 0;
+    std::array<char, 24> text{};  // holds 17 digits, point and exponent
+  };
+  std::array<Entry, 1 << n_bits> entries_{};
+};
+
+inline void append_cell(std::string& text, const Cell& cell, int digits, NumberWriter& numbers) {
+  if (const auto* real = std::get_if<double>(&cell)) numbers.append(text, *real, digits);
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) text += std::to_string(*whole);
   if (const auto* words = std::get_if<std::string>(&cell)) {
     for (const char c : *words) text.push_back(c == ',' ? ';' : c == '\n' ? ' ' : c);
@@ -148,13 +172,13 @@ std::string csv_heading(const Columns<Row>& columns) {
 
 template <class Row>
 void append_row(std::string& text, const Columns<Row>& columns, const Row& row,
-                std::size_t index = 0) {
+                NumberWriter& numbers, std::size_t index = 0) {
   for (const Column<Row>& column : columns) {
     if (&column != &columns.front()) text.push_back(',');
     if (column.member != nullptr) {
-      append_real(text, row.*column.member, column.digits);
+      numbers.append(text, row.*column.member, column.digits);
     } else {
-      append_cell(text, column.cell(row, index), column.digits);
+      append_cell(text, column.cell(row, index), column.digits, numbers);
     }
   }
   text.push_back('\n');
@@ -163,7 +187,8 @@ void append_row(std::string& text, const Columns<Row>& columns, const Row& row,
 template <class Row>
 std::string csv_text(const Columns<Row>& columns, const std::vector<Row>& rows) {
   std::string text = csv_heading(columns);
-  for (std::size_t i = 0; i < rows.size(); ++i) append_row(text, columns, rows[i], i);
+  NumberWriter numbers;
+  for (std::size_t i = 0; i < rows.size(); ++i) append_row(text, columns, rows[i], numbers, i);
   return text;
 }
 

@@ -29,7 +29,7 @@ class ResultWriter::RowFile {
 
   template <class Row>
   void add(const Row& row) {
-    append_row(pending_, run_table<Row>().columns, row);
+    append_row(pending_, run_table<Row>().columns, row, numbers_);
   }
   bool is_full() const { return pending_.size() > most_pending; }
 
@@ -82,6 +82,7 @@ class ResultWriter::RowFile {
   std::string name_;
   std::string heading_;
   std::string pending_;
+  NumberWriter numbers_;
   int file_ = -1;
   off_t n_written_ = 0;
 };

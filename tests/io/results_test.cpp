@@ -1,7 +1,11 @@
 #include "subimpact/io/results.h"
 #include "io/run_tables.h"
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "print.h"
 #include "sample_result.h"
@@ -98,6 +102,28 @@ TEST(EventsCsv, LeavesAnErrorEmptyThatIsNotKnownAndMarksWhatIsCertain) {
   EXPECT_EQ(rows[2][24], "");
   EXPECT_NE(rows[1][24], "");
   for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(rows[i][11], "1");
+}
+
+TEST(NumbersOfTables, AreTheSameWhateverWasWrittenBefore) {
+  std::mt19937 random(1);
+  std::vector<double> values = {0.0, 5e-324, 1e-310, 1e23, 1.7976931348623157e308, HUGE_VAL};
+  for (int k = 0; k < 3000; ++k) {
+    values.push_back(std::ldexp(std::uniform_real_distribution(0.5, 1.0)(random),
+                                std::uniform_int_distribution(-30, 30)(random)));
+  }
+  NumberWriter numbers;
+  for (int k = 0; k < 50000; ++k) {
+    // Often one of the few written last.
+    const std::size_t i = random() % (k % 2 == 0 ? values.size() : 40);
+    const double value = random() % 2 == 0 ? values[i] : -values[i];
+    const int digits = random() % 2 == 0 ? 17 : 9;
+    std::array<char, 32> expected;
+    const auto end =
+        std::to_chars(expected.begin(), expected.end(), value, std::chars_format::general, digits);
+    std::string text;
+    numbers.append(text, value, digits);
+    ASSERT_EQ(text, std::string(expected.begin(), end.ptr));
+  }
 }
 
 TEST(TransitionsCsv, NamesASectionOnlyForASectionsEvent) {
