@@ -169,8 +169,7 @@ void bind_results(py::module_& module) {
       .def("swept_cells",
            [](const Finished& run) {
              std::string cells;
-             NumberWriter numbers;
-             append_row(cells, swept_run_columns(), run, numbers);
+             append_row(cells, swept_run_columns(), run);
              cells.pop_back();  // the end of the line
              return cells;
            })

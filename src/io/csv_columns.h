@@ -184,6 +184,13 @@ void append_row(std::string& text, const Columns<Row>& columns, const Row& row,
   text.push_back('\n');
 }
 
+/// One row by itself.
+template <class Row>
+void append_row(std::string& text, const Columns<Row>& columns, const Row& row) {
+  NumberWriter numbers;
+  append_row(text, columns, row, numbers);
+}
+
 template <class Row>
 std::string csv_text(const Columns<Row>& columns, const std::vector<Row>& rows) {
   std::string text = csv_heading(columns);

@@ -133,11 +133,6 @@ double shown_error(const Trial& point, const WorkPrecision& study) {
   return us * std::max(point.errors.overall(), 0.1 * study.reference.error);
 }
 
-void add_row(std::string& text, const LoggedPoint& row) {
-  NumberWriter numbers;
-  append_row(text, columns_in_file(point_columns()), row, numbers);
-}
-
 }  // namespace
 
 std::string case_id(const Case& input) {
@@ -203,7 +198,7 @@ PointLog::PointLog(OutputDirectory& directory, const std::vector<std::string>& c
                       path));
     }
     complete(row);
-    add_row(text_, row);
+    append_row(text_, columns_in_file(point_columns()), row);
     known_.emplace_back(row.id, row.point);
   });
 }
@@ -216,7 +211,7 @@ std::optional<Trial> PointLog::known(const std::string& case_id, const Setting& 
 }
 
 void PointLog::append(const std::string& case_id, const std::string& label, const Trial& point) {
-  add_row(text_, row_of(case_id, label, point));
+  append_row(text_, columns_in_file(point_columns()), row_of(case_id, label, point));
   write_file(directory_.staging() / file_name, text_);
   directory_.commit();
 }

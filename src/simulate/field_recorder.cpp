@@ -74,22 +74,22 @@ void FieldRecorder::resume(double time, const std::vector<EnvelopeRow>& envelope
 void FieldRecorder::take_instant(double time, const State& y, Accounts& accounts) {
   const bool shape = shapes_.reach(time);
   const bool regular = regular_.reach(time);
-  read_at(time, y, accounts, shape, regular);
+  take_once({time, regular, shape}, y, accounts);
 }
 
 void FieldRecorder::add_shape(double time, const State& y, Accounts& accounts) {
   if (!has_shapes()) return;
   shapes_.reach(time);
   regular_.reach(time);
-  read_at(time, y, accounts, true, true);
+  take_once({time, true, true}, y, accounts);
 }
 
-void FieldRecorder::read_at(double time, const State& y, Accounts& accounts, bool shape,
-                            bool regular) {
-  if (!(time > last_shape_time_)) return;
-  last_shape_time_ = last_followed_time_ = time;
+void FieldRecorder::take_once(Instant instant, const State& y, Accounts& accounts) {
+  if (!(instant.time > last_shape_time_)) return;
+  last_shape_time_ = last_followed_time_ = instant.time;
   if (!std::ranges::all_of(y, [](double x) { return std::isfinite(x); })) return;
-  take({time, regular, shape && rows_.takes_shapes()}, y, accounts);
+  instant.shape = instant.shape && rows_.takes_shapes();
+  take(instant, y, accounts);
 }
 
 void FieldRecorder::add_row(double time, double position, double sense, std::size_t station) {
@@ -143,7 +143,7 @@ void FieldRecorder::take_waiting() {
 }
 
 void FieldRecorder::take_field(const Instant& instant) {
-  widen(instant.time, instant.regular);
+  widen(instant);
   if (!instant.shape) return;
   for (std::size_t i = 0; i < field_.size(); ++i) add_row(instant.time, field_.position(i), 1.0, i);
   for (std::size_t i = field_.n_mirrored(); i-- > 0;) {
@@ -158,7 +158,8 @@ void FieldRecorder::add_points(double time, const State& y) {
   }
 }
 
-void FieldRecorder::widen(double time, bool regular) {
+void FieldRecorder::widen(const Instant& instant) {
+  const double time = instant.time;
   const double outer = 0.5 * material_.height();
   double displacement = 0.0, moment = 0.0, strain = 0.0;
   for (std::size_t i = 0; i < field_.size(); ++i) {
@@ -171,9 +172,9 @@ void FieldRecorder::widen(double time, bool regular) {
     moment = std::max(moment, std::abs(field_.moment(i)));
     strain = std::max(strain, outer * std::abs(field_.curvature(i)));
   }
-  result_.peaks.displacement.follow(displacement, regular);
-  result_.peaks.moment.follow(moment, regular);
-  result_.peaks.strain.follow(strain, regular);
+  result_.peaks.displacement.follow(displacement, instant.regular);
+  result_.peaks.moment.follow(moment, instant.regular);
+  result_.peaks.strain.follow(strain, instant.regular);
 }
 
 void FieldRecorder::add_reactions(HistoryRow& row, const State& y, Accounts& accounts) const {

@@ -89,16 +89,17 @@ class FieldRecorder {
   void add_points(double time, const State& y);
   struct Instant {
     double time;
-    bool regular;  // of the extremes that runs beside one another share; so are events
-    bool shape;    // whether the rows of a shape are due
+    bool regular;  // whether runs beside one another share it, as they do events
+    bool shape;    // whether a shape is due
   };
+  // take(), once per instant, if the state's numbers are finite.
+  void take_once(Instant instant, const State& y, Accounts& accounts);
   // Takes a state into the envelope and the shapes: at once, or with others that wait.
   void take(const Instant& instant, const State& y, Accounts& accounts);
   void take_waiting();
   // Takes the state that the field holds.
   void take_field(const Instant& instant);
-  void widen(double time, bool regular);
-  void read_at(double time, const State& y, Accounts& accounts, bool shape, bool regular);
+  void widen(const Instant& instant);
   void add_row(double time, double position, double sense, std::size_t station);
   void add_rest(const State& y, Accounts& accounts);
 

@@ -51,12 +51,12 @@ class BeamField {
 
   /// Whether the unknowns are natural modes of an elastic beam.
   bool in_modes() const { return in_modes_; }
-  /// States in modes, whose fields products of matrices give at once.
+  /// States in modes and their fields, which read() computes at once.
   struct States {
-    std::vector<double> positions;   // of one state after another
-    std::vector<double> velocities;  // likewise; empty: velocities and rotations are not read
-    // A column per state: displacements, curvatures and rotations of the stations; velocities.
-    Eigen::MatrixXd values, motion = {};
+    std::vector<double> positions;   ///< of one state after another
+    std::vector<double> velocities;  ///< likewise; empty: velocities and rotations are not read
+    /// Displacements, curvatures and rotations of the stations, and velocities: a column per state.
+    Eigen::MatrixXd values, motion;
   };
   /// `tolerance`: of displacements and curvatures, relative to the largest that were shown so far;
   /// modes that move nothing by more are left out.

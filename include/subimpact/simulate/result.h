@@ -151,7 +151,8 @@ class RowSink {
   virtual void add(const SectionRow& row) = 0;
   /// The points of output.points, at the time of the previous history row.
   virtual void add(const PointRow& /*row*/) {}
-  /// The points of a shape, one after another in ascending order of x.
+  /// The points of a shape, one after another in ascending order of x; maybe after later rows of
+  /// other kinds.
   virtual void add(const ShapeRow& /*row*/) {}
   /// Whether the points of shapes are computed at all.
   virtual bool takes_shapes() const { return true; }
