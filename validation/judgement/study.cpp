@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <string>
@@ -323,9 +324,7 @@ void print(const Findings& all, int n_scenes) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_program(int argc, char** argv) {
   CLI::App app("What runs call certain beside what finer meshes have, on random scenes.");
   std::uint64_t seed = 16;
   int n_scenes = 300, first = 0;
@@ -387,4 +386,15 @@ int main(int argc, char** argv) {
   });
   print(all, n_studied);
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "subimpact_judgement: {}\n", failure.what());
+    return 2;
+  }
 }
