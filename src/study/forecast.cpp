@@ -240,8 +240,7 @@ Result Forecaster::result_of(const Sample& extrapolated) const {
   run.outcome.time = extrapolated.input.end_time;
   run.used.decomposition = 0.0;
   run.work = {};
-  run.work.right_hand_sides = std::lround(
-      extrapolated.work() / static_cast<double>(std::max<std::size_t>(run.used.n_unknowns, 1)));
+  run.work.flow = extrapolated.work();  // which counted_work() takes as it is
   const std::size_t n = run.sub_impacts.size();
   std::size_t n_left = 0;
   if (assumption_ == Assumption::next_suffices) {

@@ -68,6 +68,17 @@ TEST(AForecast, HasTheMeshesOfLevelsThatItDoesNotMakeUpToTheLimitOfWork) {
   EXPECT_LT(found.least.processor_seconds, found.most.processor_seconds);
 }
 
+TEST(AForecast, TakesTheWorkOfLevelsOfMixedCellsThatItDoesNotMakeOnce) {
+  Case input = coarse(paper_run(SectionKind::exact, 1e-3));
+  input.scene.beam.ends = {EndSupport::clamped, EndSupport::clamped};
+  input.accuracy.event_times = 1e-9;
+  input.accuracy.work_limit = 1.9e9;
+  const RunForecast found = forecast(input, {}, 1);
+  EXPECT_FALSE(std::ranges::all_of(found.expected.runs, &ForecastRun::is_made));
+  EXPECT_NE(found.expected.runs.back().mesh.find("mixed cells"), std::string::npos);
+  EXPECT_EQ(runs_forecast(found.expected), runs_made(input));
+}
+
 TEST(AForecast, EndsWithALevelThatItDoesNotMakeWhereErrorsFallBelowTheTolerance) {
   Case input = coarse(paper_run(SectionKind::exact, 1e-3));
   input.accuracy.event_times = 0.1e-6;
