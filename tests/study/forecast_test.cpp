@@ -75,8 +75,12 @@ TEST(AForecast, TakesTheWorkOfLevelsOfMixedCellsThatItDoesNotMakeOnce) {
   input.accuracy.work_limit = 1.9e9;
   const RunForecast found = forecast(input, {}, 1);
   EXPECT_FALSE(std::ranges::all_of(found.expected.runs, &ForecastRun::is_made));
-  EXPECT_NE(found.expected.runs.back().mesh.find("mixed cells"), std::string::npos);
-  EXPECT_EQ(runs_forecast(found.expected), runs_made(input));
+  const auto cells_of_last = [](const Runs& runs) {  // "4032 mixed cells by central-difference"
+    EXPECT_NE(runs.back().find("mixed cells"), std::string::npos);
+    return std::stod(runs.back());
+  };
+  const double made = cells_of_last(runs_made(input));
+  EXPECT_NEAR(cells_of_last(runs_forecast(found.expected)), made, 0.15 * made);
 }
 
 TEST(AForecast, EndsWithALevelThatItDoesNotMakeWhereErrorsFallBelowTheTolerance) {
